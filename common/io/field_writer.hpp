@@ -1,0 +1,44 @@
+#pragma once
+/// Fields for ParaView and for reading back: VTKHDF 1.0, one .hdf per frame, topology stored once
+/// in mesh.hdf and linked externally, index run.hdf.series. Each file is written under a temporary
+/// name, closed, and renamed.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace diptych::io {
+
+/// Topology in VTK's terms (types: 5 triangle, 9 quad, 10 tet, 12 hexahedron, 13 wedge).
+struct VisualMesh {
+  std::vector<double> points;  ///< [n][3] m, reference positions
+  std::vector<std::int64_t> connectivity, offsets;
+  std::vector<std::uint8_t> types;
+};
+
+/// A nodal field: name with unit as users read it ("velocity [m/s]"), values [n][n_components].
+struct NodeField {
+  std::string name;
+  int n_components = 1;
+  std::vector<double> values;
+};
+
+class FieldWriter {
+ public:
+  /// Writes DIR/mesh.hdf. @throws base::EnvironmentError
+  FieldWriter(std::string directory, const VisualMesh& mesh);
+  /// Writes DIR/frame_NNNN.hdf (fields as float32; field data "time") and refreshes run.hdf.series.
+  void write(double time, std::span<const NodeField> fields);
+
+ private:
+  std::string directory_;
+  std::int64_t n_points_, n_cells_, n_connectivity_;
+  std::vector<double> times_;
+};
+
+/// A field read back from a frame, widened to double, with its number of components.
+/// @throws base::InputError naming the fields the frame has
+NodeField read_field(const std::string& frame_path, const std::string& name);
+
+}  // namespace diptych::io

@@ -1,0 +1,82 @@
+#pragma once
+/// What a run says of itself: summary.json (contract of the program: stable names, more may be
+/// added), read back by the harness and the report.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace diptych::io {
+
+/// Relative error norms of one field.
+struct ErrorNorms {
+  double l1 = 0, l2 = 0, linf = 0;
+};
+
+/// Joule (per metre of thickness in 2-D).
+struct EnergySummary {
+  double kinetic = 0, strain = 0, viscous_dissipation = 0, numerical_dissipation = 0;
+  double external_work = 0;
+  double relative_residual = 0;
+};
+
+struct Provenance {
+  std::string version, commit, compiler, flags, cpu, instruction_set, date, case_hash;
+};
+
+struct RunSummary {
+  std::string method, case_name, title;
+  int level = 0, dimension = 3;
+  std::int64_t nodes = 0, pairs = 0;
+  int unknowns_per_node = 0;
+  std::int64_t steps = 0, stages = 0;
+  int threads = 1, ranks = 1;
+  std::string precision = "double", integrator, status = "done";
+  double end_time = 0;
+  double setup_seconds = 0, wall_seconds = 0, loop_seconds = 0, nanoseconds_per_node_stage = 0;
+  std::int64_t peak_rss_bytes = 0;
+  double dt_min = 0, dt_max = 0;
+  double spacing = 0;  ///< m, mean Omega^(1/d)
+  double mean_neighbours = 0;
+  double graph_closure = 0, graph_linear_exactness = 0;
+  std::map<std::string, ErrorNorms> errors;  ///< velocity, displacement, deformation_gradient, stress
+  EnergySummary energy;
+  double linear_momentum_drift = 0, angular_momentum_drift = 0;
+  double min_jacobian = 1;
+  std::string state_hash;
+  Provenance provenance;
+};
+
+/// JSON text with the key names of the contract: method, case, level, ..., dt{min,max},
+/// errors{field{l1,l2,linf}}, energy{...}, momentum{linear_drift,angular_drift}, min_jacobian,
+/// state_hash, provenance{...}.
+std::string to_json(const RunSummary& summary);
+
+/// @throws base::InputError on malformed text, a missing key, NaN
+RunSummary summary_from_json(const std::string& text, const std::string& path);
+
+/// Writes text to path.tmp, fsyncs, renames. @throws base::EnvironmentError with path and errno
+void write_file_atomically(const std::string& path, const std::string& text);
+std::string read_file(const std::string& path);  ///< @throws base::EnvironmentError
+
+/// One row per output time.
+struct HistoryRow {
+  double time = 0;
+  std::int64_t step = 0;
+  double dt = 0;
+  EnergySummary energy;
+  double linear_momentum[3] = {0, 0, 0};
+  double angular_momentum[3] = {0, 0, 0};
+  double min_jacobian = 1;
+  double involution_H = 0;  ///< max |H - cof F|
+  double involution_J = 0;  ///< max |J - det F|
+  std::vector<double> probes;
+};
+
+/// CSV with a header line of names with units in brackets, e.g. "time [s]".
+std::string history_csv(const std::vector<HistoryRow>& rows,
+                        const std::vector<std::string>& probe_names);
+std::vector<HistoryRow> history_from_csv(const std::string& text, const std::string& path);
+
+}  // namespace diptych::io
