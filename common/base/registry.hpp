@@ -2,12 +2,12 @@
 /// A named menu: ordinary object, filled by an explicit function, asked by name. A wrong name
 /// answers with the nearest known ones.
 
+#include "common/base/error.hpp"
+#include "common/base/text.hpp"
+
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "common/base/error.hpp"
-#include "common/base/text.hpp"
 
 namespace diptych::base {
 

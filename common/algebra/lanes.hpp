@@ -1,0 +1,96 @@
+#pragma once
+/// Eight nodes at once. `Lanes` is a GCC vector of eight doubles; the compiler lowers it to SSE2,
+/// AVX2 or AVX-512. Code of physics and scheme is generic in its scalar T = double or Lanes.
+///
+/// DIPTYCH_CLONES compiles a hot function once per instruction set and picks at start-up. Only what
+/// is inlined into such a function is compiled with it: mark helpers DIPTYCH_INLINE.
+/// Contraction to fused multiply-adds is left on: AVX2 and AVX-512 then agree bit for bit with each
+/// other, the baseline (SSE2, no fused multiply-add) does not agree with them.
+
+#include <cmath>
+#include <cstdint>
+
+#define DIPTYCH_INLINE inline __attribute__((always_inline))
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#define DIPTYCH_CLONES __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+#else
+#define DIPTYCH_CLONES
+#endif
+
+namespace diptych::algebra {
+
+inline constexpr int n_lanes = 8;
+
+using Lanes = double __attribute__((vector_size(n_lanes * sizeof(double))));
+using LaneMask = std::int64_t __attribute__((vector_size(n_lanes * sizeof(std::int64_t))));
+
+// One name for both scalars, so that a formula is written once.
+DIPTYCH_INLINE double square_root(double a) {
+  return std::sqrt(a);
+}
+DIPTYCH_INLINE Lanes square_root(Lanes a) {
+  Lanes r;
+  for (int i = 0; i < n_lanes; ++i)
+    r[i] = __builtin_sqrt(a[i]);
+  return r;
+}
+DIPTYCH_INLINE double natural_log(double a) {
+  return std::log(a);
+}
+DIPTYCH_INLINE Lanes natural_log(Lanes a) {
+  Lanes r;
+  for (int i = 0; i < n_lanes; ++i)
+    r[i] = std::log(a[i]);
+  return r;
+}
+DIPTYCH_INLINE double cube_root(double a) {
+  return std::cbrt(a);
+}
+DIPTYCH_INLINE Lanes cube_root(Lanes a) {
+  Lanes r;
+  for (int i = 0; i < n_lanes; ++i)
+    r[i] = std::cbrt(a[i]);
+  return r;
+}
+DIPTYCH_INLINE double larger(double a, double b) {
+  return a > b ? a : b;
+}
+DIPTYCH_INLINE Lanes larger(Lanes a, Lanes b) {
+  return a > b ? a : b;
+}
+DIPTYCH_INLINE double smaller(double a, double b) {
+  return a < b ? a : b;
+}
+DIPTYCH_INLINE Lanes smaller(Lanes a, Lanes b) {
+  return a < b ? a : b;
+}
+DIPTYCH_INLINE double magnitude(double a) {
+  return std::fabs(a);
+}
+DIPTYCH_INLINE Lanes magnitude(Lanes a) {
+  return a < 0 ? -a : a;
+}
+/// 1/a, or 0 where a = 0.
+DIPTYCH_INLINE double inverse_or_zero(double a) {
+  return a != 0 ? 1 / a : 0;
+}
+DIPTYCH_INLINE Lanes inverse_or_zero(Lanes a) {
+  const Lanes one = Lanes{} + 1.0;
+  return a != 0 ? one / (a != 0 ? a : one) : Lanes{};
+}
+/// Sum of the eight lanes, always in the same tree shape.
+DIPTYCH_INLINE double lane_sum(const Lanes& a) {
+  return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
+}
+DIPTYCH_INLINE Lanes load(const double* p) {
+  Lanes r;
+  __builtin_memcpy(&r, p, sizeof r);
+  return r;
+}
+DIPTYCH_INLINE void store(double* p, const Lanes& a) {
+  __builtin_memcpy(p, &a, sizeof a);
+}
+
+}  // namespace diptych::algebra

@@ -1,0 +1,56 @@
+#pragma once
+/// Compressible polyconvex Mooney-Rivlin material (4):
+///   W = xi (F:F - 3) + zeta (H:H - 3) - 2 (xi + 2 zeta) ln J + lambda_hat/2 (J - 1)^2,
+/// with xi + zeta = mu/2, lambda = lambda_hat + 4 zeta. Conditions: xi > 0, zeta >= 0,
+/// lambda_hat > 0. NeoHookean is its zeta = 0 limit, without the work of H.
+/// Conjugate stresses (11). Tests: tests/common/physics.
+
+#include "common/physics/response.hpp"
+
+namespace diptych::physics {
+
+template <bool with_zeta>
+struct MooneyRivlinFamily {
+  static constexpr bool has_H = with_zeta;  ///< Sigma_H != 0, G branches possible
+  double xi = 0;                            ///< Pa
+  double zeta = 0;                          ///< Pa
+  double lambda_hat = 0;                    ///< Pa
+
+  /// Moduli that Maxwell branches scale: xi^alpha = beta_C xi, zeta^alpha = beta_G zeta.
+  double branch_xi() const { return xi; }
+  double branch_zeta() const { return with_zeta ? zeta : 0; }
+
+  /// Energy density (4)  [Pa]
+  template <class T>
+  DIPTYCH_INLINE T energy(const Deformation<T>& X) const {
+    T W = xi * (algebra::contract(X.F, X.F) - 3.0) + 0.5 * lambda_hat * (X.J - 1.0) * (X.J - 1.0) -
+          2.0 * (xi + 2.0 * zeta) * algebra::natural_log(X.J);
+    if constexpr (with_zeta) W += zeta * (algebra::contract(X.H, X.H) - 3.0);
+    return W;
+  }
+
+  template <class T>
+  DIPTYCH_INLINE Response<T> response(const Deformation<T>& X) const {
+    const T inverse_J = 1.0 / X.J;
+    const double b = 2.0 * (xi + 2.0 * zeta);
+    Response<T> r;
+    r.Sigma_F = (2.0 * xi) * X.F;
+    r.Sigma_J = lambda_hat * (X.J - 1.0) - b * inverse_J;
+    r.A_tot = (2.0 * xi) * algebra::symmetric_identity<T>();
+    r.W_JJ = b * inverse_J * inverse_J + lambda_hat;
+    r.W_FJ = T{};
+    if constexpr (with_zeta) {
+      r.Sigma_H = (2.0 * zeta) * X.H;
+      r.S_tot = (2.0 * zeta) * algebra::symmetric_identity<T>();
+    } else {
+      r.Sigma_H = Tensor<T>{};
+      r.S_tot = SymmetricTensor<T>{};
+    }
+    return r;
+  }
+};
+
+using MooneyRivlin = MooneyRivlinFamily<true>;
+using NeoHookean = MooneyRivlinFamily<false>;
+
+}  // namespace diptych::physics
