@@ -256,10 +256,13 @@ DIPTYCH_INLINE SymmetricTensor<T> inverse(const SymmetricTensor<T>& A) {
   return (1.0 / det) * c;
 }
 
-/// An upper bound of the largest eigenvalue of a symmetric tensor that tends to it from above:
-/// with A = q I + p B, the scaled eigenvalue y solves y^3 - 3 y = 2 r, r = det(B)/2 in [-1, 1];
-/// Newton's iteration from y = 2 falls monotonically onto the largest root (the cubic is convex
-/// there), so every iterate is safe. Five steps: exact to 1e-4 of p at worst, usually to rounding.
+/// An upper bound of the largest eigenvalue of a symmetric tensor, within 1e-7 norm(A) of it: with
+/// A = q I + p B, the scaled eigenvalue y is the largest root of
+///   f(y) = y^3 - 3 y - 2 r = (y - 1)^2 (y + 2) - 2 (1 + r),   r = det(B)/2 in [-1, 1],
+/// so y <= 2 and (y - 1)^2 <= 2 (1 + r)/3. From the smaller of the two bounds Newton's iteration
+/// falls monotonically onto the root (f is convex there), so every iterate is safe; the start is
+/// close enough for three steps, also where the two largest eigenvalues coincide (r = -1), a double
+/// root. There an error of r counts with its square root: r is raised by more than its rounding.
 template <class T>
 DIPTYCH_INLINE T largest_eigenvalue_bound(const SymmetricTensor<T>& A) {
   const T q = (1.0 / 3.0) * trace(A);
@@ -270,12 +273,11 @@ DIPTYCH_INLINE T largest_eigenvalue_bound(const SymmetricTensor<T>& A) {
   const T p = square_root(p2);
   const T inverse_p = inverse_or_zero(p);
   T r = 0.5 * determinant(B) * inverse_p * inverse_p * inverse_p;
-  r = larger(T{} - 1.0, smaller(T{} + 1.0, r));  // rounding may leave [-1, 1]
-  T y = T{} + 2.0;
-  for (int k = 0; k < 5; ++k) {
-    const T residual = y * (y * y - 3.0) - 2.0 * r;
-    y = y - residual / (3.0 * (y * y - 1.0) + 1e-12);
-  }
+  r = larger(T{} - 1.0, r) + (1e-14 + 2e-15 * magnitude(q) * inverse_p);
+  r = smaller(T{} + 1.0, r);
+  T y = smaller(T{} + 2.0, 1.0 + square_root((2.0 / 3.0) * (1.0 + r)));
+  for (int k = 0; k < 3; ++k)
+    y = y - (y * (y * y - 3.0) - 2.0 * r) / (3.0 * (y * y - 1.0));
   return q + p * y;
 }
 

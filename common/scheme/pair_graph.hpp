@@ -6,11 +6,11 @@
 ///   -1/2 sum_b (C_ab - C_ba) = A_a N_a.
 /// Tests: tests/graphs.
 
+#include "common/algebra/vectors.hpp"
+
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include "common/algebra/vectors.hpp"
 
 namespace diptych::scheme {
 
@@ -21,19 +21,20 @@ using algebra::Vec3;
 struct BoundaryPatch {
   std::string name;
   std::vector<std::int32_t> nodes;  ///< ascending
-  std::vector<Vec3> area;           ///< [nodes] m^2 (m per unit thickness in 2-D): int_patch N_a N dA
+  std::vector<Vec3> area;  ///< [nodes] m^2 (m per unit thickness in 2-D): int_patch N_a N dA
 };
 
 struct PairGraph {
   int dimension = 3;
-  std::vector<Vec3> X;                   ///< [n_nodes] m, reference positions
-  std::vector<double> Omega;             ///< [n_nodes] m^3 (m^2 in 2-D), all > 0
-  std::vector<Vec3> boundary_area;       ///< [n_nodes] m^2, A_a N_a over the whole boundary
-  std::vector<BoundaryPatch> patches;    ///< one per boundary group of the mesh, same order
-  std::vector<std::int64_t> row;         ///< [n_nodes + 1]
-  std::vector<std::int32_t> neighbour;   ///< [n_pairs] ascending in each row, without the node itself
-  std::vector<std::int64_t> reverse;     ///< [n_pairs] index of pair (b,a)
-  std::vector<Vec3> C;                   ///< [n_pairs] m^2, C_ab of the directed pair (a,b)
+  std::vector<Vec3> X;                 ///< [n_nodes] m, reference positions
+  std::vector<double> Omega;           ///< [n_nodes] m^3 (m^2 in 2-D), all > 0
+  std::vector<Vec3> boundary_area;     ///< [n_nodes] m^2, A_a N_a over the whole boundary
+  std::vector<BoundaryPatch> patches;  ///< one per boundary group of the mesh, same order
+  std::vector<std::int64_t> row;       ///< [n_nodes + 1]
+  std::vector<std::int32_t>
+      neighbour;                      ///< [n_pairs] ascending in each row, without the node itself
+  std::vector<std::int64_t> reverse;  ///< [n_pairs] index of pair (b,a)
+  std::vector<Vec3> C;                ///< [n_pairs] m^2, C_ab of the directed pair (a,b)
 
   std::int64_t n_nodes() const { return static_cast<std::int64_t>(X.size()); }
   std::int64_t n_pairs() const { return static_cast<std::int64_t>(neighbour.size()); }

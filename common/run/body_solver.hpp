@@ -1,0 +1,252 @@
+#pragma once
+/// The solver of one compiled model: the order of operations of a step (physics note 5.5).
+
+#include "common/run/solver.hpp"
+#include "common/run/state_access.hpp"
+#include "common/scheme/angular_momentum.hpp"
+#include "common/scheme/balance.hpp"
+#include "common/scheme/boundary/applied_boundary.hpp"
+#include "common/scheme/momentum.hpp"
+#include "common/scheme/strain_rates.hpp"
+#include "common/scheme/update.hpp"
+#include "common/time/integrator.hpp"
+
+namespace diptych::run {
+
+/// Everything of a case that the solver needs, resolved; see model_menu.cpp.
+struct SolverSetup {
+  scheme::DissipationKind dissipation;
+  double dissipation_factor = 1;
+  scheme::Unknowns unknowns = scheme::Unknowns::FHJ;
+  time::Integrator integrator;
+  double cfl = 0;
+  bool angular_momentum_projection = false;
+  bool energy_budget = true;
+  InitialCase initial;
+};
+
+template <int Dim, class Material>
+class BodySolver : public Solver {
+ public:
+  BodySolver(const scheme::PairGraph& graph,
+             scheme::Model<Material> model,
+             SolverSetup setup,
+             scheme::AppliedBoundary boundary)
+      : graph_(graph),
+        pairs_(graph),
+        model_(std::move(model)),
+        setup_(std::move(setup)),
+        boundary_(std::move(boundary)),
+        momentum_(scheme::momentum_function<Dim>(setup_.dissipation, Material::has_H)),
+        state_(graph.n_nodes(),
+               static_cast<int>(model_.branches.size()),
+               Material::has_H,
+               setup_.unknowns,
+               setup_.dissipation.impedance == scheme::Impedance::exact,
+               setup_.integrator.gauss_relaxation && !model_.branches.empty()),
+        X_centred_(centred(graph)),
+        viscous_power_(parallel::n_chunks_of(pairs_.n_blocks)),
+        least_J_(viscous_power_.size()),
+        numerical_power_(viscous_power_.size()),
+        largest_rate_(viscous_power_.size()) {
+    set_initial_state(graph_, setup_.initial, state_);
+    boundary_.constrain(state_, model_.rho_R, 0);
+    for_blocks([&](auto begin, auto end) { scheme::publish_velocity(state_, begin, end); });
+    evaluate({}, 0);
+    check_health(0);
+    if (setup_.integrator.is_leapfrog()) {
+      sum_forces(true);
+      load_rates_ = boundary_.add_loads(state_, 0);
+    }
+    initial_angular_momentum_ = balance().angular_momentum;
+  }
+
+  StepReport step(double t_limit) override {
+    const double dt = setup_.integrator.is_leapfrog() ? leapfrog_step(t_limit) : ssp_step(t_limit);
+    time_ = t_limit - (time_ + dt) <= 1e-12 * dt ? t_limit : time_ + dt;
+    ++step_;
+    if (setup_.angular_momentum_projection) {
+      project_angular_momentum(state_, pairs_, X_centred_, model_.rho_R,
+                               initial_angular_momentum_ + audit_.impulse.angular);
+    }
+    return {step_, time_, dt, check_health(dt)};
+  }
+
+  double time() const override { return time_; }
+  scheme::Balance balance() const override {
+    return scheme::balance(model_, pairs_, state_, X_centred_);
+  }
+  const scheme::Audit& audit() const override { return audit_; }
+  Snapshot snapshot() const override { return snapshot_of(model_, state_, time_); }
+  std::string state_hash(const std::vector<std::int32_t>& order) const override {
+    return hash_of(state_, order, time_);
+  }
+  int unknowns_per_node() const override { return state_.unknowns_per_node(); }
+  int evaluations_per_step() const override { return setup_.integrator.evaluations_per_step(); }
+  Mat3 equilibrium_stress(const Mat3& F) const override {
+    const auto X = physics::deformation_of(algebra::to_tensor(F));
+    const auto response = model_.material.response(X);
+    return algebra::to_eigen(physics::piola_stress<Material::has_H>(response, X));
+  }
+  std::int64_t bytes() const override { return state_.bytes() + pairs_.bytes(); }
+
+ private:
+  using Rule = scheme::Relaxation::Rule;
+
+  template <class Work>
+  void for_blocks(const Work& work) {
+    parallel::for_chunks(pairs_.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+      work(begin, end);
+    });
+  }
+
+  /// Strain rates (18b), relaxation (14), stress (9), wave speeds; leapfrog drifts in between.
+  void evaluate(const scheme::Relaxation& relaxation, double drift) {
+    const scheme::StrainRateSweep<Dim, Material> sweep{
+        model_,
+        pairs_,
+        state_,
+        relaxation,
+        setup_.dissipation.impedance == scheme::Impedance::exact,
+        setup_.energy_budget,
+        drift,
+        viscous_power_.data(),
+        least_J_.data()};
+    parallel::for_chunks(pairs_.n_blocks, sweep);
+  }
+
+  /// Internal forces (18a) with D_ab; with_bound: also the largest stable step of this state.
+  void sum_forces(bool with_bound) {
+    const scheme::MomentumSweep<Dim> sweep{pairs_,
+                                           state_,
+                                           model_.rho_R,
+                                           setup_.dissipation_factor,
+                                           with_bound,
+                                           numerical_power_.data(),
+                                           largest_rate_.data()};
+    parallel::for_chunks(pairs_.n_blocks, [&](auto begin, auto end, auto chunk) {
+      momentum_(sweep, begin, end, chunk);
+    });
+    if (!with_bound) return;
+    double rate = 0;
+    for (const double r : largest_rate_)
+      rate = r >= rate || std::isnan(r) ? r : rate;
+    stable_dt_ = setup_.cfl / rate;
+  }
+
+  /// The step to make now: stable, and the time left divided evenly.
+  double choose_dt(double t_limit) {
+    const double left = t_limit - time_;
+    const double n = std::ceil(left / stable_dt_ * (1 - 1e-12));
+    const double dt = left / std::max(n, 1.0);
+    if (step_ == 0) first_dt_ = dt;
+    if (!(dt > 1e-7 * first_dt_) || time_ + dt == time_) {
+      throw base::BreakdownError(collapse_report(state_, graph_, step_ + 1, time_, dt, first_dt_));
+    }
+    return dt;
+  }
+
+  scheme::Audit rates() const {
+    scheme::Audit rate;
+    rate.external_work = load_rates_.power;
+    rate.impulse = {load_rates_.force, load_rates_.torque};
+    rate.numerical_dissipation = parallel::sum_in_order(numerical_power_);
+    rate.viscous_dissipation = parallel::sum_in_order(viscous_power_);
+    return rate;
+  }
+
+  double ssp_step(double t_limit) {
+    const scheme::Audit audit_0 = audit_;
+    double dt = 0, stage_time = time_;
+    const auto& stages = setup_.integrator.stages;
+    for (size_t i = 0; i < stages.size(); ++i) {
+      const bool first = i == 0, last = i + 1 == stages.size();
+      sum_forces(first);
+      if (first) dt = choose_dt(t_limit);
+      load_rates_ = boundary_.add_loads(state_, stage_time);
+      scheme::Audit rate = rates();
+      rate.external_work += boundary_.power_of_constraints(state_, model_.rho_R, stage_time, dt);
+      const scheme::StageCombination stage{stages[i].alpha, stages[i].beta, dt, first};
+      audit_ = audit_.combined(stage.alpha, audit_0, stage.beta, dt, rate);
+      for_blocks([&](auto begin, auto end) {
+        scheme::update_stage(state_, pairs_, model_.rho_R, stage, begin, end);
+      });
+      stage_time = time_ + stages[i].time * dt;
+      constrain(stage_time);
+      const Rule rule = model_.branches.empty()                      ? Rule::frozen
+                        : last && setup_.integrator.gauss_relaxation ? Rule::gauss
+                                                                     : Rule::linear;
+      evaluate({rule, last, stages[i].time * dt, model_.branches}, 0);
+    }
+    return dt;
+  }
+
+  double leapfrog_step(double t_limit) {
+    const double dt = choose_dt(t_limit);
+    scheme::Audit rate;
+    kick(dt / 2, !model_.branches.empty());
+    rate.external_work = 0.5 * boundary_.power_of_loads(state_);
+    rate.impulse = {0.5 * load_rates_.force, 0.5 * load_rates_.torque};
+    constrain(time_ + dt / 2);
+    rate.external_work += boundary_.power_of_constraints(state_, model_.rho_R, time_ + dt / 2, dt);
+    const Rule rule = model_.branches.empty() ? Rule::frozen : Rule::linear;
+    rate.viscous_dissipation = 0.5 * parallel::sum_in_order(viscous_power_);
+    evaluate({rule, true, dt, model_.branches}, dt);
+    rate.viscous_dissipation += 0.5 * parallel::sum_in_order(viscous_power_);
+    sum_forces(true);
+    load_rates_ = boundary_.add_loads(state_, time_ + dt);
+    rate.external_work += 0.5 * load_rates_.power;
+    rate.impulse.linear += 0.5 * load_rates_.force;
+    rate.impulse.angular += 0.5 * load_rates_.torque;
+    rate.numerical_dissipation = parallel::sum_in_order(numerical_power_);
+    kick(dt / 2, false);
+    constrain(time_ + dt);
+    audit_ = audit_.combined(0, audit_, 1, dt, rate);
+    return dt;
+  }
+
+  void kick(double dt, bool keep_F) {
+    for_blocks([&](auto begin, auto end) {
+      scheme::kick(state_, pairs_, model_.rho_R, dt, keep_F, begin, end);
+    });
+  }
+
+  /// Prescribed velocities at time t, then the velocities as neighbours read them.
+  void constrain(double t) {
+    for_blocks([&](auto begin, auto end) { scheme::publish_velocity(state_, begin, end); });
+    const scheme::Impulse impulse = boundary_.constrain(state_, model_.rho_R, t);
+    audit_.impulse.linear += impulse.linear;
+    audit_.impulse.angular += impulse.angular;
+  }
+
+  /// @return least J  @throws base::BreakdownError with the first bad node
+  double check_health(double dt) const {
+    double least = 1e300;
+    for (const double J : least_J_) {
+      if (!(J > 0)) {
+        throw base::BreakdownError(
+            breakdown_report(snapshot_of(model_, state_, time_), graph_, step_, dt));
+      }
+      least = std::min(least, J);
+    }
+    return least;
+  }
+
+  const scheme::PairGraph& graph_;
+  scheme::SweepGraph<Dim> pairs_;
+  scheme::Model<Material> model_;
+  SolverSetup setup_;
+  scheme::AppliedBoundary boundary_;
+  scheme::MomentumFunction<Dim> momentum_;
+  scheme::State<Dim> state_;
+  std::vector<algebra::Vec3> X_centred_;
+  // results of the sweeps, one per chunk
+  std::vector<double> viscous_power_, least_J_, numerical_power_, largest_rate_;
+  scheme::LoadRates load_rates_;
+  scheme::Audit audit_;
+  algebra::Vec3 initial_angular_momentum_ = algebra::Vec3::Zero();
+  double time_ = 0, stable_dt_ = 0, first_dt_ = 0;
+  std::int64_t step_ = 0;
+};
+
+}  // namespace diptych::run

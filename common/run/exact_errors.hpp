@@ -1,0 +1,50 @@
+#pragma once
+/// Error norms of a run against the exact solution of its case. Norms are weighted by the nodal
+/// volumes; the L2 norm of an error e relative to a field f is
+///   sqrt(sum Omega |e|^2) / max over output times of sqrt(sum Omega |f|^2),
+/// so that an instant at which the exact field passes through zero does not blow the figure up.
+/// The deformation gradient is measured against F - I.
+
+#include <map>
+#include <string>
+
+#include "common/io/run_record.hpp"
+#include "common/run/case.hpp"
+#include "common/run/solver.hpp"
+
+namespace diptych::run {
+
+class ExactErrors {
+ public:
+  ExactErrors(const Case& setup, const scheme::PairGraph& graph, const Solver& solver);
+
+  /// Whether the case has an exact solution at all.
+  bool available() const { return setup_.exact.displacement || setup_.exact.velocity; }
+  /// Compares a snapshot; scales grow with every call.
+  void measure(const Snapshot& snapshot);
+  /// Norms of the last snapshot by field name, relative to the scales seen so far.
+  std::map<std::string, io::ErrorNorms> relative() const;
+
+ private:
+  struct Norms {
+    io::ErrorNorms error, scale;
+  };
+  template <class Error, class Value>
+  void measure_field(const std::string& name, const Error& error, const Value& value);
+  Mat3 exact_deformation_gradient(const algebra::Vec3& X, double t) const;
+
+  const Case& setup_;
+  const scheme::PairGraph& graph_;
+  const Solver& solver_;
+  std::map<std::string, Norms> norms_;
+};
+
+/// L2 norm over nodes of the difference of two fields relative to the larger of their own norms.
+double relative_difference(const scheme::PairGraph& graph,
+                           const std::vector<Mat3>& first,
+                           const std::vector<Mat3>& second);
+double relative_difference(const scheme::PairGraph& graph,
+                           const std::vector<algebra::Vec3>& first,
+                           const std::vector<algebra::Vec3>& second);
+
+}  // namespace diptych::run

@@ -1,0 +1,100 @@
+#include "common/run/model_menu.hpp"
+
+#include <fmt/format.h>
+
+namespace diptych::run {
+
+const base::Registry<SolverMaker>& model_menu() {
+  static const auto menu = base::Registry<SolverMaker>("material.model")
+                               .add("mooney-rivlin", make_mooney_rivlin)
+                               .add("neo-hookean", make_neo_hookean)
+                               .add("neo-hookean-isochoric", make_isochoric_neo_hookean)
+                               .add("neo-hookean-isochoric-j2", make_isochoric_neo_hookean_j2);
+  return menu;
+}
+
+std::vector<physics::MaxwellBranch> branches_of(const MaterialCase& material,
+                                                double xi,
+                                                double zeta) {
+  std::vector<physics::MaxwellBranch> branches;
+  for (const BranchCase& b : material.branches) {
+    branches.push_back({b.beta_C * xi, b.tau_C, b.beta_G * zeta, b.tau_G});
+  }
+  return branches;
+}
+
+namespace {
+
+const scheme::BoundaryPatch& patch_of(const scheme::PairGraph& graph,
+                                      const std::string& name,
+                                      const SourcePlace& where) {
+  std::vector<std::string> names;
+  for (const auto& patch : graph.patches) {
+    if (patch.name == name) return patch;
+    names.push_back(patch.name);
+  }
+  throw base::InputError(prefix(where) + "the mesh has no boundary group '" + name + "'" +
+                         base::suggestion(name, names));
+}
+
+scheme::AppliedBoundary boundary_of(const Case& setup, const scheme::PairGraph& graph) {
+  std::vector<scheme::PlacedCondition> conditions;
+  for (const BoundaryCase& boundary : setup.boundaries) {
+    const auto maker = scheme::boundary_menu().at(boundary.type);
+    scheme::BoundaryValues values;
+    values.vector = boundary.value;
+    values.scalar = boundary.pressure;
+    values.depends_on_time =
+        boundary.value.depends_on_time() || boundary.pressure.depends_on_time();
+    for (const std::string& group : boundary.groups) {
+      conditions.push_back({maker(values), &patch_of(graph, group, boundary.where)});
+    }
+  }
+  scheme::VectorFunction body_force;
+  if (!setup.body_force.is_zero()) body_force = setup.body_force;
+  return {graph, std::move(conditions), body_force, setup.body_force.depends_on_time()};
+}
+
+SolverSetup solver_setup_of(const Case& setup, const scheme::AppliedBoundary& boundary) {
+  using namespace scheme;
+  const auto unknowns = base::Registry<Unknowns>("scheme.unknowns")
+                            .add("F", Unknowns::F)
+                            .add("FJ", Unknowns::FJ)
+                            .add("FHJ", Unknowns::FHJ);
+  const auto reconstruction = base::Registry<Reconstruction>("scheme.reconstruction")
+                                  .add("none", Reconstruction::none)
+                                  .add("linear", Reconstruction::linear);
+  const auto limiter = base::Registry<PairLimiter>("scheme.limiter")
+                           .add("none", PairLimiter::none)
+                           .add("sign-preserving", PairLimiter::sign_preserving);
+  const auto impedance = base::Registry<Impedance>("scheme.impedance")
+                             .add("isotropic", Impedance::isotropic)
+                             .add("exact", Impedance::exact);
+  SolverSetup s;
+  s.dissipation = {reconstruction.at(setup.scheme.reconstruction), limiter.at(setup.scheme.limiter),
+                   impedance.at(setup.scheme.impedance)};
+  s.dissipation_factor = setup.scheme.dissipation;
+  s.unknowns = unknowns.at(setup.scheme.unknowns);
+  s.integrator = time::integrator_menu().at(setup.time.integrator);
+  s.cfl = setup.time.cfl > 0 ? setup.time.cfl : s.integrator.default_cfl;
+  s.angular_momentum_projection = setup.scheme.angular_momentum_projection;
+  if (s.angular_momentum_projection && boundary.has_constraints()) {
+    throw base::InputError(
+        "scheme.angular_momentum_projection is for free bodies; this case prescribes velocities on "
+        "its boundary: remove one of the two");
+  }
+  s.energy_budget = setup.scheme.energy_budget;
+  s.initial = setup.initial;
+  return s;
+}
+
+}  // namespace
+
+std::unique_ptr<Solver> make_solver(const Case& setup, const scheme::PairGraph& graph) {
+  const SolverMaker maker = model_menu().at(setup.material.model);
+  scheme::AppliedBoundary boundary = boundary_of(setup, graph);
+  SolverSetup solver_setup = solver_setup_of(setup, boundary);
+  return maker(setup, graph, std::move(solver_setup), std::move(boundary));
+}
+
+}  // namespace diptych::run

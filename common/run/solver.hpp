@@ -1,0 +1,58 @@
+#pragma once
+/// A body in motion: case and pair graph in, steps out. Type erasure stands here, once per step;
+/// the compiled models behind it are in the menu of model_menu.cpp.
+
+#include "common/run/case.hpp"
+#include "common/scheme/audit.hpp"
+#include "common/scheme/pair_graph.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace diptych::run {
+
+using algebra::Mat3;
+
+/// What one step did.
+struct StepReport {
+  std::int64_t step = 0;  ///< number of the step, from 1
+  double time = 0;        ///< s, at its end
+  double dt = 0;          ///< s
+  double least_J = 1;
+};
+
+/// Nodal fields in the numbering of the graph.
+struct Snapshot {
+  double time = 0;
+  std::vector<algebra::Vec3> u, v;      ///< m, m/s
+  std::vector<Mat3> F, P;               ///< -, Pa
+  std::vector<double> J;                ///< -
+  std::vector<std::vector<Mat3>> A, S;  ///< [branch][node] C_v^-1, G_v^-1
+};
+
+class Solver {
+ public:
+  virtual ~Solver() = default;
+  /// Makes one step, not beyond t_limit; time left is divided into equal steps where it is less
+  /// than a few. @throws base::BreakdownError where J <= 0, a value is not finite, or dt has
+  /// collapsed
+  virtual StepReport step(double t_limit) = 0;
+  virtual double time() const = 0;
+  virtual scheme::Balance balance() const = 0;
+  virtual const scheme::Audit& audit() const = 0;
+  virtual Snapshot snapshot() const = 0;
+  /// XXH3 (128 bits) of the unknowns and the time; `order[a]` is the user's number of node a.
+  virtual std::string state_hash(const std::vector<std::int32_t>& order) const = 0;
+  virtual int unknowns_per_node() const = 0;
+  virtual int evaluations_per_step() const = 0;
+  virtual std::int64_t bytes() const = 0;
+  /// P(F) of the material without its branches  [Pa]
+  virtual Mat3 equilibrium_stress(const Mat3& F) const = 0;
+};
+
+/// @param graph  kept by reference: must outlive the solver
+/// @throws base::InputError on a boundary group that the graph lacks, an unknown menu entry
+std::unique_ptr<Solver> make_solver(const Case& setup, const scheme::PairGraph& graph);
+
+}  // namespace diptych::run

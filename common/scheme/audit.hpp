@@ -1,0 +1,63 @@
+#pragma once
+/// The audit: integrals over time of what enters and leaves a body, evolved with the same scheme
+/// and the same weights as the state (physics note 6), so that their residuals converge at its
+/// order:
+///   K + W - (K + W)_0 = external work - numerical dissipation - viscous dissipation.
+
+#include "common/algebra/vectors.hpp"
+
+namespace diptych::scheme {
+
+using algebra::Vec3;
+
+/// Linear impulse [N s] and its moment about the initial centroid [N m s].
+struct Impulse {
+  Vec3 linear = Vec3::Zero();
+  Vec3 angular = Vec3::Zero();
+};
+
+/// Rates of the loads at one instant.
+struct LoadRates {
+  double power = 0;            ///< W
+  Vec3 force = Vec3::Zero();   ///< N
+  Vec3 torque = Vec3::Zero();  ///< N m
+};
+
+/// Integrals, or, with the same members, their rates.
+struct Audit {
+  double external_work = 0;          ///< J
+  double numerical_dissipation = 0;  ///< J
+  double viscous_dissipation = 0;    ///< J
+  Impulse impulse;                   ///< of loads and constraints
+
+  /// alpha old + beta (this + dt rate)
+  Audit combined(double alpha, const Audit& old, double beta, double dt, const Audit& rate) const {
+    const auto mix = [&](const auto& now, const auto& before, const auto& slope) {
+      return alpha * before + beta * (now + dt * slope);
+    };
+    Audit r;
+    r.external_work = mix(external_work, old.external_work, rate.external_work);
+    r.numerical_dissipation =
+        mix(numerical_dissipation, old.numerical_dissipation, rate.numerical_dissipation);
+    r.viscous_dissipation =
+        mix(viscous_dissipation, old.viscous_dissipation, rate.viscous_dissipation);
+    r.impulse.linear = mix(impulse.linear, old.impulse.linear, rate.impulse.linear);
+    r.impulse.angular = mix(impulse.angular, old.impulse.angular, rate.impulse.angular);
+    return r;
+  }
+};
+
+/// Energies and momenta of a state.
+struct Balance {
+  double kinetic = 0;                    ///< J
+  double strain = 0;                     ///< J, equilibrium and branches
+  Vec3 linear_momentum = Vec3::Zero();   ///< N s
+  Vec3 angular_momentum = Vec3::Zero();  ///< N m s, about the initial centroid
+  double momentum_scale = 0;             ///< N s, sum of |p|
+  double angular_scale = 0;              ///< N m s, sum of |x||p|
+  double least_J = 1;
+  double involution_H = 0;  ///< max |H - cof F|
+  double involution_J = 0;  ///< max |J - det F|
+};
+
+}  // namespace diptych::scheme

@@ -1,0 +1,235 @@
+#include "common/scheme/boundary/applied_boundary.hpp"
+
+#include "common/parallel/for_chunks.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+
+namespace diptych::scheme {
+
+namespace {
+
+/// Builds the projector of one node from all its constraints; prescribed velocities first.
+class NodeProjector {
+ public:
+  void add(const NodeConstraint& constraint, const Vec3& X) {
+    if (constraint.velocity) {
+      if (velocity_ && !same_velocity(constraint.velocity, X)) {
+        throw base::InputError(fmt::format(
+            "two boundary conditions prescribe different velocities at the node at ({:g}, {:g}, "
+            "{:g}); let only one of them hold the nodes that they share",
+            X[0], X[1], X[2]));
+      }
+      velocity_ = constraint.velocity;
+    }
+    for (Vec3 d : constraint.directions) {
+      d.normalize();
+      for (int pass = 0; pass < 2; ++pass) {
+        for (const Vec3& q : basis_)
+          d -= q.dot(d) * q;
+      }
+      if (d.norm() > 1e-6) basis_.push_back(d.normalized());
+    }
+  }
+  Mat3 keep() const {
+    Mat3 P = Mat3::Identity();
+    if (basis_.size() == 3) return Mat3::Zero();
+    for (const Vec3& q : basis_)
+      P -= q * q.transpose();
+    for (int k = 0; k < 9; ++k) {
+      if (std::abs(P(k / 3, k % 3)) < 1e-15) P(k / 3, k % 3) = 0;
+    }
+    return P;
+  }
+  const VectorFunction& velocity() const { return velocity_; }
+
+ private:
+  bool same_velocity(const VectorFunction& other, const Vec3& X) const {
+    const Vec3 a = velocity_(X, 0), b = other(X, 0);
+    return (a - b).norm() <= 1e-12 * (a.norm() + b.norm());
+  }
+  std::vector<Vec3> basis_;
+  VectorFunction velocity_;
+};
+
+Vec3 centroid_of(const PairGraph& graph) {
+  Vec3 sum = Vec3::Zero();
+  double volume = 0;
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+    sum += graph.Omega[a] * graph.X[a];
+    volume += graph.Omega[a];
+  }
+  return sum / volume;
+}
+
+template <int Dim>
+Vec3 vector_at(const algebra::BlockField& field, std::int64_t node) {
+  Vec3 r = Vec3::Zero();
+  for (int i = 0; i < Dim; ++i)
+    r[i] = field.at(node, i);
+  return r;
+}
+
+}  // namespace
+
+AppliedBoundary::AppliedBoundary(const PairGraph& graph,
+                                 std::vector<PlacedCondition> conditions,
+                                 VectorFunction body_force,
+                                 bool body_force_depends_on_time)
+    : conditions_(std::move(conditions)),
+      body_force_(std::move(body_force)),
+      loads_depend_on_time_(body_force_ && body_force_depends_on_time),
+      X_(graph.X),
+      Omega_(graph.Omega),
+      X_user_(graph.X) {
+  const Vec3 centroid = centroid_of(graph);
+  for (Vec3& X : X_)
+    X -= centroid;
+  std::map<std::int32_t, NodeProjector> projectors;
+  for (const bool with_velocity : {true, false}) {
+    for (const PlacedCondition& placed : conditions_) {
+      for (const NodeConstraint& c : placed.condition->constraints(graph, *placed.patch)) {
+        if (static_cast<bool>(c.velocity) == with_velocity) {
+          projectors[c.node].add(c, graph.X[c.node]);
+        }
+      }
+    }
+  }
+  for (const auto& [node, projector] : projectors) {
+    constrained_.push_back(
+        {node, graph.Omega[node], graph.X[node], projector.keep(), projector.velocity()});
+  }
+  std::vector<char> loaded(graph.X.size(), body_force_ ? 1 : 0);
+  for (const PlacedCondition& placed : conditions_) {
+    if (!placed.condition->loads()) continue;
+    loads_depend_on_time_ |= placed.condition->depends_on_time();
+    for (const std::int32_t node : placed.patch->nodes)
+      loaded[node] = 1;
+  }
+  slot_of_node_.assign(graph.X.size(), -1);
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+    if (!loaded[a]) continue;
+    slot_of_node_[a] = static_cast<std::int32_t>(loaded_nodes_.size());
+    loaded_nodes_.push_back(static_cast<std::int32_t>(a));
+  }
+  forces_.assign(loaded_nodes_.size(), Vec3::Zero());
+}
+
+template <int Dim>
+Impulse AppliedBoundary::constrain(State<Dim>& state, double rho_R, double t) const {
+  const auto n = static_cast<std::int64_t>(constrained_.size());
+  std::vector<Vec3> prescribed;  // expressions are evaluated by one thread
+  for (std::int64_t k = 0; k < n; ++k) {
+    if (!constrained_[k].velocity) continue;
+    if (prescribed.empty()) prescribed.assign(n, Vec3::Zero());
+    const Vec3 v = constrained_[k].velocity(constrained_[k].X, t);
+    prescribed[k] = v - constrained_[k].keep * v;
+  }
+  std::vector<Impulse> parts(parallel::n_chunks_of(n));
+  parallel::for_chunks(n, [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
+    for (std::int64_t k = begin; k < end; ++k) {
+      const ConstrainedNode& c = constrained_[k];
+      const Vec3 before = vector_at<Dim>(state.v, c.node);
+      Vec3 after = c.keep * before;
+      if (!prescribed.empty()) after += prescribed[k];
+      for (int i = 0; i < Dim; ++i) {
+        state.v.at(c.node, i) = after[i];
+        state.velocity[c.node * velocity_stride<Dim> + i] = after[i];
+      }
+      if constexpr (Dim == 2) after[2] = 0;
+      const Vec3 impulse = rho_R * c.Omega * (after - before);
+      const Vec3 x = X_[c.node] + vector_at<Dim>(state.u, c.node);
+      parts[chunk].linear += impulse;
+      parts[chunk].angular += x.cross(impulse);
+    }
+  });
+  Impulse sum;
+  for (const Impulse& part : parts) {
+    sum.linear += part.linear;
+    sum.angular += part.angular;
+  }
+  return sum;
+}
+
+template <int Dim>
+void AppliedBoundary::evaluate_loads(const State<Dim>& state, double t) {
+  std::fill(forces_.begin(), forces_.end(), Vec3::Zero());
+  if (body_force_) {
+    for (size_t k = 0; k < loaded_nodes_.size(); ++k) {
+      const std::int32_t a = loaded_nodes_[k];
+      forces_[k] += Omega_[a] * body_force_(X_user_[a], t);
+    }
+  }
+  for (const PlacedCondition& placed : conditions_) {
+    if (!placed.condition->loads()) continue;
+    for (size_t k = 0; k < placed.patch->nodes.size(); ++k) {
+      const std::int32_t a = placed.patch->nodes[k];
+      LoadedNode node{X_user_[a], placed.patch->area[k], Mat3::Identity()};
+      if (placed.condition->needs_H()) {
+        algebra::Tensor<double> F = algebra::identity<double>();
+        for (int ij = 0; ij < Dim * Dim; ++ij)
+          F(ij / Dim, ij % Dim) = state.F.at(a, ij);
+        node.H = algebra::to_eigen(algebra::cofactor(F));
+      }
+      forces_[slot_of_node_[a]] += placed.condition->force(node, t);
+    }
+  }
+  loads_are_current_ = !loads_depend_on_time_;
+}
+
+template <int Dim>
+LoadRates AppliedBoundary::add_loads(State<Dim>& state, double t) {
+  if (!loads_are_current_) evaluate_loads(state, t);
+  LoadRates rates;
+  for (size_t k = 0; k < loaded_nodes_.size(); ++k) {
+    const std::int32_t a = loaded_nodes_[k];
+    for (int i = 0; i < Dim; ++i)
+      state.T.at(a, i) += forces_[k][i];
+    rates.power += forces_[k].dot(vector_at<Dim>(state.v, a));
+    rates.force += forces_[k];
+    rates.torque += (X_[a] + vector_at<Dim>(state.u, a)).cross(forces_[k]);
+  }
+  return rates;
+}
+
+template <int Dim>
+double AppliedBoundary::power_of_loads(const State<Dim>& state) const {
+  double power = 0;
+  for (size_t k = 0; k < loaded_nodes_.size(); ++k) {
+    power += forces_[k].dot(vector_at<Dim>(state.v, loaded_nodes_[k]));
+  }
+  return power;
+}
+
+template <int Dim>
+double AppliedBoundary::power_of_constraints(const State<Dim>& state,
+                                             double rho_R,
+                                             double t,
+                                             double dt) const {
+  double power = 0;
+  for (const ConstrainedNode& c : constrained_) {
+    if (!c.velocity) continue;
+    const Vec3 v = c.velocity(c.X, t);
+    // acceleration of the prescribed velocity by a fourth-order central difference
+    const double step = 0.1 * dt;
+    const Vec3 dv = (8 * (c.velocity(c.X, t + step) - c.velocity(c.X, t - step)) -
+                     (c.velocity(c.X, t + 2 * step) - c.velocity(c.X, t - 2 * step))) /
+                    (12 * step);
+    const Vec3 reaction = rho_R * c.Omega * dv - vector_at<Dim>(state.T, c.node);
+    power += reaction.dot(v - c.keep * v);
+  }
+  return power;
+}
+
+#define DIPTYCH_INSTANTIATE(Dim)                                                                   \
+  template Impulse AppliedBoundary::constrain(State<Dim>&, double, double) const;                  \
+  template LoadRates AppliedBoundary::add_loads(State<Dim>&, double);                              \
+  template double AppliedBoundary::power_of_loads(const State<Dim>&) const;                        \
+  template double AppliedBoundary::power_of_constraints(const State<Dim>&, double, double, double) \
+      const;
+DIPTYCH_INSTANTIATE(2)
+DIPTYCH_INSTANTIATE(3)
+#undef DIPTYCH_INSTANTIATE
+
+}  // namespace diptych::scheme

@@ -1,0 +1,63 @@
+#pragma once
+/// Boundary conditions (physics note 3.6). A condition acts on a patch: it constrains velocity
+/// components of its nodes (strongly, after every stage), or loads its nodes with forces, or both.
+/// Adding one: a file here and a line in boundary_menu.cpp.
+
+#include "common/base/registry.hpp"
+#include "common/scheme/pair_graph.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace diptych::scheme {
+
+/// A vector (or scalar) of reference position and time.
+using VectorFunction = std::function<Vec3(const Vec3& X, double t)>;
+using ScalarFunction = std::function<double(const Vec3& X, double t)>;
+
+/// What the user gave for a condition; unused members are empty.
+struct BoundaryValues {
+  VectorFunction vector;  ///< traction [Pa] or velocity [m/s]
+  ScalarFunction scalar;  ///< pressure [Pa]
+  bool depends_on_time = false;
+};
+
+/// The velocity components a condition prescribes at one node.
+struct NodeConstraint {
+  std::int32_t node = 0;
+  std::vector<Vec3> directions;  ///< unit vectors, need not be orthogonal
+  VectorFunction velocity;       ///< empty: zero
+};
+
+/// Deformation of a loaded node.
+struct LoadedNode {
+  Vec3 X;     ///< m, reference position
+  Vec3 area;  ///< m^2, its share of the patch, A_a N_a
+  Mat3 H;     ///< cofactor, follower loads only
+};
+
+class BoundaryCondition {
+ public:
+  virtual ~BoundaryCondition() = default;
+  /// Constraints on the patch's nodes; none by default.
+  virtual std::vector<NodeConstraint> constraints(const PairGraph& graph,
+                                                  const BoundaryPatch& patch) const;
+  /// Whether force() may be non-zero.
+  virtual bool loads() const { return false; }
+  virtual bool needs_H() const { return false; }
+  virtual bool depends_on_time() const { return false; }
+  /// Force on a node of the patch  [N]
+  virtual Vec3 force(const LoadedNode& node, double t) const;
+};
+
+using BoundaryMaker = std::unique_ptr<BoundaryCondition> (*)(const BoundaryValues& values);
+
+/// fixed, velocity, symmetry, skew-symmetry, traction, pressure
+const base::Registry<BoundaryMaker>& boundary_menu();
+
+/// Unit normal of a node's share of a patch; components below 1e-12 are rounding and become 0.
+Vec3 unit_normal(const Vec3& area);
+
+}  // namespace diptych::scheme

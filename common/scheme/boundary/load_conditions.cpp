@@ -1,0 +1,47 @@
+/// Forces on a patch: dead traction per reference area, follower pressure.
+
+#include "common/scheme/boundary/load_conditions.hpp"
+
+namespace diptych::scheme {
+
+namespace {
+
+/// t_B of (18a), Pa per reference area.
+class Traction : public BoundaryCondition {
+ public:
+  explicit Traction(const BoundaryValues& values) : values_(values) {}
+  bool loads() const override { return true; }
+  bool depends_on_time() const override { return values_.depends_on_time; }
+  Vec3 force(const LoadedNode& node, double t) const override {
+    return node.area.norm() * values_.vector(node.X, t);
+  }
+
+ private:
+  BoundaryValues values_;
+};
+
+/// t_B = -p H N per reference area: a pressure on the deformed surface.
+class Pressure : public BoundaryCondition {
+ public:
+  explicit Pressure(const BoundaryValues& values) : values_(values) {}
+  bool loads() const override { return true; }
+  bool needs_H() const override { return true; }
+  bool depends_on_time() const override { return true; }
+  Vec3 force(const LoadedNode& node, double t) const override {
+    return -values_.scalar(node.X, t) * (node.H * node.area);
+  }
+
+ private:
+  BoundaryValues values_;
+};
+
+}  // namespace
+
+std::unique_ptr<BoundaryCondition> make_traction(const BoundaryValues& values) {
+  return std::make_unique<Traction>(values);
+}
+std::unique_ptr<BoundaryCondition> make_pressure(const BoundaryValues& values) {
+  return std::make_unique<Pressure>(values);
+}
+
+}  // namespace diptych::scheme

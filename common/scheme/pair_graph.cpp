@@ -1,0 +1,158 @@
+#include "common/scheme/pair_graph.hpp"
+
+#include "common/base/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace diptych::scheme {
+
+namespace {
+
+std::string node_text(const PairGraph& graph, std::int64_t a) {
+  const Vec3& X = graph.X[a];
+  return fmt::format("node {} at ({:.6g}, {:.6g}, {:.6g})", a, X[0], X[1], X[2]);
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw base::InputError("pair graph: " + what);
+}
+
+/// The larger of two figures; a figure that is not a number is the worst there is.
+double worst(double a, double b) {
+  return b > a || std::isnan(b) ? b : a;
+}
+
+void check_sizes(const PairGraph& graph) {
+  const auto n = graph.X.size(), pairs = graph.neighbour.size();
+  const auto check = [](const char* array, size_t size, size_t wanted) {
+    if (size != wanted) refuse(fmt::format("{} has {} entries instead of {}", array, size, wanted));
+  };
+  if (graph.dimension != 2 && graph.dimension != 3) {
+    refuse(fmt::format("dimension is {}; use 2 or 3", graph.dimension));
+  }
+  if (n == 0) refuse("it has no nodes; use a mesh with at least one cell");
+  check("Omega", graph.Omega.size(), n);
+  check("boundary_area", graph.boundary_area.size(), n);
+  check("row", graph.row.size(), n + 1);
+  check("reverse", graph.reverse.size(), pairs);
+  check("C", graph.C.size(), pairs);
+  if (graph.row.front() != 0 || graph.row.back() != graph.n_pairs()) {
+    refuse(fmt::format("rows run from {} to {} instead of 0 to {}", graph.row.front(),
+                       graph.row.back(), pairs));
+  }
+  for (size_t a = 0; a < n; ++a) {
+    if (graph.row[a] > graph.row[a + 1]) {
+      refuse(fmt::format("{} has a row of negative length", node_text(graph, a)));
+    }
+  }
+}
+
+void check_node(const PairGraph& graph, std::int64_t a) {
+  if (!graph.X[a].allFinite()) refuse(fmt::format("node {} has no finite position", a));
+  if (!(graph.Omega[a] > 0) || !std::isfinite(graph.Omega[a])) {
+    refuse(fmt::format("{} has volume {:.3g}; volumes must be positive and finite",
+                       node_text(graph, a), graph.Omega[a]));
+  }
+  if (!graph.boundary_area[a].allFinite()) {
+    refuse(fmt::format("{} has no finite boundary area", node_text(graph, a)));
+  }
+}
+
+void check_row(const PairGraph& graph, std::int64_t a) {
+  for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+    const std::int32_t b = graph.neighbour[p];
+    if (b < 0 || b >= graph.n_nodes() || b == a) {
+      refuse(
+          fmt::format("{} has neighbour {} of {} nodes", node_text(graph, a), b, graph.n_nodes()));
+    }
+    if (p > graph.row[a] && graph.neighbour[p - 1] >= b) {
+      refuse(fmt::format("the neighbours of {} are not in ascending order", node_text(graph, a)));
+    }
+    const std::int64_t r = graph.reverse[p];
+    if (r < graph.row[b] || r >= graph.row[b + 1] || graph.neighbour[r] != a) {
+      refuse(fmt::format("{} and {} are not a pair both ways", node_text(graph, a),
+                         node_text(graph, b)));
+    }
+    if (!graph.C[p].allFinite()) {
+      refuse(fmt::format("{} and {} have no finite C_ab; do they coincide?", node_text(graph, a),
+                         node_text(graph, b)));
+    }
+  }
+}
+
+void check_patch(const PairGraph& graph, const BoundaryPatch& patch) {
+  if (patch.area.size() != patch.nodes.size()) {
+    refuse(fmt::format("patch '{}' has {} areas for {} nodes", patch.name, patch.area.size(),
+                       patch.nodes.size()));
+  }
+  for (size_t i = 0; i < patch.nodes.size(); ++i) {
+    const std::int32_t a = patch.nodes[i];
+    if (a < 0 || a >= graph.n_nodes() || (i > 0 && patch.nodes[i - 1] >= a)) {
+      refuse(fmt::format("patch '{}': node {} is out of range or order", patch.name, a));
+    }
+    if (!patch.area[i].allFinite()) {
+      refuse(fmt::format("patch '{}': {} has no finite area", patch.name, node_text(graph, a)));
+    }
+  }
+}
+
+}  // namespace
+
+GraphQuality quality(const PairGraph& graph) {
+  GraphQuality result;
+  const int d = graph.dimension;
+  std::int64_t least = graph.n_pairs();
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+    Mat3 gradient = Mat3::Zero();
+    Vec3 closure = Vec3::Zero();
+    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+      gradient += (graph.X[graph.neighbour[p]] - graph.X[a]) * graph.C[p].transpose();
+      closure -= 0.5 * (graph.C[p] - graph.C[graph.reverse[p]]);
+    }
+    gradient *= 0.5 / graph.Omega[a];
+    gradient.diagonal().head(d).array() -= 1.0;
+    const double area = std::pow(graph.Omega[a], (d - 1.0) / d);
+    result.linear_exactness = worst(result.linear_exactness, gradient.norm());
+    result.closure = worst(result.closure, (closure - graph.boundary_area[a]).norm() / area);
+    least = std::min(least, graph.row[a + 1] - graph.row[a]);
+  }
+  result.mean_neighbours =
+      static_cast<double>(graph.n_pairs()) / static_cast<double>(graph.n_nodes());
+  result.least_neighbours = static_cast<int>(least);
+  return result;
+}
+
+void validate(const PairGraph& graph) {
+  check_sizes(graph);
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a)
+    check_node(graph, a);
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a)
+    check_row(graph, a);
+  for (const BoundaryPatch& patch : graph.patches)
+    check_patch(graph, patch);
+}
+
+void link_reverse_pairs(PairGraph& graph) {
+  // Rows are ascending, so the rows that name b come by in the order of b's own row.
+  std::vector<std::int64_t> next(graph.row.begin(), graph.row.end() - 1);
+  graph.reverse.assign(graph.neighbour.size(), -1);
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+      const std::int32_t b = graph.neighbour[p];
+      if (b < 0 || b >= graph.n_nodes()) {
+        refuse(fmt::format("{} has neighbour {} of {} nodes", node_text(graph, a), b,
+                           graph.n_nodes()));
+      }
+      const std::int64_t r = next[b]++;
+      if (r >= graph.row[b + 1] || graph.neighbour[r] != a) {
+        refuse(fmt::format("{} and {} are not a pair both ways", node_text(graph, a),
+                           node_text(graph, b)));
+      }
+      graph.reverse[p] = r;
+    }
+  }
+}
+
+}  // namespace diptych::scheme

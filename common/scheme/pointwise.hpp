@@ -1,0 +1,127 @@
+#pragma once
+/// Pointwise part of an evaluation for one block of eight nodes: deformation as stored, internal
+/// variables relaxed to the evaluation's time, response with all branches. Shared by the sweep that
+/// feeds the momentum equation, the energy audit and the snapshot.
+
+#include "common/scheme/model.hpp"
+#include "common/scheme/relaxation.hpp"
+#include "common/scheme/state.hpp"
+
+namespace diptych::scheme {
+
+using algebra::Lanes;
+using algebra::n_lanes;
+using algebra::SymmetricTensor;
+using algebra::Tensor;
+using physics::BranchState;
+using physics::Deformation;
+using physics::Response;
+
+/// {F, H, J} of a block: evolved where they are unknowns, from F otherwise.
+template <int Dim>
+DIPTYCH_INLINE Deformation<Lanes> load_deformation(const State<Dim>& state, std::int64_t b) {
+  Deformation<Lanes> X;
+  X.F = algebra::load_tensor<Dim>(state.F.block(b), 1);
+  if (state.unknowns == Unknowns::FHJ) {
+    X.H = algebra::load_H<Dim>(state.H.block(b));
+    X.J = algebra::load(state.J.block(b));
+  } else {
+    X.H = algebra::cofactor(X.F);
+    X.J = state.unknowns == Unknowns::FJ ? algebra::load(state.J.block(b))
+                                         : algebra::determinant(X.F, X.H);
+  }
+  return X;
+}
+
+/// Deformation tensors that drive the relaxation over a step; the same for all branches.
+struct RelaxationDrive {
+  SymmetricTensor<Lanes> C_first, C_second, G_first, G_second;  ///< C^-1, G^-1 at two times
+};
+
+template <int Dim, bool has_H>
+DIPTYCH_INLINE RelaxationDrive relaxation_drive(const State<Dim>& state,
+                                                const Relaxation& relaxation,
+                                                std::int64_t b,
+                                                double theta_first,
+                                                double theta_second) {
+  const Tensor<Lanes> F_0 = algebra::load_tensor<Dim>(state.F_0.block(b), 1);
+  const Tensor<Lanes> F = algebra::load_tensor<Dim>(state.F.block(b), 1);
+  Deformation<Lanes> first, second;
+  if (relaxation.rule == Relaxation::Rule::gauss) {
+    const Tensor<Lanes> L_0 = algebra::load_tensor<Dim>(state.L_0.block(b), 0);
+    const Tensor<Lanes> L = algebra::load_tensor<Dim>(state.L.block(b), 0);
+    first.F = physics::hermite(theta_first, relaxation.dt, F_0, L_0, F, L);
+    second.F = physics::hermite(theta_second, relaxation.dt, F_0, L_0, F, L);
+  } else {
+    first.F = F_0;
+    second.F = F;
+  }
+  RelaxationDrive drive;
+  drive.C_first = physics::inverse_C(first);
+  drive.C_second = physics::inverse_C(second);
+  if constexpr (has_H) {
+    drive.G_first = physics::inverse_G(first);
+    drive.G_second = physics::inverse_G(second);
+  }
+  return drive;
+}
+
+/// Internal variables of branch k at the time of the evaluation.
+template <int Dim, bool has_H>
+DIPTYCH_INLINE BranchState<Lanes> relaxed_branch(const State<Dim>& state,
+                                                 const Relaxation& relaxation,
+                                                 const RelaxationDrive& linear_drive,
+                                                 std::int64_t b,
+                                                 int k) {
+  using Layout = algebra::Layout<Dim>;
+  BranchState<Lanes> branch;
+  branch.A = algebra::load_A<Dim>(state.A.block(b) + k * Layout::n_A * n_lanes);
+  branch.S = has_H ? algebra::load_S<Dim>(state.S.block(b) + k * Layout::n_S * n_lanes)
+                   : algebra::symmetric_identity<Lanes>();
+  if (relaxation.rule == Relaxation::Rule::linear) {
+    branch.A = physics::relaxed(relaxation.linear_C[k], branch.A, linear_drive.C_first,
+                                linear_drive.C_second);
+    if constexpr (has_H) {
+      branch.S = physics::relaxed(relaxation.linear_G[k], branch.S, linear_drive.G_first,
+                                  linear_drive.G_second);
+    }
+  } else if (relaxation.rule == Relaxation::Rule::gauss) {
+    const auto& rule_C = relaxation.gauss_C[k];
+    const auto C =
+        relaxation_drive<Dim, false>(state, relaxation, b, rule_C.theta[0], rule_C.theta[1]);
+    branch.A = physics::relaxed(rule_C, branch.A, C.C_first, C.C_second);
+    if constexpr (has_H) {
+      const auto& rule_G = relaxation.gauss_G[k];
+      const auto G =
+          relaxation_drive<Dim, true>(state, relaxation, b, rule_G.theta[0], rule_G.theta[1]);
+      branch.S = physics::relaxed(rule_G, branch.S, G.G_first, G.G_second);
+    }
+  }
+  return branch;
+}
+
+/// Response of a block with all branches; per branch calls visit(k, branch state).
+template <int Dim, class Material, class Visit>
+DIPTYCH_INLINE Response<Lanes> response_of_block(const Model<Material>& model,
+                                                 const State<Dim>& state,
+                                                 const Relaxation& relaxation,
+                                                 const Deformation<Lanes>& X,
+                                                 std::int64_t b,
+                                                 const Visit& visit) {
+  constexpr bool has_H = Material::has_H;
+  Response<Lanes> response = model.material.response(X);
+  if (state.n_branches == 0) return response;
+  RelaxationDrive linear_drive;
+  if (relaxation.rule == Relaxation::Rule::linear) {
+    linear_drive = relaxation_drive<Dim, has_H>(state, relaxation, b, 0, 1);
+  }
+  for (int k = 0; k < state.n_branches; ++k) {
+    const BranchState<Lanes> branch =
+        relaxed_branch<Dim, has_H>(state, relaxation, linear_drive, b, k);
+    physics::add_branch_response<has_H>(model.branches[k], branch, X, response);
+    visit(k, branch);
+  }
+  return response;
+}
+
+}  // namespace diptych::scheme

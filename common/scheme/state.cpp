@@ -1,0 +1,57 @@
+#include "common/scheme/state.hpp"
+
+namespace diptych::scheme {
+
+template <int Dim>
+State<Dim>::State(
+    std::int64_t n, int branches, bool G, Unknowns which, bool exact_impedance, bool keep_L_0)
+    : n_nodes(n),
+      n_blocks(algebra::n_blocks_of(n)),
+      n_branches(branches),
+      has_G(G),
+      unknowns(which),
+      record_stride(NodeRecord<Dim>::stride(exact_impedance)) {
+  using Layout = algebra::Layout<Dim>;
+  for (BlockField* f : {&v, &u, &v_0, &u_0, &T})
+    *f = BlockField(n, Dim);
+  for (BlockField* f : {&F, &F_0, &L})
+    *f = BlockField(n, Layout::n_F);
+  if (keep_L_0) L_0 = BlockField(n, Layout::n_F);
+  if (which == Unknowns::FHJ) {
+    for (BlockField* f : {&H, &H_0})
+      *f = BlockField(n, Layout::n_H);
+  }
+  if (which != Unknowns::F) {
+    for (BlockField* f : {&J, &J_0})
+      *f = BlockField(n, 1);
+  }
+  if (branches > 0) {
+    A = BlockField(n, branches * Layout::n_A);
+    if (G) S = BlockField(n, branches * Layout::n_S);
+  }
+  velocity = algebra::AlignedArray<double>(n_blocks * algebra::n_lanes * velocity_stride<Dim>);
+  records = algebra::AlignedArray<double>(n_blocks * algebra::n_lanes * record_stride);
+}
+
+template <int Dim>
+std::int64_t State<Dim>::bytes() const {
+  std::int64_t sum = 8 * (velocity.size() + records.size());
+  for (const BlockField* f :
+       {&v, &u, &F, &H, &J, &A, &S, &v_0, &u_0, &F_0, &H_0, &J_0, &L_0, &L, &T}) {
+    sum += f->bytes();
+  }
+  return sum;
+}
+
+template <int Dim>
+int State<Dim>::unknowns_per_node() const {
+  int n = 0;
+  for (const BlockField* f : {&v, &u, &F, &H, &J, &A, &S})
+    n += f->n_components();
+  return n;
+}
+
+template struct State<2>;
+template struct State<3>;
+
+}  // namespace diptych::scheme

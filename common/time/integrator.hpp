@@ -1,0 +1,32 @@
+#pragma once
+/// Time integrators as rows of coefficients. An SSP Runge-Kutta stage is
+///   U^(i) = alpha U^n + beta (U^(i-1) + dt L(U^(i-1))),  a state at time t + time dt.
+/// Leapfrog (velocity Verlet) evaluates forces once a step: kick, drift, evaluate, kick.
+/// Adding a scheme: a file in schemes/ and a line in integrator_menu.cpp.
+
+#include "common/base/registry.hpp"
+
+#include <vector>
+
+namespace diptych::time {
+
+struct SspStage {
+  double alpha = 0;
+  double beta = 1;
+  double time = 1;  ///< of the result, in steps
+};
+
+struct Integrator {
+  int order = 2;
+  double default_cfl = 1;         ///< fraction of the graph bound 1 / rate (physics note 2.1)
+  std::vector<SspStage> stages;   ///< empty: leapfrog
+  bool gauss_relaxation = false;  ///< GEXP at the end of the step instead of LIN
+
+  bool is_leapfrog() const { return stages.empty(); }
+  int evaluations_per_step() const { return is_leapfrog() ? 1 : static_cast<int>(stages.size()); }
+};
+
+/// leapfrog, ssp-rk2, ssp-rk3
+const base::Registry<Integrator>& integrator_menu();
+
+}  // namespace diptych::time

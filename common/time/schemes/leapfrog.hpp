@@ -1,0 +1,14 @@
+#pragma once
+/// Leapfrog in its kick-drift-kick form (velocity Verlet): v^{n+1/2} = v^n + dt/2 a^n;
+/// F, u by v^{n+1/2}; a^{n+1} = a(F^{n+1}, v^{n+1/2}); v^{n+1} = v^{n+1/2} + dt/2 a^{n+1}.
+/// One evaluation per step, second order; the dissipation lags by half a step.
+
+#include "common/time/integrator.hpp"
+
+namespace diptych::time {
+
+inline Integrator leapfrog() {
+  return {.order = 2, .default_cfl = 1.2, .stages = {}, .gauss_relaxation = false};
+}
+
+}  // namespace diptych::time

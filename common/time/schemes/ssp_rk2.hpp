@@ -1,0 +1,15 @@
+#pragma once
+/// SSP-RK2 (Heun, Shu and Osher 1988): U1 = U + dt L(U); U^{n+1} = 1/2 U + 1/2 (U1 + dt L(U1)).
+
+#include "common/time/integrator.hpp"
+
+namespace diptych::time {
+
+inline Integrator ssp_rk2() {
+  return {.order = 2,
+          .default_cfl = 0.6,
+          .stages = {{0, 1, 1}, {0.5, 0.5, 1}},
+          .gauss_relaxation = false};
+}
+
+}  // namespace diptych::time
