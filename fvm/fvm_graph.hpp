@@ -3,10 +3,10 @@
 /// C_ab = 2 sum_e w_a^e grad N_b(X_a) (quadrilaterals, hexahedra; physics note 3.8), or
 /// C_ab = 2 int N_a grad N_b dV (physics note 4.1).
 
-#include <string>
-
 #include "common/scheme/pair_graph.hpp"
 #include "meshes/mesh.hpp"
+
+#include <string>
 
 namespace diptych::fvm {
 

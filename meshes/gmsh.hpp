@@ -2,23 +2,31 @@
 /// Gmsh input: a bounded reader of .msh files (4.1 and 2.2, ASCII and binary) and the call of the
 /// gmsh program for .geo files.
 
-#include <string>
-
 #include "meshes/mesh.hpp"
+
+#include <string>
 
 namespace diptych::meshes {
 
 /// Reads cells of the highest dimension present, boundary faces, and physical groups of the
-/// boundary dimension as boundary groups. Nodes that no cell uses are dropped.
+/// boundary dimension as boundary groups (named by their tag where they have no name). Nodes are
+/// ordered by their tags; those that no cell uses are dropped, and so are groups of other
+/// dimensions. Where every cell is inverted, which is a convention (a plane seen from below), all
+/// are turned around; cells of both orientations are an error. Pyramids, partitioned meshes, faces
+/// of a group inside the mesh, groups without faces and hanging nodes are errors too.
 /// @throws base::InputError "path: ..." (or path:line) on malformed, truncated or unsupported
 ///         input, an inverted or degenerate cell (its number and place), second-order elements,
 ///         NaN coordinates, counts that the file cannot hold
 Mesh read_msh(const std::string& path);
 
 /// Meshes a .geo file with the gmsh program (Delaunay, one thread, repeatable) into
-/// `work_directory` and reads the result. `size` is passed as the parameter h.
+/// `work_directory` and reads the result. `size` is passed as the parameter h: a .geo file takes it
+/// up with `DefineConstant[ h = 0.1 ];`.
+/// @throws base::InputError where the file is missing, starts other programs, or gives a bad mesh
 /// @throws base::EnvironmentError where gmsh is not installed (names the Debian package) or fails
-Mesh mesh_geo(const std::string& geo_path, int dimension, double size,
+Mesh mesh_geo(const std::string& geo_path,
+              int dimension,
+              double size,
               const std::string& work_directory);
 
 /// Checks all cells (positive Jacobian at every corner, finite coordinates, no repeated node).

@@ -2,10 +2,10 @@
 /// Total Lagrangian SPH as a pair graph: paper (19) with linear gradient correction and the
 /// minimum-norm boundary (gamma) closure of physics note 3.3.
 
-#include <string>
-
 #include "common/scheme/pair_graph.hpp"
 #include "meshes/mesh.hpp"
+
+#include <string>
 
 namespace diptych::sph {
 

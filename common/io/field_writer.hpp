@@ -12,9 +12,9 @@ namespace diptych::io {
 
 /// Topology in VTK's terms (types: 5 triangle, 9 quad, 10 tet, 12 hexahedron, 13 wedge).
 struct VisualMesh {
-  std::vector<double> points;  ///< [n][3] m, reference positions
-  std::vector<std::int64_t> connectivity, offsets;
-  std::vector<std::uint8_t> types;
+  std::vector<double> points;                       ///< [n][3] m, reference positions
+  std::vector<std::int64_t> connectivity, offsets;  ///< offsets [n_cells + 1], the first is 0
+  std::vector<std::uint8_t> types;                  ///< [n_cells]
 };
 
 /// A nodal field: name with unit as users read it ("velocity [m/s]"), values [n][n_components].
@@ -40,5 +40,18 @@ class FieldWriter {
 /// A field read back from a frame, widened to double, with its number of components.
 /// @throws base::InputError naming the fields the frame has
 NodeField read_field(const std::string& frame_path, const std::string& name);
+
+/// The name of a field inside the file. HDF5 names cannot hold "/", so units are stored in the
+/// notation of CF and UDUNITS: "velocity [m/s]" as "velocity [m s-1]", "[kg/m^3]" as "[kg m-3]".
+/// read_field takes either.
+std::string stored_name(const std::string& name);
+
+struct FrameEntry {
+  std::string path;
+  double time = 0;  ///< s
+};
+
+/// The frames named by DIR/run.hdf.series, in order, with paths that start like series_path.
+std::vector<FrameEntry> read_series(const std::string& series_path);
 
 }  // namespace diptych::io

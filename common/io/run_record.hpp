@@ -79,4 +79,7 @@ std::string history_csv(const std::vector<HistoryRow>& rows,
                         const std::vector<std::string>& probe_names);
 std::vector<HistoryRow> history_from_csv(const std::string& text, const std::string& path);
 
+/// Names of the probe columns, in the order of HistoryRow::probes.
+std::vector<std::string> probe_names_from_csv(const std::string& text, const std::string& path);
+
 }  // namespace diptych::io

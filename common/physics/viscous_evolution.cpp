@@ -53,8 +53,13 @@ GaussRelaxation gauss_relaxation(double z) {
   }
   // Orthogonal polynomial u^2 + alpha u + beta of the weight. Scaled by the mean m = c1/c0 so that
   // small and large z are treated alike.
-  const double m = c[1] / c[0];
-  const double k2 = c[2] / (c[0] * m * m), k3 = c[3] / (c[0] * m * m * m);
+  double m = c[1] / c[0];
+  double k2 = c[2] / (c[0] * m * m), k3 = c[3] / (c[0] * m * m * m);
+  if (z > 50) {  // e^-z is below rounding: c_k = k!/z^k, whose powers of z would underflow
+    m = 1 / z;
+    k2 = 2;
+    k3 = 6;
+  }
   // [1 1; k2 1] [alpha; beta] = -[k2; k3] for u/m: alpha + beta = -k2, k2 alpha + beta = -k3
   const double alpha = (k2 - k3) / (k2 - 1), beta = -k2 - alpha;
   const double root = std::sqrt(alpha * alpha / 4 - beta);

@@ -82,8 +82,8 @@ DIPTYCH_INLINE RankTwo<T> rank_two_eigenvalues(const Response<T>& r,
 /// Pressure and shear wave speeds in material direction N.
 /// @param  rho_R  density [kg/m^3]
 /// @param  N      unit normal in the reference configuration [-]
-/// @return c_p >= c_s1 >= c_s2 for polyconvex materials (isochoric ones may lose ellipticity:
-///         a negative rho c^2 gives NaN, which the health check reports)
+/// @return c_p >= c_s1 >= c_s2 > 0, since every material here is polyconvex
+/// @pre    J > 0 (a state that is not a number gives NaN, which the health check reports)
 template <class T>
 DIPTYCH_INLINE WaveSpeeds<T> wave_speeds(const Response<T>& r,
                                          const Deformation<T>& X,
@@ -94,17 +94,24 @@ DIPTYCH_INLINE WaveSpeeds<T> wave_speeds(const Response<T>& r,
   const Vector<T> f = algebra::product(X.F, N);
   const T a0 = algebra::quadratic(r.A_tot, N);
   const T tr_M = algebra::trace(M);
-  // M has eigenvalue 0 on n, m1 and m2 in the plane: sum of principal minors = m1 m2
-  const SymmetricTensor<T> adj = algebra::cofactor(M);
-  const T m1m2 = algebra::trace(adj);
-  const T root = algebra::square_root(algebra::larger(0.25 * tr_M * tr_M - m1m2, T{}));
+  // In the plane normal to h, M = tr_M/2 I + D has the eigenvalues tr_M/2 -+ sqrt(D:D/2). (The root
+  // of tr_M^2/4 - m1 m2 would lose half the digits where the two shear waves coincide.)
+  const T half = 0.5 * tr_M;
+  const T along_h = half / algebra::dot(h, h);
+  SymmetricTensor<T> D = M;
+  for (int i = 0; i < 3; ++i) {
+    D(i, i) -= half;
+    for (int j = i; j < 3; ++j)
+      D(i, j) += along_h * h[i] * h[j];
+  }
+  const T root = algebra::square_root(0.5 * algebra::contract(D, D));
   const RankTwo<T> t = rank_two_eigenvalues(r, f, h);
   const double inverse_rho = 1.0 / rho_R;
   WaveSpeeds<T> c;
   c.c_p = algebra::square_root(inverse_rho * (a0 + tr_M + t.larger));
   // isochoric materials: M = 0 and the shear pair is a0, a0 + t.smaller (t.smaller <= 0)
-  c.c_s1 = algebra::square_root(inverse_rho * (a0 + 0.5 * tr_M + root));
-  c.c_s2 = algebra::square_root(inverse_rho * (a0 + 0.5 * tr_M - root + t.smaller));
+  c.c_s1 = algebra::square_root(inverse_rho * (a0 + half + root));
+  c.c_s2 = algebra::square_root(inverse_rho * (a0 + half - root + t.smaller));
   return c;
 }
 

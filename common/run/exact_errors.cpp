@@ -56,7 +56,8 @@ void ExactErrors::measure(const Snapshot& s) {
   const auto vectors = [&](const std::string& name, const VectorExpression& f,
                            const std::vector<Vec3>& field) {
     std::vector<Vec3> value(field.size());
-    for (size_t a = 0; a < field.size(); ++a) value[a] = f(graph_.X[a], t);
+    for (size_t a = 0; a < field.size(); ++a)
+      value[a] = f(graph_.X[a], t);
     measure_field(
         name, [&](std::int64_t a) { return (field[a] - value[a]).norm(); },
         [&](std::int64_t a) { return value[a].norm(); });
@@ -65,7 +66,8 @@ void ExactErrors::measure(const Snapshot& s) {
   if (!exact.displacement) return;
   vectors("displacement", *exact.displacement, s.u);
   std::vector<Mat3> F(s.F.size()), P(s.F.size());
-  for (size_t a = 0; a < F.size(); ++a) F[a] = exact_deformation_gradient(graph_.X[a], t);
+  for (size_t a = 0; a < F.size(); ++a)
+    F[a] = exact_deformation_gradient(graph_.X[a], t);
   measure_field(
       "deformation_gradient", [&](std::int64_t a) { return (s.F[a] - F[a]).norm(); },
       [&](std::int64_t a) { return (F[a] - Mat3::Identity()).norm(); });

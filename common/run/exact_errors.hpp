@@ -5,12 +5,12 @@
 /// so that an instant at which the exact field passes through zero does not blow the figure up.
 /// The deformation gradient is measured against F - I.
 
-#include <map>
-#include <string>
-
 #include "common/io/run_record.hpp"
 #include "common/run/case.hpp"
 #include "common/run/solver.hpp"
+
+#include <map>
+#include <string>
 
 namespace diptych::run {
 

@@ -21,10 +21,10 @@ using algebra::Vec3;
 struct SourcePlace {
   std::string file;
   int line = 0;
-  int column = 0;
+  int column = 0;  ///< 0 where it is not known
 };
 
-/// "file:line:column: "
+/// "file:line:column: "; what is 0 is left out.
 std::string prefix(const SourcePlace& where);
 
 /// A function of time that expressions may use as a variable: name -> value(t).
@@ -43,11 +43,25 @@ struct Vocabulary {
   std::vector<std::shared_ptr<const TimeFunction>> time_functions;
 };
 
+/// A number written as an expression of parameters only, as in end = "1.25*2*pi/omega".
+/// @param  where place of the first character of text
+/// @throws base::InputError on x, y, z, t, unknown names, wrong syntax, a result that is not finite
+double constant_value(const std::string& text, const std::map<std::string, double>& parameters,
+                      const SourcePlace& where);
+
+/// Names that parameters and time functions may not take: x, y, z, t, pi and the functions (sin,
+/// ...).
+const std::vector<std::string>& reserved_names();
+
+/// A letter or '_', then letters, digits or '_', all ASCII.
+bool is_name(const std::string& text);
+
 /// One scalar expression. Copies share the compiled parser; not for concurrent use.
 class Expression {
  public:
   Expression() = default;  ///< the constant 0
   explicit Expression(double constant);
+  /// @param  where place of the first character of text
   /// @throws base::InputError
   Expression(const std::string& text, const Vocabulary& vocabulary, const SourcePlace& where);
   double operator()(const Vec3& X, double t) const;

@@ -3,6 +3,7 @@
 #include "common/base/error.hpp"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 namespace diptych::run {
 

@@ -6,8 +6,6 @@
 #include "common/scheme/state.hpp"
 
 #include <cmath>
-#include <xxhash.h>
-
 namespace diptych::run {
 
 /// Reference positions about the centre of volume.

@@ -1,5 +1,7 @@
 #include "common/scheme/closure_repair.hpp"
 
+#include "common/scheme/spline_levels.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,6 +12,8 @@ namespace {
 
 using Field = std::vector<Vec3>;
 using Operator = std::function<void(const Field& y, Field& Sy)>;
+/// z = approximate S^-1 r
+using Preconditioner = std::function<void(const Field& r, Field& z)>;
 
 /// What is missing: A_aN_a + 1/2 sum_b (C_ab - C_ba).
 Field closure_gap(const PairGraph& graph) {
@@ -56,23 +60,28 @@ Vec3 quotient(const Vec3& x, const Vec3& y) {
   return result;
 }
 
+Preconditioner by_diagonal(std::vector<double> diagonal) {
+  return [diagonal = std::move(diagonal)](const Field& r, Field& z) {
+    for (size_t a = 0; a < r.size(); ++a) {
+      z[a] = diagonal[a] > 0 ? Vec3(r[a] / diagonal[a]) : Vec3(Vec3::Zero());
+    }
+  };
+}
+
 /// Preconditioned conjugate gradients for S y = r, the three components side by side (each with
 /// its own step lengths), from y = 0.
 /// @return steps taken
 int conjugate_gradients(const Operator& S,
-                        const std::vector<double>& diagonal,
+                        const Preconditioner& precondition,
                         const std::vector<double>& unit,
                         Field r,
                         const RepairLimits& limits,
                         Field& y) {
   const size_t n = r.size();
-  const auto preconditioned = [&](size_t a) -> Vec3 {
-    return diagonal[a] > 0 ? Vec3(r[a] / diagonal[a]) : Vec3(Vec3::Zero());
-  };
   y.assign(n, Vec3::Zero());
   Field p(n), Sp(n), z(n);
-  for (size_t a = 0; a < n; ++a)
-    p[a] = z[a] = preconditioned(a);
+  precondition(r, z);
+  p = z;
   Vec3 rz = dot(r, z);
   int step = 0;
   while (step < limits.iterations && greatest(r, unit) > 0.3 * limits.closure) {
@@ -81,8 +90,8 @@ int conjugate_gradients(const Operator& S,
     for (size_t a = 0; a < n; ++a) {
       y[a] += alpha.cwiseProduct(p[a]);
       r[a] -= alpha.cwiseProduct(Sp[a]);
-      z[a] = preconditioned(a);
     }
+    precondition(r, z);
     const Vec3 rz_next = dot(r, z);
     const Vec3 beta = quotient(rz_next, rz);
     for (size_t a = 0; a < n; ++a)
@@ -97,7 +106,7 @@ int conjugate_gradients(const Operator& S,
 /// times, as long as it helps).
 ClosureRepair repair(PairGraph& graph,
                      const Operator& S,
-                     const std::vector<double>& diagonal,
+                     const Preconditioner& precondition,
                      const std::function<void(const Field& y)>& correct,
                      const RepairLimits& limits) {
   ClosureRepair result;
@@ -108,7 +117,7 @@ ClosureRepair repair(PairGraph& graph,
   for (int pass = 0; pass < 5 && result.after > limits.closure; ++pass) {
     RepairLimits left = limits;
     left.iterations -= result.iterations;
-    result.iterations += conjugate_gradients(S, diagonal, unit, gap, left, y);
+    result.iterations += conjugate_gradients(S, precondition, unit, gap, left, y);
     const std::vector<Vec3> C_last = graph.C;
     correct(y);
     gap = closure_gap(graph);
@@ -207,7 +216,7 @@ ClosureRepair repair_closure_rows(PairGraph& graph,
       }
     }
   };
-  return repair(graph, S, diagonal, correct, limits);
+  return repair(graph, S, by_diagonal(std::move(diagonal)), correct, limits);
 }
 
 ClosureRepair repair_closure_pairs(PairGraph& graph,
@@ -260,7 +269,13 @@ ClosureRepair repair_closure_pairs(PairGraph& graph,
       }
     }
   };
-  return repair(graph, S, diagonal, correct, limits);
+  const Preconditioner rough = by_diagonal(std::move(diagonal));
+  const SplineLevels smooth(graph, k, inverse);
+  const Preconditioner precondition = [&](const Field& r, Field& z) {
+    rough(r, z);
+    smooth.add(r, z);
+  };
+  return repair(graph, S, precondition, correct, limits);
 }
 
 }  // namespace diptych::scheme

@@ -1,6 +1,6 @@
 #pragma once
 /// Neo-Hookean materials split into an isochoric and a volumetric part (benchmarks of the public
-/// toolkits; not polyconvex term by term):
+/// toolkits; polyconvex, since J^(-2/3) F:F is jointly convex in F and J):
 ///   W = mu/2 (J^(-2/3) F:F - 3) + U(J),
 ///   U = kappa/2 (J - 1)^2                    (pressure kappa (J - 1)), or
 ///   U = kappa/4 (J^2 - 1 - 2 ln J)           (J U' = kappa/2 (J^2 - 1)).

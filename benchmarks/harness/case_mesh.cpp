@@ -1,0 +1,100 @@
+#include "benchmarks/harness/case_mesh.hpp"
+
+#include "common/base/error.hpp"
+#include "common/run/case_reader.hpp"
+#include "meshes/generators.hpp"
+#include "meshes/gmsh.hpp"
+#include "meshes/renumber.hpp"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <map>
+#include <numeric>
+
+namespace diptych::harness {
+
+namespace {
+
+meshes::Mesh box_of(const run::MeshCase& box, int level) {
+  static const std::map<std::string, meshes::CellType> types{
+      {"hexahedron", meshes::CellType::hexahedron},
+      {"tetrahedron", meshes::CellType::tetrahedron},
+      {"quadrilateral", meshes::CellType::quadrilateral},
+      {"triangle", meshes::CellType::triangle}};
+  std::array<int, 3> cells = box.cells;
+  for (int& n : cells) {
+    if (level > 20 || (static_cast<std::int64_t>(n) << level) > 1'000'000) {
+      throw base::InputError(fmt::format(
+          "level {} of {} cells along a side is out of reach; use a smaller --level", level, n));
+    }
+    n <<= level;
+  }
+  return meshes::box(types.at(box.element), box.lower, box.upper, cells);
+}
+
+meshes::Mesh file_mesh(const run::Case& setup, int level, const std::string& work_directory) {
+  const std::filesystem::path path = setup.mesh.file;
+  if (!std::filesystem::exists(path)) {
+    throw base::InputError(
+        fmt::format("{}: mesh.file '{}' does not exist", setup.file, path.string()));
+  }
+  if (path.extension() == ".geo") {
+    return meshes::mesh_geo(path.string(), run::dimension_of(setup.mesh),
+                            std::ldexp(setup.mesh.size, -level), work_directory);
+  }
+  if (level != 0) {
+    throw base::InputError(fmt::format(
+        "{}: a .msh file has one level; give a .geo file and mesh.size to refine, or use --level 0",
+        path.string()));
+  }
+  return meshes::read_msh(path.string());
+}
+
+}  // namespace
+
+CaseMesh mesh_of(const run::Case& setup, int level, const std::string& work_directory) {
+  if (level < 0) throw base::InputError(fmt::format("--level {} must not be negative", level));
+  CaseMesh result;
+  if (setup.mesh.file.empty()) {
+    result.mesh = box_of(setup.mesh, level);
+  } else {
+    result.mesh = file_mesh(setup, level, work_directory);
+  }
+  if (setup.mesh.perturbation > 0) {
+    meshes::perturb_interior(result.mesh, setup.mesh.perturbation, setup.mesh.seed + level);
+  }
+  meshes::check_cells(result.mesh, setup.mesh.file.empty() ? setup.name : setup.mesh.file);
+  if (setup.mesh.file.empty()) {
+    result.order.resize(result.mesh.nodes.size());
+    std::iota(result.order.begin(), result.order.end(), 0);
+  } else {
+    result.order = meshes::rcm_order(result.mesh);
+    result.mesh = meshes::renumbered(result.mesh, result.order);
+  }
+  return result;
+}
+
+io::VisualMesh visual_mesh(const CaseMesh& mesh) {
+  static const std::map<meshes::CellType, std::uint8_t> vtk_type{
+      {meshes::CellType::triangle, 5},
+      {meshes::CellType::quadrilateral, 9},
+      {meshes::CellType::tetrahedron, 10},
+      {meshes::CellType::hexahedron, 12},
+      {meshes::CellType::prism, 13}};
+  io::VisualMesh visual;
+  visual.points.resize(3 * mesh.mesh.nodes.size());
+  for (size_t a = 0; a < mesh.mesh.nodes.size(); ++a) {
+    for (int i = 0; i < 3; ++i)
+      visual.points[3 * mesh.order[a] + i] = mesh.mesh.nodes[a][i];
+  }
+  for (const std::int32_t node : mesh.mesh.cell_nodes) {
+    visual.connectivity.push_back(mesh.order[node]);
+  }
+  visual.offsets.assign(mesh.mesh.cell_offsets.begin(), mesh.mesh.cell_offsets.end());
+  for (const meshes::CellType type : mesh.mesh.cell_types) {
+    visual.types.push_back(vtk_type.at(type));
+  }
+  return visual;
+}
+
+}  // namespace diptych::harness

@@ -1,0 +1,60 @@
+#include "benchmarks/harness/provenance.hpp"
+
+#include <ctime>
+#include <fstream>
+#include <string>
+
+namespace diptych::harness {
+
+namespace {
+
+/// The value of "key : value" in a file of the proc file system.
+std::string value_of(const std::string& path, const std::string& key) {
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind(key, 0) != 0) continue;
+    const size_t colon = line.find(':');
+    const size_t first = line.find_first_not_of(" \t", colon + 1);
+    return first == std::string::npos ? "" : line.substr(first);
+  }
+  return "unknown";
+}
+
+std::string instruction_set() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("x86-64-v4")) return "x86-64-v4";
+  if (__builtin_cpu_supports("x86-64-v3")) return "x86-64-v3";
+  return "x86-64";
+#else
+  return "generic";
+#endif
+}
+
+}  // namespace
+
+io::Provenance provenance(const std::string& case_hash) {
+  io::Provenance p;
+  p.version = DIPTYCH_VERSION;
+  p.commit = DIPTYCH_COMMIT;
+  p.compiler = "GCC " __VERSION__;
+  p.flags = DIPTYCH_FLAGS;
+  p.cpu = value_of("/proc/cpuinfo", "model name");
+  p.instruction_set = instruction_set();
+  const std::time_t now = std::time(nullptr);
+  char date[32];
+  std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+  p.date = date;
+  p.case_hash = case_hash;
+  return p;
+}
+
+std::int64_t peak_rss_bytes() {
+  const std::string text = value_of("/proc/self/status", "VmHWM");
+  return text == "unknown" ? 0 : std::stoll(text) * 1024;
+}
+
+void reset_peak_rss() {
+  std::ofstream("/proc/self/clear_refs") << "5";
+}
+
+}  // namespace diptych::harness

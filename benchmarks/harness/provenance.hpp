@@ -1,0 +1,14 @@
+#pragma once
+/// Where a result comes from: version, commit, compiler, processor; and what the process used.
+
+#include "common/io/run_record.hpp"
+
+namespace diptych::harness {
+
+io::Provenance provenance(const std::string& case_hash);
+
+/// Largest resident set since the last reset (Linux), bytes.
+std::int64_t peak_rss_bytes();
+void reset_peak_rss();
+
+}  // namespace diptych::harness

@@ -1,0 +1,321 @@
+#include "benchmarks/harness/run_case.hpp"
+
+#include "benchmarks/harness/backends.hpp"
+#include "benchmarks/harness/progress.hpp"
+#include "benchmarks/harness/provenance.hpp"
+#include "common/base/error.hpp"
+#include "common/parallel/for_chunks.hpp"
+#include "common/run/exact_errors.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace diptych::harness {
+
+namespace {
+
+volatile std::sig_atomic_t interrupt_flag = 0;
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Budget of a run relative to the largest energy that it has held.
+class EnergyRecord {
+ public:
+  explicit EnergyRecord(const scheme::Balance& initial)
+      : initial_(initial.kinetic + initial.strain), scale_(initial_) {}
+
+  io::EnergySummary at(const scheme::Balance& now, const scheme::Audit& audit) {
+    io::EnergySummary e;
+    e.kinetic = now.kinetic;
+    e.strain = now.strain;
+    e.external_work = audit.external_work;
+    e.numerical_dissipation = audit.numerical_dissipation;
+    e.viscous_dissipation = audit.viscous_dissipation;
+    scale_ = std::max({scale_, now.kinetic + now.strain, std::abs(audit.external_work)});
+    const double residual = now.kinetic + now.strain - initial_ - audit.external_work +
+                            audit.numerical_dissipation + audit.viscous_dissipation;
+    e.relative_residual = scale_ > 0 ? residual / scale_ : residual;
+    return e;
+  }
+
+ private:
+  double initial_, scale_;
+};
+
+/// Writes, counts and measures at the output times of a run.
+class Recorder {
+ public:
+  Recorder(const run::Case& setup,
+           const RunOptions& options,
+           const run::Solver& solver,
+           RunResult& result)
+      : setup_(setup),
+        options_(options),
+        solver_(solver),
+        result_(result),
+        errors_(setup, result.graph, solver),
+        initial_(solver.balance()),
+        energy_(initial_) {
+    if (!options.directory.empty() && options.fields && setup.output.fields) {
+      writer_ = std::make_unique<io::FieldWriter>(options.directory, visual_mesh(result.mesh));
+    }
+  }
+
+  void record(const run::StepReport& step) {
+    const scheme::Balance balance = solver_.balance();
+    const scheme::Audit& audit = solver_.audit();
+    io::HistoryRow row;
+    row.time = solver_.time();
+    row.step = step.step;
+    row.dt = step.dt;
+    row.energy = energy_.at(balance, audit);
+    for (int i = 0; i < 3; ++i) {
+      row.linear_momentum[i] = balance.linear_momentum[i];
+      row.angular_momentum[i] = balance.angular_momentum[i];
+    }
+    row.min_jacobian = balance.least_J;
+    row.involution_H = balance.involution_H;
+    row.involution_J = balance.involution_J;
+    result_.history.push_back(row);
+    update_drifts(balance, audit);
+    const bool last = solver_.time() >= setup_.time.end;
+    if (!errors_.available() && !writer_ && !last) return;
+    run::Snapshot snapshot = solver_.snapshot();
+    if (errors_.available()) errors_.measure(snapshot);
+    if (writer_) write_fields(snapshot);
+    result_.final_state = std::move(snapshot);
+  }
+
+  double energy_residual() {
+    return energy_.at(solver_.balance(), solver_.audit()).relative_residual;
+  }
+
+  void fill(io::RunSummary& s) const {
+    s.errors = errors_.relative();
+    s.energy = result_.history.back().energy;
+    s.linear_momentum_drift = linear_drift_;
+    s.angular_momentum_drift = angular_drift_;
+  }
+
+ private:
+  /// Change of momentum beyond the impulse of loads and constraints, relative to sum |p|.
+  void update_drifts(const scheme::Balance& now, const scheme::Audit& audit) {
+    momentum_scale_ = std::max(momentum_scale_, now.momentum_scale);
+    angular_scale_ = std::max(angular_scale_, now.angular_scale);
+    const auto drift = [](const algebra::Vec3& p, double scale) {
+      return scale > 0 ? p.norm() / scale : 0;
+    };
+    linear_drift_ = drift(now.linear_momentum - initial_.linear_momentum - audit.impulse.linear,
+                          momentum_scale_);
+    angular_drift_ = drift(now.angular_momentum - initial_.angular_momentum - audit.impulse.angular,
+                           angular_scale_);
+  }
+
+  void write_fields(const run::Snapshot& s) {
+    const auto& order = result_.mesh.order;
+    const auto vectors = [&](const std::string& name, const std::vector<algebra::Vec3>& field) {
+      io::NodeField f{name, 3, std::vector<double>(3 * field.size())};
+      for (size_t a = 0; a < field.size(); ++a) {
+        for (int i = 0; i < 3; ++i)
+          f.values[3 * order[a] + i] = field[a][i];
+      }
+      return f;
+    };
+    const auto tensors = [&](const std::string& name, const std::vector<run::Mat3>& field) {
+      io::NodeField f{name, 9, std::vector<double>(9 * field.size())};
+      for (size_t a = 0; a < field.size(); ++a) {
+        for (int k = 0; k < 9; ++k)
+          f.values[9 * order[a] + k] = field[a](k / 3, k % 3);
+      }
+      return f;
+    };
+    io::NodeField J{"jacobian [-]", 1, std::vector<double>(s.J.size())};
+    io::NodeField pressure{"pressure [Pa]", 1, std::vector<double>(s.J.size())};
+    for (size_t a = 0; a < s.J.size(); ++a) {
+      J.values[order[a]] = s.J[a];
+      // p = -1/3 tr sigma, sigma = P F^T / J
+      pressure.values[order[a]] = -(s.P[a] * s.F[a].transpose()).trace() / (3 * s.J[a]);
+    }
+    const std::vector<io::NodeField> fields{vectors("displacement [m]", s.u),
+                                            vectors("velocity [m/s]", s.v),
+                                            tensors("deformation_gradient [-]", s.F),
+                                            tensors("first_piola_stress [Pa]", s.P),
+                                            std::move(J),
+                                            std::move(pressure)};
+    writer_->write(s.time, fields);
+  }
+
+  const run::Case& setup_;
+  const RunOptions& options_;
+  const run::Solver& solver_;
+  RunResult& result_;
+  run::ExactErrors errors_;
+  scheme::Balance initial_;
+  EnergyRecord energy_;
+  std::unique_ptr<io::FieldWriter> writer_;
+  double momentum_scale_ = 0, angular_scale_ = 0, linear_drift_ = 0, angular_drift_ = 0;
+};
+
+void describe_graph(const scheme::PairGraph& graph, io::RunSummary& s) {
+  const scheme::GraphQuality q = scheme::quality(graph);
+  s.nodes = graph.n_nodes();
+  s.pairs = graph.n_pairs();
+  s.dimension = graph.dimension;
+  s.mean_neighbours = q.mean_neighbours;
+  s.graph_closure = q.closure;
+  s.graph_linear_exactness = q.linear_exactness;
+  double volume = 0;
+  for (const double Omega : graph.Omega)
+    volume += Omega;
+  s.spacing = std::pow(volume / static_cast<double>(graph.n_nodes()), 1.0 / graph.dimension);
+}
+
+/// Steps to the end; time in the loop without output is summed in s.loop_seconds.
+void advance(const run::Case& setup,
+             const RunOptions& options,
+             run::Solver& solver,
+             Recorder& recorder,
+             io::RunSummary& s) {
+  Progress progress(fmt::format("{} level {}", options.method, options.level), setup.time.end,
+                    options.quiet);
+  run::StepReport report;
+  report.step = 0;
+  recorder.record(report);
+  s.dt_min = 1e300;
+  s.min_jacobian = 1e300;
+  for (int frame = 1; frame <= setup.output.frames; ++frame) {
+    const bool final_frame = frame == setup.output.frames;
+    const double limit =
+        final_frame ? setup.time.end : setup.time.end * frame / setup.output.frames;
+    while (solver.time() < limit && !interrupt_requested()) {
+      const auto start = Clock::now();
+      report = solver.step(limit);
+      s.loop_seconds += seconds_since(start);
+      s.steps = report.step;
+      s.dt_min = std::min(s.dt_min, report.dt);
+      s.dt_max = std::max(s.dt_max, report.dt);
+      s.min_jacobian = std::min(s.min_jacobian, report.least_J);
+      if (progress.due(solver.time())) {
+        progress.show(solver.time(), report.step, report.dt, recorder.energy_residual());
+      }
+      if (setup.time.max_steps > 0 && report.step >= setup.time.max_steps) break;
+    }
+    recorder.record(report);
+    if (interrupt_requested()) s.status = "interrupted";
+    if (setup.time.max_steps > 0 && report.step >= setup.time.max_steps &&
+        solver.time() < setup.time.end) {
+      s.status = "step limit";
+    }
+    if (s.status != "done") break;
+  }
+}
+
+void write_record(const RunOptions& options, const RunResult& result) {
+  if (options.directory.empty()) return;
+  const std::filesystem::path directory = options.directory;
+  io::write_file_atomically((directory / "history.csv").string(),
+                            io::history_csv(result.history, {}));
+  io::write_file_atomically((directory / "summary.json").string(), io::to_json(result.summary));
+}
+
+}  // namespace
+
+void request_interrupt() {
+  interrupt_flag = 1;
+}
+
+bool interrupt_requested() {
+  return interrupt_flag != 0;
+}
+
+void claim_directory(const std::string& directory) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path path = directory;
+  if (fs::exists(path, error)) {
+    if (!fs::is_directory(path, error)) {
+      throw base::InputError(directory + ": is not a folder; give another --out");
+    }
+    if (!fs::is_empty(path, error) && !fs::exists(path / "summary.json")) {
+      throw base::InputError(directory +
+                             ": holds files that no run of diptych made; give another --out");
+    }
+  }
+  fs::create_directories(path, error);
+  if (error) {
+    throw base::EnvironmentError(directory + ": cannot be created: " + error.message());
+  }
+}
+
+RunResult run_case(const run::Case& setup, const RunOptions& options) {
+  const auto start = Clock::now();
+  reset_peak_rss();
+  parallel::set_threads(options.threads);
+  RunResult result;
+  io::RunSummary& s = result.summary;
+  result.mesh = mesh_of(setup, options.level, std::filesystem::temp_directory_path().string());
+  result.graph = method_menu().at(options.method)(result.mesh.mesh, setup);
+  scheme::validate(result.graph);
+  const auto solver = run::make_solver(setup, result.graph);
+  if (!options.directory.empty()) claim_directory(options.directory);
+  s.method = options.method;
+  s.case_name = setup.name;
+  s.title = setup.title;
+  s.level = options.level;
+  s.threads = parallel::n_threads();
+  s.integrator = setup.time.integrator;
+  s.unknowns_per_node = solver->unknowns_per_node();
+  s.provenance = provenance(setup.hash);
+  describe_graph(result.graph, s);
+  Recorder recorder(setup, options, *solver, result);
+  s.setup_seconds = seconds_since(start);
+  const auto finish = [&] {
+    s.stages = s.steps * solver->evaluations_per_step();
+    s.end_time = solver->time();
+    s.wall_seconds = seconds_since(start);
+    s.peak_rss_bytes = peak_rss_bytes();
+    if (s.stages > 0) {
+      s.nanoseconds_per_node_stage =
+          1e9 * s.loop_seconds / (static_cast<double>(s.stages) * static_cast<double>(s.nodes));
+    }
+    s.state_hash = solver->state_hash(result.mesh.order);
+    recorder.fill(s);
+    write_record(options, result);
+  };
+  try {
+    advance(setup, options, *solver, recorder, s);
+  } catch (const base::BreakdownError& error) {
+    s.status = "breakdown";
+    finish();
+    throw base::BreakdownError(
+        fmt::format("{} level {}: {}", options.method, options.level, error.what()));
+  }
+  finish();
+  return result;
+}
+
+CaseCheck check_case(const run::Case& setup, const std::string& method, int level) {
+  CaseCheck check;
+  const CaseMesh mesh = mesh_of(setup, level, std::filesystem::temp_directory_path().string());
+  const scheme::PairGraph graph = method_menu().at(method)(mesh.mesh, setup);
+  scheme::validate(graph);
+  check.quality = scheme::quality(graph);
+  check.nodes = graph.n_nodes();
+  check.cells = mesh.mesh.n_cells();
+  check.pairs = graph.n_pairs();
+  const auto solver = run::make_solver(setup, graph);
+  check.bytes = solver->bytes();
+  const run::StepReport report = solver->step(setup.time.end);
+  check.dt = report.dt;
+  check.steps = static_cast<std::int64_t>(std::ceil(setup.time.end / report.dt - 1e-9));
+  return check;
+}
+
+}  // namespace diptych::harness

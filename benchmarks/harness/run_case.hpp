@@ -1,0 +1,52 @@
+#pragma once
+/// One run of one method on one level of a case: mesh, graph, solver, output, summary.
+
+#include "benchmarks/harness/case_mesh.hpp"
+#include "common/io/run_record.hpp"
+#include "common/run/case.hpp"
+#include "common/run/solver.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace diptych::harness {
+
+struct RunOptions {
+  std::string method = "fvm";
+  int level = 0;
+  int threads = 0;        ///< 0: all processors
+  std::string directory;  ///< of this run; empty: nothing is written
+  bool fields = true;     ///< write field frames (besides output.fields of the case)
+  bool quiet = false;     ///< no progress
+};
+
+struct RunResult {
+  io::RunSummary summary;
+  std::vector<io::HistoryRow> history;
+  run::Snapshot final_state;  ///< in the numbering of `mesh`
+  CaseMesh mesh;
+  scheme::PairGraph graph;
+};
+
+/// @throws base::InputError, base::EnvironmentError before anything is written;
+///         base::BreakdownError after the summary with status "breakdown" has been written
+RunResult run_case(const run::Case& setup, const RunOptions& options);
+
+/// What `diptych check` tells of a case without running it.
+struct CaseCheck {
+  std::int64_t nodes = 0, cells = 0, pairs = 0, steps = 0, bytes = 0;
+  double dt = 0;  ///< s, of the first step
+  scheme::GraphQuality quality;
+};
+CaseCheck check_case(const run::Case& setup, const std::string& method, int level);
+
+/// Set by a signal handler: the run ends its step, writes what there is, status "interrupted".
+void request_interrupt();
+bool interrupt_requested();
+
+/// Creates DIR for a run, or takes one that an earlier run made (it has a summary.json).
+/// @throws base::EnvironmentError where it cannot, base::InputError where it holds something else
+void claim_directory(const std::string& directory);
+
+}  // namespace diptych::harness

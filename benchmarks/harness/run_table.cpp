@@ -1,0 +1,32 @@
+#include "benchmarks/harness/run_table.hpp"
+
+#include <fmt/format.h>
+
+namespace diptych::harness {
+
+std::string run_table(const io::RunSummary& s) {
+  std::string text =
+      fmt::format("{} level {}: {} nodes, {} pairs ({:.1f} a node), {} unknowns a node\n", s.method,
+                  s.level, s.nodes, s.pairs, s.mean_neighbours, s.unknowns_per_node);
+  text += fmt::format(
+      "  {} steps of {}, dt {:.3g} to {:.3g} s; {:.2f} s in the loop, {:.0f} ns per node and stage "
+      "({} {})\n",
+      s.steps, s.integrator, s.dt_min, s.dt_max, s.loop_seconds, s.nanoseconds_per_node_stage,
+      s.threads, s.threads == 1 ? "thread" : "threads");
+  if (!s.errors.empty()) {
+    text += "  relative L2 errors:";
+    for (const auto& [name, norms] : s.errors)
+      text += fmt::format("  {} {:.3e}", name, norms.l2);
+    text += "\n";
+  }
+  text += fmt::format(
+      "  energy: kinetic {:.4g}, strain {:.4g}, work {:.4g}, viscous {:.4g}, numerical {:.4g} J; "
+      "residual {:.1e}\n",
+      s.energy.kinetic, s.energy.strain, s.energy.external_work, s.energy.viscous_dissipation,
+      s.energy.numerical_dissipation, s.energy.relative_residual);
+  text += fmt::format("  status {}, least J {:.6f}, state {}\n", s.status, s.min_jacobian,
+                      s.state_hash);
+  return text;
+}
+
+}  // namespace diptych::harness

@@ -1,0 +1,88 @@
+#include "benchmarks/harness/study.hpp"
+
+#include "common/base/text.hpp"
+#include "common/run/exact_errors.hpp"
+
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace diptych::harness {
+
+namespace {
+
+/// Differences of the final states of two runs on the same nodes.
+std::map<std::string, double> differences_of(const RunResult& a, const RunResult& b) {
+  const auto deviation = [](std::vector<run::Mat3> F) {
+    for (run::Mat3& M : F)
+      M -= run::Mat3::Identity();
+    return F;
+  };
+  const run::Snapshot &s = a.final_state, &t = b.final_state;
+  if (s.u.empty() || t.u.empty()) return {};
+  return {
+      {"displacement", run::relative_difference(a.graph, s.u, t.u)},
+      {"velocity", run::relative_difference(a.graph, s.v, t.v)},
+      {"deformation_gradient", run::relative_difference(a.graph, deviation(s.F), deviation(t.F))},
+      {"stress", run::relative_difference(a.graph, s.P, t.P)}};
+}
+
+std::string run_directory(const StudyOptions& options, int level, const std::string& method) {
+  if (options.directory.empty()) return {};
+  std::filesystem::path path = options.directory;
+  if (options.levels.size() > 1) path /= fmt::format("level_{}", level);
+  return (path / method).string();
+}
+
+}  // namespace
+
+Study run_study(const run::Case& setup, const StudyOptions& options) {
+  Study study;
+  for (const int level : options.levels) {
+    std::vector<RunResult> results;
+    for (const std::string& method : options.methods) {
+      RunOptions run_options;
+      run_options.method = method;
+      run_options.level = level;
+      run_options.threads = options.threads;
+      run_options.directory = run_directory(options, level, method);
+      run_options.fields = options.fields;
+      run_options.quiet = options.quiet;
+      results.push_back(run_case(setup, run_options));
+      study.runs.push_back(results.back().summary);
+      study.histories[method] = results.back().history;
+      if (interrupt_requested()) return study;
+    }
+    if (results.size() == 2) study.differences = differences_of(results[0], results[1]);
+  }
+  return study;
+}
+
+std::vector<std::string> material_lines(const run::MaterialCase& m) {
+  std::vector<std::string> lines{
+      fmt::format("{}, density {:g} kg/m^3", m.model, m.density),
+      fmt::format("mu = {:g} Pa, lambda = {:g} Pa", m.shear_modulus, m.lame)};
+  if (m.zeta_ratio > 0) lines.push_back(fmt::format("zeta / (xi + zeta) = {:g}", m.zeta_ratio));
+  for (size_t k = 0; k < m.branches.size(); ++k) {
+    const run::BranchCase& b = m.branches[k];
+    std::string line = fmt::format("branch {}:", k + 1);
+    if (b.beta_C > 0) line += fmt::format(" beta_C = {:g}, tau_C = {:g} s", b.beta_C, b.tau_C);
+    if (b.beta_G > 0) line += fmt::format(" beta_G = {:g}, tau_G = {:g} s", b.beta_G, b.tau_G);
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+report::StudyReport report_of(const run::Case& setup, const Study& study) {
+  report::StudyReport report;
+  report.title = setup.title.empty() ? setup.name : setup.title;
+  report.description =
+      fmt::format("Case {}{}", setup.name,
+                  setup.overrides.empty() ? "" : ", with " + base::joined(setup.overrides));
+  report.material = material_lines(setup.material);
+  report.runs = study.runs;
+  report.histories = study.histories;
+  report.differences = study.differences;
+  return report;
+}
+
+}  // namespace diptych::harness

@@ -1,0 +1,27 @@
+#pragma once
+/// Results as text for a terminal: at most 100 columns, aligned, units in the headings, plain
+/// ASCII. What is missing is "-". Test: tests/report/tables_test.cpp
+
+#include "common/io/run_record.hpp"
+#include "postprocess/report/orders.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace diptych::harness {
+
+using report::observed_order;
+
+/// Both methods beside each other with the ratio SPH / FVM: size, steps, cost, relative L2 errors
+/// of each field, energy residual.
+/// @param difference field: relative L2 difference of the two runs at the nodes
+std::string comparison_table(const io::RunSummary& sph,
+                             const io::RunSummary& fvm,
+                             const std::map<std::string, double>& difference);
+
+/// One row per level, coarse to fine: relative L2 errors and the order observed between a level and
+/// the one before it, by spacing. A block for each method, and for each four fields.
+std::string convergence_table(const std::vector<io::RunSummary>& levels);
+
+}  // namespace diptych::harness

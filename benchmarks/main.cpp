@@ -1,0 +1,224 @@
+/// The command line. Verbs and exit codes are contracts; see README.md.
+
+#include "benchmarks/harness/backends.hpp"
+#include "benchmarks/harness/case_list.hpp"
+#include "benchmarks/harness/run_table.hpp"
+#include "benchmarks/harness/study.hpp"
+
+#include <algorithm>
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <new>
+#if __has_include("benchmarks/harness/tables.hpp")
+#include "benchmarks/harness/tables.hpp"
+#else
+namespace diptych::harness {
+inline std::string comparison_table(const io::RunSummary& a,
+                                    const io::RunSummary& b,
+                                    const std::map<std::string, double>&) {
+  return run_table(a) + run_table(b);
+}
+inline std::string convergence_table(const std::vector<io::RunSummary>& l) {
+  std::string s;
+  for (auto& x : l)
+    s += run_table(x);
+  return s;
+}
+}  // namespace diptych::harness
+#endif
+#include "common/base/error.hpp"
+#include "common/run/case_keys.hpp"
+#include "common/run/case_reader.hpp"
+
+namespace {
+
+using namespace diptych;
+
+struct Arguments {
+  std::string case_name, method = "both", directory, key;
+  std::vector<std::string> overrides;
+  int level = 0, levels = 3, threads = 0;
+  bool quiet = false, no_fields = false;
+};
+
+void print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+}
+
+std::vector<std::string> methods_of(const std::string& method) {
+  if (method == "both") return harness::method_menu().names();
+  harness::method_menu().at(method);
+  return {method};
+}
+
+run::Case case_of(const Arguments& arguments) {
+  return run::read_case(harness::find_case(arguments.case_name), arguments.overrides);
+}
+
+std::string directory_of(const Arguments& arguments, const run::Case& setup) {
+  if (!arguments.directory.empty()) return arguments.directory;
+  return (std::filesystem::path("results") / setup.name).string();
+}
+
+harness::StudyOptions study_options(const Arguments& arguments, const run::Case& setup) {
+  harness::StudyOptions options;
+  options.methods = methods_of(arguments.method);
+  options.levels = {arguments.level};
+  options.threads = arguments.threads;
+  options.directory = directory_of(arguments, setup);
+  options.fields = !arguments.no_fields;
+  options.quiet = arguments.quiet;
+  return options;
+}
+
+int exit_code_of_study() {
+  if (!harness::interrupt_requested()) return 0;
+  std::fputs("diptych: interrupted; what had been computed is written\n", stderr);
+  return static_cast<int>(base::ExitCode::interrupted);
+}
+
+void write_report(const run::Case& setup, const harness::Study& study, const std::string& dir) {
+  const std::string path = (std::filesystem::path(dir) / "report.html").string();
+  report::write_report(path, harness::report_of(setup, study));
+  print(fmt::format("\nreport: {}\n", path));
+}
+
+int run_verb(const Arguments& arguments) {
+  const run::Case setup = case_of(arguments);
+  const auto options = study_options(arguments, setup);
+  const harness::Study study = harness::run_study(setup, options);
+  for (const auto& summary : study.runs)
+    print(harness::run_table(summary) + "\n");
+  print(fmt::format("output: {}\n", options.directory));
+  return exit_code_of_study();
+}
+
+int compare_verb(Arguments arguments) {
+  arguments.method = "both";
+  const run::Case setup = case_of(arguments);
+  const auto options = study_options(arguments, setup);
+  const harness::Study study = harness::run_study(setup, options);
+  if (study.runs.size() == 2) {
+    print(harness::comparison_table(study.runs[0], study.runs[1], study.differences));
+    write_report(setup, study, options.directory);
+  }
+  return exit_code_of_study();
+}
+
+int converge_verb(const Arguments& arguments) {
+  if (arguments.levels < 2) throw base::InputError("--levels must be 2 or more");
+  const run::Case setup = case_of(arguments);
+  auto options = study_options(arguments, setup);
+  options.fields = false;
+  options.levels.clear();
+  for (int k = 0; k < arguments.levels; ++k)
+    options.levels.push_back(arguments.level + k);
+  const harness::Study study = harness::run_study(setup, options);
+  for (const std::string& method : options.methods) {
+    std::vector<io::RunSummary> levels;
+    for (const auto& run : study.runs) {
+      if (run.method == method) levels.push_back(run);
+    }
+    if (!levels.empty()) print(harness::convergence_table(levels) + "\n");
+  }
+  if (!study.runs.empty()) write_report(setup, study, options.directory);
+  return exit_code_of_study();
+}
+
+int check_verb(const Arguments& arguments) {
+  const run::Case setup = case_of(arguments);
+  for (const std::string& method : methods_of(arguments.method)) {
+    const auto check = harness::check_case(setup, method, arguments.level);
+    print(fmt::format(
+        "{:4} {} nodes, {} cells, {} pairs ({:.1f} a node, least {}), linear exactness {:.1e}, "
+        "closure {:.1e}\n     first dt {:.4g} s, about {} steps, {:.1f} MB ({:.2f} kB a node)\n",
+        method, check.nodes, check.cells, check.pairs, check.quality.mean_neighbours,
+        check.quality.least_neighbours, check.quality.linear_exactness, check.quality.closure,
+        check.dt, check.steps, 1e-6 * static_cast<double>(check.bytes),
+        1e-3 * static_cast<double>(check.bytes) / static_cast<double>(check.nodes)));
+  }
+  print(setup.name + ": the case is sound\n");
+  return 0;
+}
+
+int list_verb() {
+  for (const auto& [name, title] : harness::shipped_cases()) {
+    print(fmt::format("{:<32} {}\n", name, title));
+  }
+  return 0;
+}
+
+int explain_verb(const Arguments& arguments) {
+  print(arguments.key == "all" ? run::reference_page() : run::explain(arguments.key));
+  return 0;
+}
+
+void add_case_options(CLI::App* verb, Arguments& arguments, bool with_method) {
+  verb->add_option("case", arguments.case_name, "path of a case file, or a name of 'list'")
+      ->required();
+  if (with_method) verb->add_option("--method", arguments.method, "sph, fvm or both");
+  verb->add_option("--level", arguments.level, "the mesh spacing is divided by 2^level");
+  verb->add_option("--threads", arguments.threads, "0: all processors");
+  verb->add_option("--set", arguments.overrides, "key=value, overrides the case file; repeatable")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  verb->add_option("--out", arguments.directory, "output folder (default results/CASE)");
+  verb->add_flag("--quiet", arguments.quiet, "no progress");
+  verb->add_flag("--no-fields", arguments.no_fields, "write no field frames");
+}
+
+int dispatch(int argc, char** argv) {
+  CLI::App app{"Diptych: one large-strain solid-dynamics scene on SPH and finite volumes"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("diptych ") + DIPTYCH_VERSION);
+  Arguments arguments;
+  auto* run = app.add_subcommand("run", "run a case with one method or both");
+  add_case_options(run, arguments, true);
+  auto* compare =
+      app.add_subcommand("compare", "run both methods, print and report the difference");
+  add_case_options(compare, arguments, false);
+  auto* converge = app.add_subcommand("converge", "run levels, print errors and observed orders");
+  add_case_options(converge, arguments, true);
+  converge->add_option("--levels", arguments.levels, "number of levels, from --level on");
+  auto* check = app.add_subcommand("check", "read a case, build its graphs and make one step");
+  add_case_options(check, arguments, true);
+  auto* list = app.add_subcommand("list", "shipped cases");
+  auto* explain = app.add_subcommand("explain", "what a key of a case file means");
+  explain->add_option("key", arguments.key, "such as mesh.cells; 'all' prints the reference page")
+      ->required();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    throw base::InputError(std::string(error.what()) + "; see diptych --help");
+  }
+  if (run->parsed()) return run_verb(arguments);
+  if (compare->parsed()) return compare_verb(arguments);
+  if (converge->parsed()) return converge_verb(arguments);
+  if (check->parsed()) return check_verb(arguments);
+  if (list->parsed()) return list_verb();
+  if (explain->parsed()) return explain_verb(arguments);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGINT, [](int) { harness::request_interrupt(); });
+  std::signal(SIGTERM, [](int) { harness::request_interrupt(); });
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    return dispatch(argc, argv);
+  } catch (const base::Error& error) {
+    std::fputs(fmt::format("diptych: {}\n", error.what()).c_str(), stderr);
+    return static_cast<int>(error.code());
+  } catch (const std::bad_alloc&) {
+    std::fputs("diptych: out of memory; use a smaller --level\n", stderr);
+    return static_cast<int>(base::ExitCode::environment);
+  }
+}

@@ -1,0 +1,38 @@
+# Debian packages of Diptych and how to get them. Sourced by benchmarks/quickstart, tests/run and
+# .ci/run; defines need_packages.
+
+packages_build="g++ cmake ninja-build pkg-config libeigen3-dev libhdf5-dev libtomlplusplus-dev
+  libmuparser-dev libcli11-dev libfmt-dev nlohmann-json3-dev libxxhash-dev"
+packages_report="libjs-chart.js"
+packages_tests="libgtest-dev libgmock-dev gmsh"
+packages_format="clang-format-14"
+
+# need_packages PACKAGE...: installs those that are missing; says which, and where it may not, what
+# to type.
+need_packages() {
+  missing=""
+  for package in "$@"; do
+    status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null)
+    [ "$status" = "install ok installed" ] || missing="$missing $package"
+  done
+  [ -z "$missing" ] && return 0
+  echo "missing Debian packages:$missing"
+  if [ "$(id -u)" = 0 ]; then
+    as_root=""
+  elif command -v sudo >/dev/null 2>&1 && sudo -n true 2>/dev/null; then
+    as_root="sudo"
+  else
+    echo "this needs root: run  sudo apt-get install -y --no-install-recommends$missing  and try again" >&2
+    return 4
+  fi
+  echo "installing them"
+  log=$(mktemp)
+  if ! { $as_root apt-get update && $as_root env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y --no-install-recommends $missing; } >"$log" 2>&1; then
+    tail -n 15 "$log" >&2
+    echo "apt-get failed; the lines above say why" >&2
+    rm -f "$log"
+    return 4
+  fi
+  rm -f "$log"
+}

@@ -1,0 +1,291 @@
+/// summary.json: to_json writes every key of the contract, summary_from_json asks for every one of
+/// them. A number that is not finite is written as null, so that a broken run can still say what it
+/// was; reading null where a number is due is an error, so that no comparison ever uses it. Keys
+/// that this version does not know are left alone: the contract lets later versions add some.
+
+#include "common/io/run_record.hpp"
+
+#include "common/base/error.hpp"
+#include "common/base/text.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace diptych::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json norms_json(const ErrorNorms& norms) {
+  return {{"l1", norms.l1}, {"l2", norms.l2}, {"linf", norms.linf}};
+}
+
+Json energy_json(const EnergySummary& energy) {
+  return {{"kinetic", energy.kinetic},
+          {"strain", energy.strain},
+          {"viscous_dissipation", energy.viscous_dissipation},
+          {"numerical_dissipation", energy.numerical_dissipation},
+          {"external_work", energy.external_work},
+          {"relative_residual", energy.relative_residual}};
+}
+
+Json provenance_json(const Provenance& provenance) {
+  return {{"version", provenance.version},   {"commit", provenance.commit},
+          {"compiler", provenance.compiler}, {"flags", provenance.flags},
+          {"cpu", provenance.cpu},           {"instruction_set", provenance.instruction_set},
+          {"date", provenance.date},         {"case_hash", provenance.case_hash}};
+}
+
+/// An object of the file under its dotted name, so that each complaint can say where it is.
+class Section {
+ public:
+  Section(const Json& object, std::string name, const std::string& path)
+      : object_(object), name_(std::move(name)), path_(path) {
+    if (!object_.is_object()) fail(name_.empty() ? "the file" : name_, "must be an object {...}");
+  }
+
+  double number(const char* key) const {
+    const Json& value = at(key);
+    if (value.is_null()) {
+      fail(full(key), "is null: the run had no finite value here, so it cannot be compared");
+    }
+    if (!value.is_number()) fail(full(key), "must be a number");
+    return value.get<double>();
+  }
+
+  std::int64_t count(const char* key, std::int64_t most) const {
+    const Json& value = at(key);
+    if (!value.is_number_integer()) fail(full(key), "must be a whole number");
+    const bool too_large = value.is_number_unsigned()
+                               ? value.get<std::uint64_t>() > static_cast<std::uint64_t>(most)
+                               : false;
+    if (too_large || value.get<std::int64_t>() < 0) {
+      fail(full(key), fmt::format("must lie between 0 and {}", most));
+    }
+    return value.get<std::int64_t>();
+  }
+
+  int small_count(const char* key) const {
+    return static_cast<int>(count(key, std::numeric_limits<int>::max()));
+  }
+  std::int64_t large_count(const char* key) const {
+    return count(key, std::numeric_limits<std::int64_t>::max());
+  }
+
+  std::string text(const char* key) const {
+    const Json& value = at(key);
+    if (!value.is_string()) fail(full(key), "must be a text");
+    return value.get<std::string>();
+  }
+
+  Section section(const std::string& key) const { return {at(key), full(key), path_}; }
+
+  std::vector<std::string> keys() const {
+    std::vector<std::string> names;
+    for (const auto& item : object_.items())
+      names.push_back(item.key());
+    return names;
+  }
+
+ private:
+  std::string full(const std::string& key) const { return name_.empty() ? key : name_ + "." + key; }
+
+  [[noreturn]] void fail(const std::string& name, const std::string& what) const {
+    throw base::InputError(fmt::format("{}: {} {}", path_, name, what));
+  }
+
+  const Json& at(const std::string& key) const {
+    const auto found = object_.find(key);
+    if (found == object_.end()) {
+      fail(full(key),
+           "is missing; the file is not a whole summary.json" + base::suggestion(key, keys()));
+    }
+    return *found;
+  }
+
+  const Json& object_;
+  std::string name_;
+  const std::string& path_;
+};
+
+/// JSON allows a key twice and the library keeps the last; a record must mean one thing.
+class DuplicateKeys {
+ public:
+  explicit DuplicateKeys(const std::string& path) : path_(path) {}
+
+  bool operator()(int, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) open_.emplace_back();
+    if (event == Json::parse_event_t::object_end) open_.pop_back();
+    if (event == Json::parse_event_t::key &&
+        !open_.back().insert(parsed.get<std::string>()).second) {
+      throw base::InputError(
+          fmt::format("{}: key '{}' stands twice; remove one", path_, parsed.get<std::string>()));
+    }
+    return true;
+  }
+
+ private:
+  const std::string& path_;
+  std::vector<std::set<std::string>> open_;
+};
+
+/// "path:line:column" of a byte of the text (1-based, as the parser counts).
+std::string place(const std::string& text, const std::string& path, size_t byte) {
+  const size_t end = std::min(text.size(), byte > 0 ? byte - 1 : 0);
+  const auto line =
+      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+  const size_t newline = end > 0 ? text.rfind('\n', end - 1) : std::string::npos;
+  const size_t column = newline == std::string::npos ? end + 1 : end - newline;
+  return fmt::format("{}:{}:{}", path, line, column);
+}
+
+/// The library's "[json.exception...] ..." without its prefix.
+std::string parser_reason(const std::string& what) {
+  const size_t bracket = what.find("] ");
+  return bracket == std::string::npos ? what : what.substr(bracket + 2);
+}
+
+Json parsed(const std::string& text, const std::string& path) {
+  DuplicateKeys duplicates(path);
+  try {
+    return Json::parse(text, [&](int depth, Json::parse_event_t event, Json& value) {
+      return duplicates(depth, event, value);
+    });
+  } catch (const Json::parse_error& error) {
+    throw base::InputError(fmt::format("{}: not valid JSON: {}", place(text, path, error.byte),
+                                       parser_reason(error.what())));
+  } catch (const Json::exception& error) {
+    throw base::InputError(fmt::format("{}: {}", path, parser_reason(error.what())));
+  }
+}
+
+EnergySummary read_energy(const Section& section) {
+  EnergySummary energy;
+  energy.kinetic = section.number("kinetic");
+  energy.strain = section.number("strain");
+  energy.viscous_dissipation = section.number("viscous_dissipation");
+  energy.numerical_dissipation = section.number("numerical_dissipation");
+  energy.external_work = section.number("external_work");
+  energy.relative_residual = section.number("relative_residual");
+  return energy;
+}
+
+Provenance read_provenance(const Section& section) {
+  Provenance provenance;
+  provenance.version = section.text("version");
+  provenance.commit = section.text("commit");
+  provenance.compiler = section.text("compiler");
+  provenance.flags = section.text("flags");
+  provenance.cpu = section.text("cpu");
+  provenance.instruction_set = section.text("instruction_set");
+  provenance.date = section.text("date");
+  provenance.case_hash = section.text("case_hash");
+  return provenance;
+}
+
+void read_size_and_cost(const Section& file, RunSummary& summary) {
+  summary.nodes = file.large_count("nodes");
+  summary.pairs = file.large_count("pairs");
+  summary.unknowns_per_node = file.small_count("unknowns_per_node");
+  summary.steps = file.large_count("steps");
+  summary.stages = file.large_count("stages");
+  summary.threads = file.small_count("threads");
+  summary.ranks = file.small_count("ranks");
+  summary.setup_seconds = file.number("setup_seconds");
+  summary.wall_seconds = file.number("wall_seconds");
+  summary.loop_seconds = file.number("loop_seconds");
+  summary.nanoseconds_per_node_stage = file.number("nanoseconds_per_node_stage");
+  summary.peak_rss_bytes = file.large_count("peak_rss_bytes");
+  summary.dt_min = file.section("dt").number("min");
+  summary.dt_max = file.section("dt").number("max");
+  summary.spacing = file.number("spacing");
+  summary.mean_neighbours = file.number("mean_neighbours");
+}
+
+void read_quality(const Section& file, RunSummary& summary) {
+  const Section graph = file.section("graph");
+  summary.graph_closure = graph.number("closure");
+  summary.graph_linear_exactness = graph.number("linear_exactness");
+  const Section errors = file.section("errors");
+  for (const std::string& field : errors.keys()) {
+    const Section norms = errors.section(field);
+    summary.errors[field] = {norms.number("l1"), norms.number("l2"), norms.number("linf")};
+  }
+  summary.energy = read_energy(file.section("energy"));
+  const Section momentum = file.section("momentum");
+  summary.linear_momentum_drift = momentum.number("linear_drift");
+  summary.angular_momentum_drift = momentum.number("angular_drift");
+  summary.min_jacobian = file.number("min_jacobian");
+  summary.state_hash = file.text("state_hash");
+}
+
+}  // namespace
+
+std::string to_json(const RunSummary& summary) {
+  Json errors = Json::object();
+  for (const auto& [field, norms] : summary.errors)
+    errors[field] = norms_json(norms);
+  const Json file = {
+      {"method", summary.method},
+      {"case", summary.case_name},
+      {"title", summary.title},
+      {"level", summary.level},
+      {"dimension", summary.dimension},
+      {"nodes", summary.nodes},
+      {"pairs", summary.pairs},
+      {"unknowns_per_node", summary.unknowns_per_node},
+      {"steps", summary.steps},
+      {"stages", summary.stages},
+      {"threads", summary.threads},
+      {"ranks", summary.ranks},
+      {"precision", summary.precision},
+      {"integrator", summary.integrator},
+      {"status", summary.status},
+      {"end_time", summary.end_time},
+      {"setup_seconds", summary.setup_seconds},
+      {"wall_seconds", summary.wall_seconds},
+      {"loop_seconds", summary.loop_seconds},
+      {"nanoseconds_per_node_stage", summary.nanoseconds_per_node_stage},
+      {"peak_rss_bytes", summary.peak_rss_bytes},
+      {"dt", {{"min", summary.dt_min}, {"max", summary.dt_max}}},
+      {"spacing", summary.spacing},
+      {"mean_neighbours", summary.mean_neighbours},
+      {"graph",
+       {{"closure", summary.graph_closure}, {"linear_exactness", summary.graph_linear_exactness}}},
+      {"errors", errors},
+      {"energy", energy_json(summary.energy)},
+      {"momentum",
+       {{"linear_drift", summary.linear_momentum_drift},
+        {"angular_drift", summary.angular_momentum_drift}}},
+      {"min_jacobian", summary.min_jacobian},
+      {"state_hash", summary.state_hash},
+      {"provenance", provenance_json(summary.provenance)},
+  };
+  // Texts come from the user's case: bytes that are not UTF-8 become U+FFFD instead of an
+  // exception.
+  return file.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+RunSummary summary_from_json(const std::string& text, const std::string& path) {
+  const Json root = parsed(text, path);
+  const Section file(root, "", path);
+  RunSummary summary;
+  summary.method = file.text("method");
+  summary.case_name = file.text("case");
+  summary.title = file.text("title");
+  summary.level = file.small_count("level");
+  summary.dimension = file.small_count("dimension");
+  summary.precision = file.text("precision");
+  summary.integrator = file.text("integrator");
+  summary.status = file.text("status");
+  summary.end_time = file.number("end_time");
+  read_size_and_cost(file, summary);
+  read_quality(file, summary);
+  summary.provenance = read_provenance(file.section("provenance"));
+  return summary;
+}
+
+}  // namespace diptych::io

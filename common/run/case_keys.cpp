@@ -1,0 +1,240 @@
+/// The table. Explanations and look-ups are in case_explain.cpp.
+
+#include "common/run/case_keys.hpp"
+
+namespace diptych::run {
+
+namespace {
+
+using enum KeyType;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr Range any{};
+constexpr Range above(double least) {
+  return {least, infinite, false, false};
+}
+constexpr Range at_least(double least) {
+  return {least, infinite, true, false};
+}
+constexpr Range between(double least, double most) {
+  return {least, most, true, true};
+}
+constexpr std::string_view required = "required";
+
+// Entries without a menu, with one, and with advice, so that each stays short.
+constexpr Key key(std::string_view path,
+                  KeyType type,
+                  std::string_view unit,
+                  std::string_view standard,
+                  std::string_view need,
+                  Range range,
+                  std::string_view meaning,
+                  std::string_view example,
+                  std::string_view advice = "") {
+  return {path, type, unit, standard, need, range, {}, meaning, example, advice};
+}
+constexpr Key choice(std::string_view path,
+                     std::string_view standard,
+                     std::string_view need,
+                     std::span<const std::string_view> menu,
+                     std::string_view meaning,
+                     std::string_view example) {
+  return {path, name, "-", standard, need, any, menu, meaning, example, ""};
+}
+
+constexpr std::array section_table{
+    Section{"parameters", false,
+            "Numbers with names, in order: each may use the ones before it, all later keys may use "
+            "them in expressions."},
+    Section{"functions.*", false,
+            "A function of time that expressions may use under the name of its section, here "
+            "NAME: zener_mode gives NAME (amplitude q), NAME_dot, NAME_ddot and NAME_1 ... NAME_n "
+            "(branch strains q_a) of rho q'' + k2 [M q + sum M_a (q - q_a)] = 0, "
+            "q_a' = (q - q_a)/tau_a."},
+    Section{"mesh", false, "The body: a box made here, or a mesh file."},
+    Section{"material", false,
+            "The solid; the elastic constants are one pair of youngs_modulus + poissons_ratio, "
+            "shear_modulus + lame, or shear_modulus + bulk_modulus."},
+    Section{"material.branch", true,
+            "A Maxwell branch: xi^a = beta_C xi relaxing with tau_C, zeta^a = beta_G zeta relaxing "
+            "with tau_G; at least one of the two."},
+    Section{"initial", false, "The state at t = 0."},
+    Section{"boundary", true,
+            "A boundary condition on groups of the mesh; what no entry names is free."},
+    Section{"load", false, "Loads on the whole body."},
+    Section{"time", false, "How long and how."},
+    Section{"output", false, "What is written."},
+    Section{"scheme", false, "The scheme that both methods share."},
+    Section{"sph", false, "What only SPH needs."},
+    Section{"fvm", false, "What only the finite volumes need."},
+    Section{"exact", false,
+            "The exact solution; errors are measured against it. Fields that are missing are "
+            "derived from the displacement."},
+};
+
+// One entry after the other, packed.
+// clang-format off
+constexpr std::array key_table{
+    key("title", text, "-", "\"\"", "", any, "One line that says what the case is.",
+        "\"swinging cube, P mode\""),
+
+    key("parameters.*", number, "-", "", "as you like", any,
+        "A number that expressions may use by its name.", "17e6"),
+
+    choice("functions.*.type", "", required, menus::functions, "Kind of function.",
+           "\"zener_mode\""),
+    key("functions.*.wave_number_squared", number, "1/m^2", "", required, above(0),
+        "Square k2 of the wave number |k| of the mode.", "\"3*pi^2/4\""),
+    key("functions.*.density", number, "kg/m^3", "", required, above(0), "Density rho.", "1100"),
+    key("functions.*.modulus", number, "Pa", "", required, above(0),
+        "Equilibrium modulus M of the mode: lambda + 2 mu for a pressure wave, mu for a shear "
+        "wave.", "22.885e6"),
+    key("functions.*.branch_moduli", numbers, "Pa", "[]", "", above(0),
+        "Moduli M_a of the branches: 4 xi^a and 8 zeta^a (pressure), 2 xi^a and 2 zeta^a (shear).",
+        "[3.269e6, 6.538e6]"),
+    key("functions.*.branch_times", numbers, "s", "[]", "", above(0),
+        "Relaxation times tau_a, as many as branch_moduli.", "[2e-3, 1e-3]"),
+    key("functions.*.amplitude", number, "-", "0", "", any, "q at t = 0.", "5e-4"),
+    key("functions.*.rate", number, "1/s", "0", "", any, "Rate of q at t = 0.", "0"),
+    key("functions.*.relaxed", flag, "-", "false", "", any,
+        "Branches start at q_a = q (true) or at q_a = 0 (false).", "true"),
+
+    choice("mesh.element", "\"hexahedron\"", "required with mesh.file", menus::elements,
+           "Cell type; the last two make the case 2-D (plane strain), and then all vectors have "
+           "two entries.", "\"tetrahedron\""),
+    key("mesh.file", path, "-", "", "optional, instead of a box", any,
+        "Mesh to read (.msh) or to make with gmsh (.geo), relative to the case file.",
+        "\"column.geo\""),
+    key("mesh.lower", KeyType::vector, "m", "[0, 0, 0]", "", any, "Lower corner of the box.",
+        "[-0.5, -0.5, 0]"),
+    key("mesh.upper", KeyType::vector, "m", "[1, 1, 1]", "", any, "Upper corner of the box.",
+        "[0.5, 0.5, 6]"),
+    key("mesh.cells", counts, "-", "", "required for a box", between(1, 1e6),
+        "Cells in each direction at level 0; level L has 2^L times as many.", "[4, 4, 24]"),
+    key("mesh.size", number, "m", "", "required for a .geo file", above(0),
+        "Element size at level 0; level L has size / 2^L.", "0.1"),
+    key("mesh.perturbation", number, "-", "0", "", Range{0, 0.5, true, false},
+        "Random shift of interior nodes as a fraction of the local spacing.", "0.2"),
+    key("mesh.seed", integer, "-", "1", "", at_least(0),
+        "Seed of the random shift; the same seed gives the same mesh everywhere.", "7"),
+
+    choice("material.model", "\"mooney-rivlin\"", "", menus::models,
+           "Law at equilibrium: Mooney-Rivlin of the paper, its limit zeta = 0, or the "
+           "isochoric-split neo-Hookean laws with pressure K (J - 1) and K/2 (J^2 - 1)/J.",
+           "\"neo-hookean\""),
+    key("material.density", number, "kg/m^3", "", required, above(0),
+        "Density rho_R of the undeformed body.", "1100"),
+    key("material.youngs_modulus", number, "Pa", "", "with poissons_ratio", above(0),
+        "Young's modulus E of small strains.", "17e6"),
+    key("material.poissons_ratio", number, "-", "", "with youngs_modulus",
+        Range{-1, 0.5, false, false}, "Poisson's ratio nu of small strains.", "0.3",
+        "the model is compressible: use at most 0.4999 for a nearly incompressible solid"),
+    key("material.shear_modulus", number, "Pa", "", "with lame or bulk_modulus", above(0),
+        "Shear modulus mu of small strains.", "6.54e6"),
+    key("material.lame", number, "Pa", "", "with shear_modulus", any, "First Lame constant lambda.",
+        "9.81e6"),
+    key("material.bulk_modulus", number, "Pa", "", "with shear_modulus", above(0),
+        "Bulk modulus K = lambda + 2 mu / 3.", "14.2e6"),
+    key("material.zeta_ratio", number, "-", "", "required for mooney-rivlin",
+        Range{0, 1, true, false},
+        "zeta/(xi + zeta), the share of the area term; admissible below lambda/(2 mu), where "
+        "lambda_hat = lambda - 4 zeta > 0 (polyconvexity, eq. 4).", "0.5"),
+    key("material.branch.beta_C", number, "-", "", "with tau_C", above(0), "xi^a / xi.", "0.5"),
+    key("material.branch.tau_C", number, "s", "", "with beta_C", above(0),
+        "Relaxation time of C_v^-1.", "2e-3"),
+    key("material.branch.beta_G", number, "-", "", "with tau_G, where zeta > 0", above(0),
+        "zeta^a / zeta.", "0.5"),
+    key("material.branch.tau_G", number, "s", "", "with beta_G", above(0),
+        "Relaxation time of G_v^-1.", "1e-3"),
+
+    key("initial.displacement", vector_field, "m", "[0, 0, 0]", "", any,
+        "Displacement at t = 0; F is its discrete gradient unless deformation_gradient is given.",
+        "[\"1e-3*x\", 0, 0]"),
+    key("initial.velocity", vector_field, "m/s", "[0, 0, 0]", "", any, "Velocity at t = 0.",
+        "[\"10*z/6\", 0, 0]"),
+    key("initial.deformation_gradient", tensor_field, "-", "", "optional", any,
+        "F at t = 0, by rows; in 2-D two rows of two, or three of three.",
+        "[[\"1 + 1e-3*cos(pi*x)\", 0, 0], [0, 1, 0], [0, 0, 1]]"),
+    choice("initial.internal", "\"virgin\"", "", menus::internals,
+           "Branches start at C_v = G_v = I (virgin) or at equilibrium with F (relaxed).",
+           "\"relaxed\""),
+
+    key("boundary.group", groups, "-", "", required, any, "Mesh group, or a list of them.",
+        "[\"x_min\", \"y_min\"]"),
+    choice("boundary.type", "", required, menus::boundaries,
+           "traction (dead, per undeformed area), pressure (follows the surface), fixed, "
+           "velocity, symmetry (normal velocity zero, tangentially free), skew-symmetry "
+           "(tangential velocity zero, normally free).", "\"traction\""),
+    key("boundary.value", vector_field, "Pa, m/s", "",
+        "with traction, velocity; pressure: a scalar", any,
+        "Traction or velocity vector, or pressure.", "[0, 0, \"-5e4*sin(t)\"]"),
+
+    key("load.body_force", vector_field, "N/m^3", "[0, 0, 0]", "", any,
+        "Force per undeformed volume.", "[0, 0, \"-9.81*rho\"]"),
+
+    key("time.end", number, "s", "", required, above(0), "Final time; the run starts at t = 0.",
+        "\"1.25*2*pi/omega\""),
+    choice("time.integrator", "\"leapfrog\"", "", menus::integrators, "Time integrator.",
+           "\"ssp-rk3\""),
+    key("time.cfl", number, "-", "", "optional; the integrator has its own",
+        Range{0, 10, false, true}, "Time step as a fraction of the bound of the graph.", "0.5"),
+    key("time.max_steps", integer, "-", "0", "", at_least(0),
+        "The run stops after so many steps; 0 sets no limit.", "1000"),
+
+    key("output.frames", integer, "-", "10", "", between(1, 1e6),
+        "Instants of output after t = 0, evenly spaced, the last at the end.", "50"),
+    key("output.fields", flag, "-", "true", "", any, "Write the fields, not only the history.",
+        "false"),
+
+    choice("scheme.unknowns", "\"FHJ\"", "", menus::unknowns,
+           "Strain measures with evolution equations of their own; the others follow from F.",
+           "\"F\""),
+    choice("scheme.reconstruction", "\"linear\"", "", menus::reconstructions,
+           "Reconstruction of the states on both sides of a pair.", "\"none\""),
+    choice("scheme.limiter", "\"none\"", "", menus::limiters,
+           "Limiter of the linear reconstruction.", "\"sign-preserving\""),
+    choice("scheme.impedance", "\"isotropic\"", "", menus::impedances,
+           "Impedance of the dissipation: of the two wave speeds, or the exact matrix.",
+           "\"exact\""),
+    key("scheme.dissipation", number, "-", "1", "", at_least(0), "Factor of the dissipation D_ab.",
+        "0"),
+    key("scheme.angular_momentum_projection", flag, "-", "false", "", any,
+        "Correct the forces so that angular momentum is conserved.", "true"),
+    key("scheme.energy_budget", flag, "-", "true", "", any,
+        "Sum up stored, dissipated and external work.", "false"),
+
+    choice("sph.kernel", "\"cubic-spline\"", "", menus::kernels, "Smoothing kernel.",
+           "\"wendland-c2\""),
+    key("sph.kappa", number, "-", "1.2", "", between(0.5, 4),
+        "Smoothing length over particle spacing: h_a = kappa Omega_a^(1/d).", "1.5"),
+    key("sph.closure", flag, "-", "true", "", any,
+        "Repair of the boundary so that the pseudo-areas close (sum C_ab = -gamma_a).", "false"),
+
+    choice("fvm.stencil", "\"edge\"", "", menus::stencils,
+           "Pair areas by nodal quadrature (edge) or by 2 int N_a grad N_b dV (integral).",
+           "\"integral\""),
+
+    key("exact.displacement", vector_field, "m", "", "optional", any, "Exact displacement.",
+        "[\"q*sin(pi*y/2)\", 0, 0]"),
+    key("exact.velocity", vector_field, "m/s", "", "optional", any, "Exact velocity.",
+        "[\"q_dot*sin(pi*y/2)\", 0, 0]"),
+    key("exact.deformation_gradient", tensor_field, "-", "", "optional", any,
+        "Exact F, by rows; in 2-D two rows of two, or three of three.",
+        "[[1, \"q*pi/2*cos(pi*y/2)\", 0], [0, 1, 0], [0, 0, 1]]"),
+    key("exact.stress", tensor_field, "Pa", "", "optional", any,
+        "Exact first Piola-Kirchhoff stress, three rows of three (P_33 in 2-D too).",
+        "[[0, \"mu*q*pi/2*cos(pi*y/2)\", 0], [\"mu*q*pi/2*cos(pi*y/2)\", 0, 0], [0, 0, 0]]"),
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const Key> keys() {
+  return key_table;
+}
+
+std::span<const Section> sections() {
+  return section_table;
+}
+
+}  // namespace diptych::run

@@ -1,0 +1,238 @@
+#include "common/scheme/spline_levels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych::scheme {
+
+namespace {
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+
+constexpr double spacing_of_finest = 2;  ///< in units of the mean spacing of the nodes
+constexpr int most_splines_of_last = 600;
+constexpr double felt = 1e-10;   ///< part of its energy that the linear fit must leave
+constexpr double ridge = 1e-11;  ///< on the scaled matrix, which is singular on affine fields
+
+/// Half the second differential: 1/2 X.Hess X = monomials.Hess, Hess = {xx,yy,zz,yz,zx,xy}.
+Vec6 monomials(const Vec3& X) {
+  Vec6 m;
+  m << 0.5 * X[0] * X[0], 0.5 * X[1] * X[1], 0.5 * X[2] * X[2], X[1] * X[2], X[2] * X[0],
+      X[0] * X[1];
+  return m;
+}
+
+/// T_a, and the same without the linear fit.
+void row_moments(const PairGraph& graph,
+                 const std::vector<double>& k,
+                 const Mat3& inverse,
+                 std::int64_t a,
+                 Mat6 T[2]) {
+  Eigen::Matrix<double, 3, 6> mixed = Eigen::Matrix<double, 3, 6>::Zero();
+  T[1].setZero();
+  for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+    const Vec3 X = graph.X[graph.neighbour[p]] - graph.X[a];
+    const Vec6 m = monomials(X);
+    T[1] += (0.25 * k[p]) * m * m.transpose();
+    mixed += (0.5 * k[p]) * X * m.transpose();
+  }
+  T[0] = T[1] - mixed.transpose() * inverse * mixed;
+}
+
+}  // namespace
+
+SplineLevels::SplineLevels(const PairGraph& graph,
+                           const std::vector<double>& k,
+                           const std::vector<Mat3>& inverse)
+    : dimension_(graph.dimension), per_direction_z_(graph.dimension == 3 ? 3 : 1) {
+  set_levels(graph);
+  Mat6 T[2];
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+    row_moments(graph, k, inverse[a], a, T);
+    for (Level& level : levels_)
+      add_energy(level, graph.X[a], T, &level == &levels_.back());
+    node_splines_.push_back(splines_at(levels_.front(), graph.X[a]));
+  }
+  for (Level& level : levels_) {
+    for (size_t i = 0; i < level.diagonal.size(); ++i) {
+      if (!(level.diagonal[i] > felt * level.uncorrected[i])) level.diagonal[i] = 0;
+    }
+  }
+  factorise_last();
+}
+
+void SplineLevels::set_levels(const PairGraph& graph) {
+  Vec3 upper = graph.X[0];
+  lower_ = graph.X[0];
+  double volume = 0;
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+    lower_ = lower_.cwiseMin(graph.X[a]);
+    upper = upper.cwiseMax(graph.X[a]);
+    volume += graph.Omega[a];
+  }
+  const auto n_nodes = static_cast<double>(graph.n_nodes());
+  double H = spacing_of_finest * std::pow(volume / n_nodes, 1.0 / dimension_);
+  const auto count = [&](int i) {
+    return i < dimension_ ? std::floor((upper[i] - lower_[i]) / H) + 3 : 1;
+  };
+  while (count(0) * count(1) * count(2) > n_nodes + 1000)
+    H *= 1.25;
+  do {
+    Level& level = levels_.emplace_back();
+    level.H = H;
+    for (int i = 0; i < 3; ++i)
+      level.n[i] = static_cast<int>(count(i));
+    level.diagonal.assign(static_cast<size_t>(level.size()), 0.0);
+    level.uncorrected = level.diagonal;
+    H *= 2;
+  } while (levels_.back().size() > most_splines_of_last);
+  last_.setZero(levels_.back().size(), levels_.back().size());
+}
+
+SplineLevels::Splines SplineLevels::splines_at(const Level& level, const Vec3& X) const {
+  Splines s;
+  for (int i = 0; i < 3; ++i) {
+    if (i >= dimension_) {
+      s.first[i] = 0;
+      s.value[i][0] = 1;
+      s.slope[i][0] = s.curvature[i][0] = 0;
+      continue;
+    }
+    const double x = (X[i] - lower_[i]) / level.H;
+    s.first[i] = std::clamp(static_cast<int>(x), 0, level.n[i] - 3);
+    const double t = x - s.first[i];
+    const double value[3] = {0.5 * (1 - t) * (1 - t), 0.5 + t - t * t, 0.5 * t * t};
+    const double slope[3] = {t - 1, 1 - 2 * t, t};
+    const double curvature[3] = {1, -2, 1};
+    for (int j = 0; j < 3; ++j) {
+      s.value[i][j] = value[j];
+      s.slope[i][j] = slope[j] / level.H;
+      s.curvature[i][j] = curvature[j] / (level.H * level.H);
+    }
+  }
+  return s;
+}
+
+void SplineLevels::add_energy(Level& level, const Vec3& X, const Mat6 T[2], bool is_last) {
+  const Splines s = splines_at(level, X);
+  std::array<std::int64_t, 27> index;
+  std::array<Vec6, 27> hessian, T_hessian;
+  int count = 0;
+  for (int z = 0; z < per_direction_z_; ++z) {
+    for (int y = 0; y < 3; ++y) {
+      for (int x = 0; x < 3; ++x) {
+        const double* v[3] = {&s.value[0][x], &s.value[1][y], &s.value[2][z]};
+        const double* g[3] = {&s.slope[0][x], &s.slope[1][y], &s.slope[2][z]};
+        const double* c[3] = {&s.curvature[0][x], &s.curvature[1][y], &s.curvature[2][z]};
+        Vec6& h = hessian[count];
+        h << *c[0] * *v[1] * *v[2], *v[0] * *c[1] * *v[2], *v[0] * *v[1] * *c[2],
+            *v[0] * *g[1] * *g[2], *g[0] * *v[1] * *g[2], *g[0] * *g[1] * *v[2];
+        T_hessian[count] = T[0] * h;
+        index[count] =
+            (static_cast<std::int64_t>(s.first[2] + z) * level.n[1] + s.first[1] + y) * level.n[0] +
+            s.first[0] + x;
+        level.diagonal[index[count]] += h.dot(T_hessian[count]);
+        level.uncorrected[index[count]] += h.dot(T[1] * h);
+        ++count;
+      }
+    }
+  }
+  if (!is_last) return;
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < count; ++j)
+      last_(index[i], index[j]) += hessian[i].dot(T_hessian[j]);
+  }
+}
+
+void SplineLevels::factorise_last() {
+  const std::vector<double>& diagonal = levels_.back().diagonal;
+  last_scale_.setZero(last_.rows());
+  for (Eigen::Index i = 0; i < last_.rows(); ++i) {
+    if (diagonal[i] > 0) last_scale_[i] = 1 / std::sqrt(diagonal[i]);
+  }
+  last_ = last_scale_.asDiagonal() * last_ * last_scale_.asDiagonal();
+  last_.diagonal().array() += ridge;
+  for (Eigen::Index i = 0; i < last_.rows(); ++i) {
+    if (last_scale_[i] == 0) last_(i, i) = 1;
+  }
+  last_factor_.compute(last_);
+  last_.resize(0, 0);
+}
+
+template <class Visit>
+void SplineLevels::for_each_child(const Level& fine,
+                                  const Level& coarse,
+                                  const Visit& visit) const {
+  // Spline j of a level starts at (j - 2) H, so the children of j start at 2 (j - 2) H/2.
+  static constexpr double weight[4] = {0.25, 0.75, 0.75, 0.25};
+  const auto children = [&](int i, int j, int s) { return i < dimension_ ? 2 * j - 2 + s : s; };
+  const int n_z = dimension_ == 3 ? 4 : 1;
+  std::int64_t c = 0;
+  for (int z = 0; z < coarse.n[2]; ++z) {
+    for (int y = 0; y < coarse.n[1]; ++y) {
+      for (int x = 0; x < coarse.n[0]; ++x, ++c) {
+        for (int sz = 0; sz < n_z; ++sz) {
+          const int fz = children(2, z, sz);
+          if (fz < 0 || fz >= fine.n[2]) continue;
+          for (int sy = 0; sy < 4; ++sy) {
+            const int fy = children(1, y, sy);
+            if (fy < 0 || fy >= fine.n[1]) continue;
+            for (int sx = 0; sx < 4; ++sx) {
+              const int fx = children(0, x, sx);
+              if (fx < 0 || fx >= fine.n[0]) continue;
+              const double w = weight[sx] * weight[sy] * (n_z == 4 ? weight[sz] : 1.0);
+              visit((static_cast<std::int64_t>(fz) * fine.n[1] + fy) * fine.n[0] + fx, c, w);
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+void SplineLevels::add(const std::vector<Vec3>& r, std::vector<Vec3>& z) const {
+  std::vector<std::vector<Vec3>> grid(levels_.size());
+  for (size_t l = 0; l < levels_.size(); ++l) {
+    grid[l].assign(static_cast<size_t>(levels_[l].size()), Vec3::Zero());
+  }
+  const auto for_each_spline = [&](size_t a, const auto& visit) {
+    const Splines& s = node_splines_[a];
+    const Index& n = levels_[0].n;
+    for (int k = 0; k < per_direction_z_; ++k) {
+      for (int j = 0; j < 3; ++j) {
+        const double w = s.value[2][k] * s.value[1][j];
+        const std::int64_t first =
+            (static_cast<std::int64_t>(s.first[2] + k) * n[1] + s.first[1] + j) * n[0] + s.first[0];
+        for (int i = 0; i < 3; ++i)
+          visit(grid[0][first + i], w * s.value[0][i]);
+      }
+    }
+  };
+  for (size_t a = 0; a < r.size(); ++a) {
+    for_each_spline(a, [&](Vec3& g, double w) { g += w * r[a]; });
+  }
+  for (size_t l = 1; l < levels_.size(); ++l) {
+    for_each_child(levels_[l - 1], levels_[l], [&](std::int64_t f, std::int64_t c, double w) {
+      grid[l][c] += w * grid[l - 1][f];
+    });
+  }
+  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> last(
+      grid.back().data()->data(), levels_.back().size(), 3);
+  const Eigen::MatrixXd solved = last_factor_.solve(last_scale_.asDiagonal() * last);
+  last = last_scale_.asDiagonal() * solved;
+  for (size_t l = levels_.size() - 1; l-- > 0;) {
+    for (size_t i = 0; i < grid[l].size(); ++i) {
+      const double diagonal = levels_[l].diagonal[i];
+      grid[l][i] = diagonal > 0 ? Vec3(grid[l][i] / diagonal) : Vec3(Vec3::Zero());
+    }
+    for_each_child(levels_[l], levels_[l + 1], [&](std::int64_t f, std::int64_t c, double w) {
+      grid[l][f] += w * grid[l + 1][c];
+    });
+  }
+  for (size_t a = 0; a < r.size(); ++a) {
+    for_each_spline(a, [&](const Vec3& g, double w) { z[a] += w * g; });
+  }
+}
+
+}  // namespace diptych::scheme

@@ -1,0 +1,68 @@
+#pragma once
+/// Preconditioner of the closure repair: smooth modes by nested B-spline grids.
+///
+/// The operator S of repair_closure_pairs measures how far a field is from linear on each row: a
+/// fourth-order operator, on which conjugate gradients with a diagonal need of the order of (L/h)^2
+/// steps. On smooth fields
+///   y.S y ~ sum_a Hess_a : T_a : Hess_a,
+///   T_a = 1/4 sum_b k_ab r_ab r_ab^T,  r_ab = monomials of degree 2 less their linear fit,
+/// so quadratic B-splines (C^1) on grids of spacing H, 2H, 4H, ... carry the additive
+/// preconditioner of Bramble, Pasciak and Xu (1990):
+///   z = D^-1 r + sum_levels P D_level^-1 P^T r + P_last T_last^-1 P_last^T r.
+/// Test: tests/graphs/closure_repair_test.cpp (steps stay bounded when the grid is refined).
+
+#include "common/scheme/pair_graph.hpp"
+
+#include <array>
+#include <vector>
+
+namespace diptych::scheme {
+
+class SplineLevels {
+ public:
+  /// @param k       [n_pairs] weights of the repair
+  /// @param inverse [n_nodes] inverse second moments of the rows, see repair_closure_pairs
+  SplineLevels(const PairGraph& graph,
+               const std::vector<double>& k,
+               const std::vector<Mat3>& inverse);
+
+  /// z += sum_levels P D^-1 P^T r
+  void add(const std::vector<Vec3>& r, std::vector<Vec3>& z) const;
+
+ private:
+  using Index = std::array<int, 3>;
+  struct Level {
+    double H = 0;                     ///< m
+    Index n{1, 1, 1};                 ///< splines per direction
+    std::vector<double> diagonal;     ///< Hess : T : Hess of each spline, 0 where it is not felt
+    std::vector<double> uncorrected;  ///< the same without the linear fit, to judge round-off
+    std::int64_t size() const { return static_cast<std::int64_t>(n[0]) * n[1] * n[2]; }
+  };
+  /// The splines that a point feels: three per direction from `first`, values and derivatives.
+  struct Splines {
+    Index first{};
+    double value[3][3], slope[3][3], curvature[3][3];
+  };
+
+  void set_levels(const PairGraph& graph);
+  Splines splines_at(const Level& level, const Vec3& X) const;
+  void add_energy(Level& level,
+                  const Vec3& X,
+                  const Eigen::Matrix<double, 6, 6> T[2],
+                  bool is_last);
+  void factorise_last();
+  /// Calls visit(fine, coarse, weight) for the two-scale relation 1/4 (1 3 3 1) in each direction.
+  template <class Visit>
+  void for_each_child(const Level& fine, const Level& coarse, const Visit& visit) const;
+
+  int dimension_ = 3;
+  int per_direction_z_ = 3;  ///< splines felt in z: one in 2-D
+  Vec3 lower_ = Vec3::Zero();
+  std::vector<Level> levels_;
+  std::vector<Splines> node_splines_;  ///< [n_nodes] on the finest level
+  Eigen::MatrixXd last_;               ///< T of the last level
+  Eigen::VectorXd last_scale_;
+  Eigen::LLT<Eigen::MatrixXd> last_factor_;
+};
+
+}  // namespace diptych::scheme

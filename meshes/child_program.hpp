@@ -1,0 +1,30 @@
+#pragma once
+/// Another program, started directly (no shell), its output captured.
+
+#include <string>
+#include <vector>
+
+namespace diptych::meshes {
+
+struct ChildResult {
+  int exit_status = 0;  ///< 0: success; 128 + number after a signal
+  std::string output;   ///< its standard output and error together, the last 64 KiB
+
+  /// "exit status 1" or "killed by signal 9"
+  std::string ending() const;
+};
+
+/// Full path of an executable file in the folders of PATH, or an empty string. Empty entries of
+/// PATH, which a shell takes for the current folder, are passed over.
+std::string program_in_path(const std::string& name);
+
+/// Runs a program to its end, with empty standard input.
+/// @param program      full path
+/// @param arguments    without the program's name
+/// @param environment  "NAME=value", in front of those of this process
+/// @throws base::EnvironmentError where it cannot be started
+ChildResult run_child(const std::string& program,
+                      const std::vector<std::string>& arguments,
+                      const std::vector<std::string>& environment);
+
+}  // namespace diptych::meshes

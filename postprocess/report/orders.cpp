@@ -1,0 +1,92 @@
+#include "postprocess/report/orders.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace diptych::report {
+namespace {
+
+/// Known names in their order, then the rest by name.
+template <size_t n>
+std::vector<std::string> ordered(const std::set<std::string>& names,
+                                 const std::array<const char*, n>& first) {
+  std::vector<std::string> result;
+  for (const char* name : first) {
+    if (names.count(name) > 0) result.emplace_back(name);
+  }
+  for (const std::string& name : names) {
+    if (std::find(result.begin(), result.end(), name) == result.end()) result.push_back(name);
+  }
+  return result;
+}
+
+bool usable(double value) {
+  return std::isfinite(value) && value > 0;
+}
+
+}  // namespace
+
+double observed_order(double coarse_error,
+                      double fine_error,
+                      double coarse_spacing,
+                      double fine_spacing) {
+  if (!usable(coarse_error) || !usable(fine_error) || !usable(coarse_spacing) ||
+      !usable(fine_spacing) || coarse_spacing == fine_spacing) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return std::log(coarse_error / fine_error) / std::log(coarse_spacing / fine_spacing);
+}
+
+std::vector<std::string> methods_of(const std::vector<io::RunSummary>& runs) {
+  std::set<std::string> names;
+  for (const io::RunSummary& run : runs)
+    names.insert(run.method);
+  return ordered(names, std::array{"sph", "fvm"});
+}
+
+std::vector<io::RunSummary> runs_of(const std::vector<io::RunSummary>& runs,
+                                    std::string_view method) {
+  std::vector<io::RunSummary> result;
+  for (const io::RunSummary& run : runs) {
+    if (run.method == method) result.push_back(run);
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const io::RunSummary& a, const io::RunSummary& b) {
+                     return a.level != b.level ? a.level < b.level : a.spacing > b.spacing;
+                   });
+  return result;
+}
+
+std::vector<std::string> fields_of(const std::vector<io::RunSummary>& runs) {
+  std::set<std::string> names;
+  for (const io::RunSummary& run : runs) {
+    for (const auto& [field, norms] : run.errors)
+      names.insert(field);
+  }
+  return ordered(names, std::array{"velocity", "displacement", "deformation_gradient", "stress"});
+}
+
+std::string method_title(const std::string& method) {
+  if (method == "sph") return "SPH";
+  if (method == "fvm") return "Finite volume";
+  return method;
+}
+
+std::string field_symbol(const std::string& field) {
+  if (field == "velocity") return "v";
+  if (field == "displacement") return "u";
+  if (field == "deformation_gradient") return "F";
+  if (field == "stress") return "P";
+  return "";
+}
+
+std::string field_title(const std::string& field) {
+  std::string title = field;
+  std::replace(title.begin(), title.end(), '_', ' ');
+  return title;
+}
+
+}  // namespace diptych::report

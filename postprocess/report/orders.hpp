@@ -1,0 +1,39 @@
+#pragma once
+/// Orders of convergence, and the runs of a study in the order that tables and charts need.
+/// Test: tests/report/orders_test.cpp
+
+#include "common/io/run_record.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace diptych::report {
+
+/// log(e_coarse / e_fine) / log(h_coarse / h_fine); NaN where no order can be formed: an error or a
+/// spacing that is not positive and finite, or equal spacings.
+double observed_order(double coarse_error,
+                      double fine_error,
+                      double coarse_spacing,
+                      double fine_spacing);
+
+/// Methods in the order of a reader: sph, fvm, then others by name.
+std::vector<std::string> methods_of(const std::vector<io::RunSummary>& runs);
+
+/// Runs of one method from coarse to fine.
+std::vector<io::RunSummary> runs_of(const std::vector<io::RunSummary>& runs,
+                                    std::string_view method);
+
+/// Fields with errors: velocity, displacement, deformation_gradient, stress, then others by name.
+std::vector<std::string> fields_of(const std::vector<io::RunSummary>& runs);
+
+/// "SPH", "Finite volume", or the name itself.
+std::string method_title(const std::string& method);
+
+/// "v", "u", "F", "P", or nothing for a field without a symbol.
+std::string field_symbol(const std::string& field);
+
+/// "deformation gradient" for "deformation_gradient".
+std::string field_title(const std::string& field);
+
+}  // namespace diptych::report

@@ -1,0 +1,340 @@
+#include "postprocess/report/sections.hpp"
+
+#include "postprocess/report/html.hpp"
+#include "postprocess/report/orders.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <functional>
+
+namespace diptych::report {
+namespace {
+
+using io::RunSummary;
+
+std::string section(std::string_view id, std::string_view heading, const std::string& body) {
+  return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}</section>\n", id, heading, body);
+}
+
+std::string cell(const std::string& content) {
+  return "<td>" + content + "</td>";
+}
+std::string heading_cell(const std::string& content) {
+  return "<th scope=\"col\">" + content + "</th>";
+}
+
+std::string table(const std::string& head, const std::string& rows) {
+  return fmt::format(
+      "<div class=\"scroll\" "
+      "tabindex=\"0\"><table>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n"
+      "</table></div>\n",
+      head, rows);
+}
+
+/// Name of a method with its mark, which has the colour and the shape of its points.
+std::string method_mark(const std::string& method) {
+  return fmt::format("<span class=\"mark {0}\"></span>{1}", escaped(method),
+                     escaped(method_title(method)));
+}
+
+/// The symbol of a field, or its name where it has none.
+std::string field_heading(const std::string& field) {
+  const std::string symbol = field_symbol(field);
+  return symbol.empty() ? escaped(field_title(field)) : "<i>" + symbol + "</i>";
+}
+
+std::string order_html(double order) {
+  return std::isfinite(order) ? fmt::format("{:.2f}", order) : "";
+}
+
+const io::ErrorNorms* norms_of(const RunSummary& run, const std::string& field) {
+  const auto found = run.errors.find(field);
+  return found == run.errors.end() ? nullptr : &found->second;
+}
+
+/// A canvas with a height of its own, a title for those who hear the page, and a caption.
+std::string chart(std::string_view id,
+                  std::string_view spoken,
+                  std::string_view caption,
+                  bool low = false) {
+  return fmt::format(
+      "<figure>\n<div class=\"plot{}\"><canvas id=\"{}\" role=\"img\" "
+      "aria-label=\"{}\"></canvas></div>\n"
+      "<figcaption id=\"{}-caption\">{}</figcaption>\n</figure>\n",
+      low ? " low" : "", id, spoken, id, caption);
+}
+
+/// Radio buttons that choose the field of a chart.
+std::string field_choice(const std::string& group, const std::vector<std::string>& fields) {
+  std::string html =
+      fmt::format("<fieldset class=\"choice\" data-chart=\"{}\">\n<legend>Field</legend>\n", group);
+  for (size_t i = 0; i < fields.size(); ++i) {
+    html += fmt::format(
+        "<label><input type=\"radio\" name=\"{}-field\" value=\"{}\"{}><span>{} "
+        "<i>{}</i></span></label>\n",
+        group, escaped(fields[i]), i == 0 ? " checked" : "", escaped(field_title(fields[i])),
+        escaped(field_symbol(fields[i])));
+  }
+  return html + "</fieldset>\n";
+}
+
+/// The different values among the runs, one text.
+std::string distinct(const std::vector<RunSummary>& runs,
+                     const std::function<std::string(const RunSummary&)>& value) {
+  std::vector<std::string> values;
+  for (const RunSummary& run : runs) {
+    const std::string text = value(run);
+    if (!text.empty() && std::find(values.begin(), values.end(), text) == values.end()) {
+      values.push_back(text);
+    }
+  }
+  return fmt::format("{}", fmt::join(values, " · "));
+}
+
+std::string entry(std::string_view name, const std::string& value) {
+  return value.empty() ? "" : fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, value);
+}
+
+std::string panel(const RunSummary& run, const std::vector<std::string>& fields) {
+  std::string rows = entry("nodes", count_html(run.nodes));
+  rows += entry("time loop", number_html(run.loop_seconds) + " s");
+  rows += entry("per node and stage", number_html(run.nanoseconds_per_node_stage) + " ns");
+  rows += entry("energy residual", scientific_html(run.energy.relative_residual));
+  std::string large;
+  if (!fields.empty()) {
+    const io::ErrorNorms* norms = norms_of(run, fields.front());
+    large =
+        fmt::format("<p class=\"large\">{}<small>relative L<sub>2</sub> error of {}</small></p>\n",
+                    norms == nullptr ? "n/a" : scientific_html(norms->l2),
+                    escaped(field_title(fields.front())));
+  } else {
+    large = fmt::format("<p class=\"large\">{} s<small>in the time loop</small></p>\n",
+                        number_html(run.loop_seconds));
+  }
+  const std::string warning =
+      run.status == "done"
+          ? ""
+          : fmt::format("<p class=\"warning\">this run ended as: {}</p>\n", escaped(run.status));
+  return fmt::format(
+      "<article class=\"panel {}\">\n<h3>{} <small>level {}</small></h3>\n{}{}<dl>\n{}</dl>\n"
+      "</article>\n",
+      escaped(run.method), method_mark(run.method), run.level, large, warning, rows);
+}
+
+std::string difference_table(const StudyReport& study) {
+  if (study.differences.empty()) return "";
+  std::string rows;
+  std::vector<std::string> fields = fields_of(study.runs);
+  for (const auto& [field, value] : study.differences) {
+    if (std::find(fields.begin(), fields.end(), field) == fields.end()) fields.push_back(field);
+  }
+  for (const std::string& field : fields) {
+    const auto found = study.differences.find(field);
+    if (found == study.differences.end()) continue;
+    rows +=
+        fmt::format("<tr><th scope=\"row\">{} <i>{}</i></th>{}</tr>\n", escaped(field_title(field)),
+                    escaped(field_symbol(field)), cell(scientific_html(found->second)));
+  }
+  return "<h3>How far the two methods are apart</h3>\n<p>Relative L<sub>2</sub> difference of the "
+         "nodal values at the end, finest level.</p>\n" +
+         table(heading_cell("field") + heading_cell("difference"), rows);
+}
+
+/// Errors of one method from coarse to fine with the order between neighbours.
+std::string order_rows(const std::vector<RunSummary>& runs,
+                       const std::vector<std::string>& fields) {
+  std::string rows;
+  for (size_t i = 0; i < runs.size(); ++i) {
+    rows += "<tr><th scope=\"row\">" + method_mark(runs[i].method) + "</th>" +
+            cell(std::to_string(runs[i].level)) + cell(number_html(runs[i].spacing));
+    for (const std::string& field : fields) {
+      const io::ErrorNorms* fine = norms_of(runs[i], field);
+      const io::ErrorNorms* coarse = i > 0 ? norms_of(runs[i - 1], field) : nullptr;
+      rows += cell(fine == nullptr ? "" : scientific_html(fine->l2));
+      rows += "<td class=\"order\">";
+      if (fine != nullptr && coarse != nullptr) {
+        rows +=
+            order_html(observed_order(coarse->l2, fine->l2, runs[i - 1].spacing, runs[i].spacing));
+      }
+      rows += "</td>";
+    }
+    rows += "</tr>\n";
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::string header_section(const StudyReport& study) {
+  std::string methods;
+  for (const std::string& method : methods_of(study.runs)) {
+    methods += fmt::format("<li>{}</li>\n", method_mark(method));
+  }
+  return fmt::format(
+      "<header>\n<p class=\"kicker\">Diptych · {}</p>\n<h1>{}</h1>\n<p class=\"lead\">{}</p>\n"
+      "<ul class=\"methods\">\n{}</ul>\n</header>\n",
+      escaped(distinct(study.runs, [](const RunSummary& run) { return run.case_name; })),
+      escaped(study.title), escaped(study.description), methods);
+}
+
+std::string verdict_section(const StudyReport& study) {
+  const auto n_passed = std::count_if(study.acceptance.begin(), study.acceptance.end(),
+                                      [](const AcceptanceLine& line) { return line.passed; });
+  const auto n_all = static_cast<std::ptrdiff_t>(study.acceptance.size());
+  if (n_all == 0) {
+    return section("verdict", "Verdict", "<p>No bounds were asked of this study.</p>\n");
+  }
+  const std::string sentence =
+      n_passed == n_all
+          ? (n_all == 1 ? "The bound is met" : fmt::format("All {} bounds are met", n_all))
+          : fmt::format("{} of {} bounds not met", n_all - n_passed, n_all);
+  std::string rows;
+  for (const AcceptanceLine& line : study.acceptance) {
+    rows += fmt::format(
+        "<tr class=\"{}\"><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td "
+        "class=\"outcome\">{}</td></tr>\n",
+        line.passed ? "met" : "missed", escaped(line.name), escaped(line.asked),
+        escaped(line.measured), line.passed ? "✓ met" : "✗ not met");
+  }
+  return section(
+      "verdict", "Verdict",
+      fmt::format("<p class=\"verdict {}\">{} {}</p>\n", n_passed == n_all ? "met" : "missed",
+                  n_passed == n_all ? "✓" : "✗", sentence) +
+          table(heading_cell("bound") + heading_cell("asked") + heading_cell("measured") +
+                    heading_cell("outcome"),
+                rows));
+}
+
+std::string panels_section(const StudyReport& study) {
+  const std::vector<std::string> fields = fields_of(study.runs);
+  std::string panels;
+  for (const std::string& method : methods_of(study.runs)) {
+    panels += panel(runs_of(study.runs, method).back(), fields);
+  }
+  if (panels.empty()) return section("panels", "Side by side", "<p>This study has no run.</p>\n");
+  return section("panels", "Side by side",
+                 "<div class=\"panels\">\n" + panels + "</div>\n" + difference_table(study));
+}
+
+std::string cost_section(const StudyReport& study) {
+  const std::vector<std::string> fields = fields_of(study.runs);
+  if (fields.empty()) {
+    return section("cost", "Error against cost",
+                   "<p>This case has no exact solution, so its runs have no errors to set against "
+                   "their cost.</p>\n");
+  }
+  return section("cost", "Error against cost",
+                 "<p>Each point is a run; its number is the level. Lower and further left is "
+                 "better.</p>\n" +
+                     field_choice("cost", fields) +
+                     chart("cost-chart", "Relative error against seconds of the time loop", ""));
+}
+
+std::string convergence_section(const StudyReport& study) {
+  const std::vector<std::string> fields = fields_of(study.runs);
+  if (fields.empty()) return "";
+  std::string head = heading_cell("method") + heading_cell("level") + heading_cell("spacing [m]");
+  for (const std::string& field : fields) {
+    head += heading_cell(field_heading(field)) + heading_cell("order");
+  }
+  std::string rows;
+  for (const std::string& method : methods_of(study.runs)) {
+    rows += order_rows(runs_of(study.runs, method), fields);
+  }
+  return section("convergence", "Error against spacing",
+                 field_choice("convergence", fields) +
+                     chart("convergence-chart", "Relative error against spacing",
+                           "Dotted: slopes of first and second order.") +
+                     "<h3>Observed orders</h3>\n<p>Relative L<sub>2</sub> errors, and the order "
+                     "between each level and the one before it.</p>\n" +
+                     table(head, rows));
+}
+
+std::string energy_section(const StudyReport& study) {
+  std::string charts;
+  for (const std::string& method : methods_of(study.runs)) {
+    if (study.histories.count(method) == 0) continue;
+    charts += fmt::format("<div>\n<h3>{}</h3>\n{}</div>\n", method_mark(method),
+                          chart("energy-" + escaped(method), "Energies over time", ""));
+  }
+  if (charts.empty()) return "";
+  return section(
+      "energy", "Where the energy went",
+      "<p>Kinetic and strain energy, and what viscous branches and the scheme have dissipated, "
+      "laid "
+      "one on the other. The dashed line is the energy at the start and the work done from outside "
+      "since; the gap between it and the top of the areas is the residual.</p>\n<div "
+      "class=\"pair\">\n" +
+          charts + "</div>\n<h3>Residual</h3>\n" +
+          chart("residual-chart", "Relative energy residual over time",
+                "Relative residual of the energy budget. It should fall with the time step at the "
+                "order of the integrator.",
+                true));
+}
+
+std::string runs_section(const StudyReport& study) {
+  const std::vector<std::string> fields = fields_of(study.runs);
+  std::string head;
+  for (const char* name : {"method", "level", "nodes", "pairs", "steps", "time step [s]",
+                           "loop [s]", "wall [s]", "ns / node / stage", "memory [MB]"}) {
+    head += heading_cell(name);
+  }
+  for (const std::string& field : fields) {
+    head += heading_cell("error " + field_heading(field));
+  }
+  head += heading_cell("energy residual") + heading_cell("min <i>J</i>");
+  std::string rows;
+  for (const std::string& method : methods_of(study.runs)) {
+    for (const RunSummary& run : runs_of(study.runs, method)) {
+      rows += "<tr><th scope=\"row\">" + method_mark(run.method) + "</th>" +
+              cell(std::to_string(run.level)) + cell(count_html(run.nodes)) +
+              cell(count_html(run.pairs)) + cell(count_html(run.steps)) +
+              cell(scientific_html(run.dt_min)) + cell(number_html(run.loop_seconds)) +
+              cell(number_html(run.wall_seconds)) +
+              cell(number_html(run.nanoseconds_per_node_stage)) +
+              cell(number_html(static_cast<double>(run.peak_rss_bytes) / 1e6));
+      for (const std::string& field : fields) {
+        const io::ErrorNorms* norms = norms_of(run, field);
+        rows += cell(norms == nullptr ? "" : scientific_html(norms->l2));
+      }
+      rows += cell(scientific_html(run.energy.relative_residual)) +
+              cell(number_html(run.min_jacobian)) + "</tr>\n";
+    }
+  }
+  return section("runs", "Every run", table(head, rows));
+}
+
+std::string provenance_section(const StudyReport& study) {
+  const auto of = [&study](const std::function<std::string(const RunSummary&)>& value) {
+    return escaped(distinct(study.runs, value));
+  };
+  std::string material;
+  for (const std::string& line : study.material)
+    material += escaped(line) + "<br>";
+  std::string rows = entry("case", of([](const RunSummary& run) { return run.title; }));
+  rows += entry("material", material);
+  rows +=
+      entry("dimensions", of([](const RunSummary& run) { return std::to_string(run.dimension); }));
+  rows += entry("end time",
+                of([](const RunSummary& run) { return fmt::format("{:g} s", run.end_time); }));
+  rows += entry("integrator", of([](const RunSummary& run) { return run.integrator; }));
+  rows += entry("precision", of([](const RunSummary& run) { return run.precision; }));
+  rows += entry("threads, ranks", of([](const RunSummary& run) {
+                  return fmt::format("{} × {}", run.threads, run.ranks);
+                }));
+  rows += entry("program", of([](const RunSummary& run) {
+                  return run.provenance.version + " " + run.provenance.commit;
+                }));
+  rows += entry("compiler", of([](const RunSummary& run) {
+                  return run.provenance.compiler + " " + run.provenance.flags;
+                }));
+  rows += entry("processor", of([](const RunSummary& run) {
+                  return run.provenance.cpu + " " + run.provenance.instruction_set;
+                }));
+  rows += entry("date", of([](const RunSummary& run) { return run.provenance.date; }));
+  rows += entry("case hash", of([](const RunSummary& run) { return run.provenance.case_hash; }));
+  return section("provenance", "What was run", "<dl class=\"facts\">\n" + rows + "</dl>\n");
+}
+
+}  // namespace diptych::report

@@ -1,0 +1,44 @@
+#pragma once
+/// The report of a study: one HTML file that needs no network and nothing beside it. It says what
+/// was run, what each method costs for the error it makes, how fast the errors fall, where the
+/// energy went, and whether the bounds were met. Reads on a phone, in the dark and on paper.
+/// Its charts are drawn by Chart.js (Debian: libjs-chart.js), copied into the page as it is
+/// written. Test: tests/report/study_report_test.cpp
+
+#include "common/io/run_record.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace diptych::report {
+
+/// One bound of the study, as a reader is to see it ("velocity order >= 1.8", "1.97").
+struct AcceptanceLine {
+  std::string name, asked, measured;
+  bool passed = false;
+};
+
+struct StudyReport {
+  std::string title, description;
+  std::vector<std::string> material;  ///< lines of text: law, constants with units, branches
+  std::vector<io::RunSummary> runs;   ///< any methods and levels, in any order
+  std::map<std::string, std::vector<io::HistoryRow>> histories;  ///< method: finest level
+  std::vector<AcceptanceLine> acceptance;
+  std::map<std::string, double> differences;  ///< field: relative L2 between the methods
+};
+
+/// Writes the page, whole or not at all.
+/// @throws base::EnvironmentError where Chart.js is missing or the file cannot be written
+void write_report(const std::string& path, const StudyReport& study);
+
+/// The page as text. @param chart_script text of Chart.js, version 3 or 4
+std::string report_html(const StudyReport& study, const std::string& chart_script);
+
+/// Text of Chart.js as installed. @throws base::EnvironmentError naming the package
+std::string chart_script(const std::string& path);
+
+/// Where Chart.js was at build time: CMake's DIPTYCH_CHART_JS.
+std::string chart_script_path();
+
+}  // namespace diptych::report

@@ -1,0 +1,101 @@
+#include "sph/kernel_correction.hpp"
+
+#include "common/base/error.hpp"
+
+#include <fmt/format.h>
+
+namespace diptych::sph {
+
+using algebra::Mat3;
+using algebra::Vec3;
+
+namespace {
+
+/// Least eigenvalue of the neighbours' directions (mean of e (x) e, trace 1) that counts as a
+/// direction; a lattice has 1/3, neighbours in a plane have 0.
+constexpr double least_spread = 1e-6;
+
+[[noreturn]] void refuse(const scheme::PairGraph& graph, std::int64_t a, const std::string& what) {
+  const Vec3& X = graph.X[a];
+  throw base::InputError(fmt::format(
+      "particle {} at ({:.6g}, {:.6g}, {:.6g}) has {}; a corrected gradient needs at least {} that "
+      "do not lie in a {}: raise kappa or refine the mesh there",
+      a, X[0], X[1], X[2], what, graph.dimension + 1, graph.dimension == 3 ? "plane" : "line"));
+}
+
+void check_neighbours(const scheme::PairGraph& graph, std::int64_t a) {
+  const int d = graph.dimension;
+  const std::int64_t begin = graph.row[a], end = graph.row[a + 1];
+  if (end - begin <= d) refuse(graph, a, fmt::format("{} neighbours", end - begin));
+  Mat3 spread = Mat3::Zero();
+  for (std::int64_t p = begin; p < end; ++p) {
+    const Vec3 X_ab = graph.X[graph.neighbour[p]] - graph.X[a];
+    const double square = X_ab.squaredNorm();
+    if (square == 0) {
+      refuse(graph, a, fmt::format("particle {} at the same place", graph.neighbour[p]));
+    }
+    spread += X_ab * X_ab.transpose() / square;
+  }
+  spread /= static_cast<double>(end - begin);
+  if (d == 2) spread(2, 2) = 1;
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(spread, Eigen::EigenvaluesOnly);
+  if (solver.eigenvalues()[0] < least_spread) {
+    refuse(graph, a,
+           fmt::format("{} neighbours in one {}", end - begin, d == 3 ? "plane" : "line"));
+  }
+}
+
+}  // namespace
+
+void set_corrected_gradients(const Kernel& kernel,
+                             const std::vector<double>& h,
+                             scheme::PairGraph& graph) {
+  const int d = graph.dimension;
+  graph.C.resize(graph.neighbour.size());
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+    check_neighbours(graph, a);
+    Mat3 moment = Mat3::Zero();
+    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+      const std::int32_t b = graph.neighbour[p];
+      const Vec3 X_ab = graph.X[b] - graph.X[a];
+      const double r = X_ab.norm();
+      graph.C[p] = -(graph.Omega[b] * kernel.slope(r, 0.5 * (h[a] + h[b]), d) / r) * X_ab;
+      moment += X_ab * graph.C[p].transpose();
+    }
+    if (d == 2) moment(2, 2) = moment.trace();
+    const Mat3 K = moment.inverse().transpose();
+    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+      graph.C[p] = 2 * graph.Omega[a] * (K * graph.C[p]);
+    }
+  }
+}
+
+std::vector<double> linear_kernel_weights(const Kernel& kernel,
+                                          const std::vector<double>& h,
+                                          const scheme::PairGraph& graph) {
+  const int d = graph.dimension;
+  std::vector<double> w(graph.neighbour.size());
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+    double zeroth = graph.Omega[a] * kernel.value(0, h[a], d);
+    Vec3 first = Vec3::Zero();
+    Mat3 second = Mat3::Zero();
+    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+      const std::int32_t b = graph.neighbour[p];
+      const Vec3 X_ab = graph.X[b] - graph.X[a];
+      w[p] = graph.Omega[b] * kernel.value(X_ab.norm(), 0.5 * (h[a] + h[b]), d);
+      zeroth += w[p];
+      first += w[p] * X_ab;
+      second += w[p] * X_ab * X_ab.transpose();
+    }
+    if (d == 2) second(2, 2) = second.trace();
+    // 1 / (zeroth - first.slope) > 0 by Cauchy-Schwarz, the particle itself being included
+    const Vec3 slope = second.inverse() * first;
+    const double scale = graph.Omega[a] / (zeroth - first.dot(slope));
+    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+      w[p] *= scale * (1 - slope.dot(graph.X[graph.neighbour[p]] - graph.X[a]));
+    }
+  }
+  return w;
+}
+
+}  // namespace diptych::sph

@@ -1,0 +1,69 @@
+#include "sph/sph_graph.hpp"
+
+#include "common/base/error.hpp"
+#include "common/scheme/closure_repair.hpp"
+#include "meshes/dual_measure.hpp"
+#include "sph/kernel_correction.hpp"
+#include "sph/neighbours.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace diptych::sph {
+
+namespace {
+
+constexpr double least_kappa = 0.5, greatest_kappa = 4;
+
+/// h_a = kappa (Omega_a / part of the full angle that the body fills at a)^(1/d): a particle on the
+/// boundary has the smoothing length of those inside.
+std::vector<double> smoothing_lengths(const meshes::Mesh& mesh,
+                                      const std::vector<double>& Omega,
+                                      double kappa) {
+  std::vector<double> h = meshes::filled_angle(mesh);
+  for (size_t a = 0; a < h.size(); ++a) {
+    h[a] = kappa * std::pow(Omega[a] / h[a], 1.0 / mesh.dimension);
+  }
+  return h;
+}
+
+}  // namespace
+
+scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) {
+  const Kernel kernel = kernels().at(options.kernel);
+  if (!(options.kappa >= least_kappa && options.kappa <= greatest_kappa)) {
+    throw base::InputError(
+        fmt::format("kappa = {:.6g} is out of range; use {} to {} (1.2 is usual)", options.kappa,
+                    least_kappa, greatest_kappa));
+  }
+  meshes::DualMeasure measure = meshes::dual_measure(mesh, meshes::Quadrature::exact);
+  scheme::PairGraph graph;
+  graph.dimension = mesh.dimension;
+  graph.X = mesh.nodes;
+  graph.Omega = std::move(measure.Omega);
+  graph.boundary_area = std::move(measure.boundary_area);
+  for (meshes::PatchArea& patch : measure.patches) {
+    graph.patches.push_back({std::move(patch.name), std::move(patch.nodes), std::move(patch.area)});
+  }
+  const std::vector<double> h = smoothing_lengths(mesh, graph.Omega, options.kappa);
+  std::vector<double> radius(h);
+  for (double& r : radius)
+    r *= kernel.support;
+  Rows rows = find_neighbours(graph.X, radius);
+  graph.row = std::move(rows.row);
+  graph.neighbour = std::move(rows.neighbour);
+  link_reverse_pairs(graph);
+  set_corrected_gradients(kernel, h, graph);
+  if (options.closure) {
+    std::vector<double> w = linear_kernel_weights(kernel, h, graph);
+    for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
+        w[p] /= h[a];
+    }
+    scheme::repair_closure_rows(graph, w);
+  }
+  validate(graph);
+  return graph;
+}
+
+}  // namespace diptych::sph

@@ -1,0 +1,167 @@
+/// summary.json: what is written is read back bit for bit; what is not whole is refused by name.
+
+#include "common/io/run_record.hpp"
+
+#include "common/base/error.hpp"
+#include "tests/common/io/scratch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace diptych::io {
+namespace {
+
+using base::InputError;
+using nlohmann::json;
+using test::message_of;
+using testing::HasSubstr;
+
+/// Every member differs from its default and from every other.
+RunSummary full_summary() {
+  RunSummary s;
+  s.method = "fvm", s.case_name = "column", s.title = "twisting \"column\" <1>";
+  s.level = 2, s.dimension = 2, s.nodes = 4'000'000'017, s.pairs = 123456789,
+  s.unknowns_per_node = 34;
+  s.steps = 77, s.stages = 154, s.threads = 3, s.ranks = 5;
+  s.precision = "single", s.integrator = "ssp-rk3", s.status = "interrupted";
+  s.end_time = 0.1, s.setup_seconds = 1.0 / 3, s.wall_seconds = 12.5, s.loop_seconds = 11.7;
+  s.nanoseconds_per_node_stage = 451.3, s.peak_rss_bytes = 1'234'567'890'123;
+  s.dt_min = 1e-7, s.dt_max = 2e-5, s.spacing = 0.0625, s.mean_neighbours = 50.7;
+  s.graph_closure = 1.1e-16, s.graph_linear_exactness = 2.3e-15;
+  s.errors["velocity"] = {1e-3, std::nextafter(2e-3, 1), 3e-3};
+  s.errors["stress"] = {4e-3, 5e-3, 6e-3};
+  s.energy = {1.5, 2.5, 3.5, 4.5, -5.5, 6.5e-5};
+  s.linear_momentum_drift = 7e-16, s.angular_momentum_drift = 8e-9, s.min_jacobian = 0.93;
+  s.state_hash = "a1b2";
+  s.provenance = {"0.1.0", "c0ffee", "GCC 12.2", "-O3", "some cpu", "avx2", "2026-01-02", "d00d"};
+  return s;
+}
+
+json as_json(const RunSummary& summary) {
+  return json::parse(to_json(summary));
+}
+
+TEST(RunRecord, IsReadBackBitForBit) {
+  const RunSummary written = full_summary();
+  const RunSummary read = summary_from_json(to_json(written), "summary.json");
+  EXPECT_EQ(to_json(read), to_json(written));
+  EXPECT_EQ(read.errors.at("velocity").l2, written.errors.at("velocity").l2);
+  EXPECT_EQ(read.setup_seconds, written.setup_seconds);
+  EXPECT_EQ(read.nodes, written.nodes);
+  EXPECT_EQ(read.provenance.instruction_set, "avx2");
+}
+
+TEST(RunRecord, HasTheKeysOfTheContract) {
+  const json record = as_json(full_summary());
+  for (const char* pointer : {"/method",
+                              "/case",
+                              "/level",
+                              "/dimension",
+                              "/nodes",
+                              "/pairs",
+                              "/unknowns_per_node",
+                              "/steps",
+                              "/stages",
+                              "/threads",
+                              "/ranks",
+                              "/precision",
+                              "/status",
+                              "/wall_seconds",
+                              "/loop_seconds",
+                              "/nanoseconds_per_node_stage",
+                              "/peak_rss_bytes",
+                              "/dt/min",
+                              "/dt/max",
+                              "/errors/velocity/l1",
+                              "/errors/velocity/l2",
+                              "/errors/velocity/linf",
+                              "/energy/kinetic",
+                              "/energy/strain",
+                              "/energy/viscous_dissipation",
+                              "/energy/numerical_dissipation",
+                              "/energy/external_work",
+                              "/energy/relative_residual",
+                              "/momentum/linear_drift",
+                              "/momentum/angular_drift",
+                              "/min_jacobian",
+                              "/state_hash",
+                              "/provenance/version",
+                              "/provenance/commit",
+                              "/provenance/compiler",
+                              "/provenance/flags",
+                              "/provenance/cpu",
+                              "/provenance/date",
+                              "/provenance/case_hash"}) {
+    EXPECT_TRUE(record.contains(json::json_pointer(pointer))) << pointer;
+  }
+  EXPECT_EQ(record["energy"]["external_work"], -5.5);
+  EXPECT_EQ(record["dt"]["max"], 2e-5);
+}
+
+TEST(RunRecord, RefusesEachMissingKeyByName) {
+  const json whole = as_json(full_summary()).flatten();
+  for (const auto& item : whole.items()) {
+    const json::json_pointer pointer(item.key());
+    json record = whole.unflatten();
+    record[pointer.parent_pointer()].erase(pointer.back());
+    const std::string message =
+        message_of<InputError>([&] { summary_from_json(record.dump(), "out/summary.json"); });
+    EXPECT_THAT(message, HasSubstr("out/summary.json: ")) << item.key();
+    EXPECT_THAT(message, HasSubstr(pointer.back() + " is missing")) << item.key();
+  }
+}
+
+TEST(RunRecord, WritesNanAsNullAndRefusesToCompareIt) {
+  RunSummary broken = full_summary();
+  broken.energy.kinetic = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(as_json(broken)["energy"]["kinetic"].is_null());
+  EXPECT_THAT(message_of<InputError>([&] { summary_from_json(to_json(broken), "s.json"); }),
+              HasSubstr("energy.kinetic is null"));
+}
+
+TEST(RunRecord, SaysLineAndColumnOfBrokenText) {
+  EXPECT_THAT(message_of<InputError>([] { summary_from_json("{\n  \"method\": ?}", "s.json"); }),
+              HasSubstr("s.json:2:13: not valid JSON"));
+  EXPECT_THAT(message_of<InputError>([] { summary_from_json("", "s.json"); }),
+              HasSubstr("s.json:1:1"));
+  const std::string text = to_json(full_summary());
+  for (size_t length = 0; length + 2 < text.size(); length += 37) {
+    EXPECT_THROW(summary_from_json(text.substr(0, length), "s.json"), InputError) << length;
+  }
+}
+
+TEST(RunRecord, RefusesWrongTypesRangesAndDoubleKeys) {
+  const auto refusal = [](const char* key, const json& value) {
+    json record = as_json(full_summary());
+    record[key] = value;
+    return message_of<InputError>([&] { summary_from_json(record.dump(), "s.json"); });
+  };
+  EXPECT_THAT(refusal("method", 3), HasSubstr("method must be a text"));
+  EXPECT_THAT(refusal("steps", 1.5), HasSubstr("steps must be a whole number"));
+  EXPECT_THAT(refusal("steps", -1), HasSubstr("steps must lie between 0 and"));
+  EXPECT_THAT(refusal("nodes", std::numeric_limits<std::uint64_t>::max()),
+              HasSubstr("nodes must lie"));
+  EXPECT_THAT(refusal("level", 3'000'000'000),
+              HasSubstr("level must lie between 0 and 2147483647"));
+  EXPECT_THAT(refusal("wall_seconds", "1"), HasSubstr("wall_seconds must be a number"));
+  EXPECT_THAT(refusal("errors", 1), HasSubstr("errors must be an object"));
+  std::string text = to_json(full_summary());
+  text.insert(1, "\"method\": \"sph\",");
+  EXPECT_THAT(message_of<InputError>([&] { summary_from_json(text, "s.json"); }),
+              HasSubstr("key 'method' stands twice"));
+  EXPECT_THAT(message_of<InputError>([] { summary_from_json("{\"level\": 1e999}", "s.json"); }),
+              HasSubstr("s.json"));
+}
+
+TEST(RunRecord, TakesKeysOfLaterVersions) {
+  json record = as_json(full_summary());
+  record["added_later"] = {1, 2, 3};
+  EXPECT_EQ(summary_from_json(record.dump(), "s.json").method, "fvm");
+}
+
+}  // namespace
+}  // namespace diptych::io

@@ -1,0 +1,20 @@
+// A block of 1 x 0.7 x 0.3, with overlapping boundary groups and a volume in two groups.
+DefineConstant[ h = 1 ];
+Mesh.MeshSizeMax = h;
+Point(1) = {0, 0, 0, h};
+Point(2) = {1, 0, 0, h};
+Point(3) = {1, 0.7, 0, h};
+Point(4) = {0, 0.7, 0, h};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+extruded[] = Extrude {0, 0, 0.3} { Surface{1}; };
+Physical Surface("bottom") = {1};
+Physical Surface("top") = {extruded[0]};
+Physical Surface("ends") = {1, extruded[0]};
+Physical Surface(9) = {extruded[2]};
+Physical Volume("body") = {extruded[1]};
+Physical Volume("again") = {extruded[1]};
