@@ -4,6 +4,10 @@
 #include "benchmarks/harness/case_list.hpp"
 #include "benchmarks/harness/run_table.hpp"
 #include "benchmarks/harness/study.hpp"
+#include "benchmarks/harness/tables.hpp"
+#include "common/base/error.hpp"
+#include "common/run/case_keys.hpp"
+#include "common/run/case_reader.hpp"
 
 #include <algorithm>
 #include <CLI/CLI.hpp>
@@ -12,26 +16,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <new>
-#if __has_include("benchmarks/harness/tables.hpp")
-#include "benchmarks/harness/tables.hpp"
-#else
-namespace diptych::harness {
-inline std::string comparison_table(const io::RunSummary& a,
-                                    const io::RunSummary& b,
-                                    const std::map<std::string, double>&) {
-  return run_table(a) + run_table(b);
-}
-inline std::string convergence_table(const std::vector<io::RunSummary>& l) {
-  std::string s;
-  for (auto& x : l)
-    s += run_table(x);
-  return s;
-}
-}  // namespace diptych::harness
-#endif
-#include "common/base/error.hpp"
-#include "common/run/case_keys.hpp"
-#include "common/run/case_reader.hpp"
 
 namespace {
 

@@ -20,7 +20,7 @@ namespace diptych::meshes {
 
 namespace {
 
-constexpr size_t most_output = 64 * 1024;
+constexpr size_t most_output = 65536;
 
 [[noreturn]] void fail(const std::string& program, const char* what, int error) {
   throw base::EnvironmentError(fmt::format("{}: {}: {}", program, what, std::strerror(error)));
@@ -63,6 +63,7 @@ class StreamPlan {
 
 std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
+  pointers.reserve(texts.size() + 1);
   for (std::string& text : texts)
     pointers.push_back(text.data());
   pointers.push_back(nullptr);
@@ -119,7 +120,7 @@ std::string program_in_path(const std::string& name) {
     const std::string folder = folders.substr(start, end - start);
     start = end + 1;
     if (folder.empty()) continue;
-    const std::string program = folder + "/" + name;
+    std::string program = fmt::format("{}/{}", folder, name);
     struct stat status {};
     if (stat(program.c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
         access(program.c_str(), X_OK) == 0) {

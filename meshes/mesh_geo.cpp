@@ -50,7 +50,7 @@ std::string gmsh_program() {
         "this program was configured with DIPTYCH_WITH_GMSH=OFF and does not mesh .geo files: give "
         "a .msh file, or configure it with DIPTYCH_WITH_GMSH=AUTO");
   }
-  const std::string program = program_in_path("gmsh");
+  std::string program = program_in_path("gmsh");
   if (program.empty()) {
     throw base::EnvironmentError(
         "the gmsh program is needed to mesh a .geo file, but PATH has none: install the Debian "

@@ -14,9 +14,14 @@
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#define DIPTYCH_MULTIVERSION
 #define DIPTYCH_CLONES __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+#define DIPTYCH_AVX2 __attribute__((target("arch=x86-64-v3")))
+#define DIPTYCH_AVX512 __attribute__((target("arch=x86-64-v4")))
 #else
 #define DIPTYCH_CLONES
+#define DIPTYCH_AVX2
+#define DIPTYCH_AVX512
 #endif
 
 namespace diptych::algebra {
@@ -80,9 +85,16 @@ DIPTYCH_INLINE Lanes inverse_or_zero(Lanes a) {
   const Lanes one = Lanes{} + 1.0;
   return a != 0 ? one / (a != 0 ? a : one) : Lanes{};
 }
+using HalfLanes = double __attribute__((vector_size(4 * sizeof(double))));
+using QuarterLanes = double __attribute__((vector_size(2 * sizeof(double))));
+
 /// Sum of the eight lanes, always in the same tree shape.
 DIPTYCH_INLINE double lane_sum(const Lanes& a) {
-  return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
+  const HalfLanes half =
+      __builtin_shufflevector(a, a, 0, 1, 2, 3) + __builtin_shufflevector(a, a, 4, 5, 6, 7);
+  const QuarterLanes quarter =
+      __builtin_shufflevector(half, half, 0, 1) + __builtin_shufflevector(half, half, 2, 3);
+  return quarter[0] + quarter[1];
 }
 DIPTYCH_INLINE Lanes load(const double* p) {
   Lanes r;
@@ -91,6 +103,18 @@ DIPTYCH_INLINE Lanes load(const double* p) {
 }
 DIPTYCH_INLINE void store(double* p, const Lanes& a) {
   __builtin_memcpy(p, &a, sizeof a);
+}
+
+/// Instruction sets that pair sweeps are compiled for by hand: their gathers differ in form.
+enum class InstructionSet { baseline, avx2, avx512 };
+
+/// What this processor runs.
+inline InstructionSet instruction_set() {
+#if defined(DIPTYCH_MULTIVERSION)
+  if (__builtin_cpu_supports("x86-64-v4")) return InstructionSet::avx512;
+  if (__builtin_cpu_supports("x86-64-v3")) return InstructionSet::avx2;
+#endif
+  return InstructionSet::baseline;
 }
 
 }  // namespace diptych::algebra

@@ -38,6 +38,7 @@ class BodySolver : public Solver {
         setup_(std::move(setup)),
         boundary_(std::move(boundary)),
         momentum_(scheme::momentum_function<Dim>(setup_.dissipation, Material::has_H)),
+        strain_rates_(scheme::strain_rate_function<Dim, Material>()),
         state_(graph.n_nodes(),
                static_cast<int>(model_.branches.size()),
                Material::has_H,
@@ -112,7 +113,9 @@ class BodySolver : public Solver {
         drift,
         viscous_power_.data(),
         least_J_.data()};
-    parallel::for_chunks(pairs_.n_blocks, sweep);
+    parallel::for_chunks(pairs_.n_blocks, [&](auto begin, auto end, auto chunk) {
+      strain_rates_(sweep, begin, end, chunk);
+    });
   }
 
   /// Internal forces (18a) with D_ab; with_bound: also the largest stable step of this state.
@@ -238,6 +241,7 @@ class BodySolver : public Solver {
   SolverSetup setup_;
   scheme::AppliedBoundary boundary_;
   scheme::MomentumFunction<Dim> momentum_;
+  scheme::StrainRateFunction<Dim, Material> strain_rates_;
   scheme::State<Dim> state_;
   std::vector<algebra::Vec3> X_centred_;
   // results of the sweeps, one per chunk

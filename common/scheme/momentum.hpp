@@ -54,11 +54,11 @@ struct NodeSums {
 /// Mean response of the pair from the records of its nodes, for the exact impedance.
 template <int Dim>
 DIPTYCH_INLINE void mean_state(const double* own,
-                               const double* const* neighbour,
+                               const Lanes* neighbour,
                                physics::Response<Lanes>& r,
                                physics::Deformation<Lanes>& X) {
   using Record = NodeRecord<Dim>;
-  const auto mean = [&](int c) { return 0.5 * (gathered(neighbour, c) + own[c]); };
+  const auto mean = [&](int c) { return 0.5 * (neighbour[c] + own[c]); };
   X.F = Tensor<Lanes>{};
   X.H = Tensor<Lanes>{};
   for (int i = 0; i < Dim; ++i) {
@@ -81,7 +81,7 @@ DIPTYCH_INLINE void mean_state(const double* own,
 }
 
 /// Adds eight pairs to the sums of their node a.
-template <int Dim, DissipationKind kind, bool has_H>
+template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
 DIPTYCH_INLINE void add_pairs(const MomentumSweep<Dim>& sweep,
                               const PairChunk<Dim>& pairs,
                               const double* own,
@@ -93,29 +93,34 @@ DIPTYCH_INLINE void add_pairs(const MomentumSweep<Dim>& sweep,
     neighbour[l] =
         records + static_cast<std::int64_t>(pairs.neighbour[l]) * sweep.state.record_stride;
   }
+  constexpr bool exact = kind.impedance == Impedance::exact;
+  Lanes r[Record::stride(exact)];
+  gather<isa, exact ? Record::n_exact : Record::n_isotropic>(neighbour, r);
   Vector<Lanes> C_ab{}, C_ba{}, S{}, plain{}, jump{}, h{};
+#pragma GCC unroll 3
   for (int i = 0; i < Dim; ++i) {
     C_ab[i] = algebra::load(pairs.C_ab[i]);
     C_ba[i] = algebra::load(pairs.C_ba[i]);
     S[i] = 0.5 * (C_ab[i] - C_ba[i]);
-    plain[i] = gathered(neighbour, Record::v + i) - own[Record::v + i];
+    plain[i] = r[Record::v + i] - own[Record::v + i];
   }
+#pragma GCC unroll 3
   for (int i = 0; i < Dim; ++i) {
     Lanes PC{}, LX{};
+#pragma GCC unroll 3
     for (int j = 0; j < Dim; ++j) {
       const int ij = i * Dim + j;
-      PC += gathered(neighbour, Record::P + ij) * C_ba[j];
-      h[i] += (gathered(neighbour, Record::H + ij) + own[Record::H + ij]) * S[j];
+      PC += r[Record::P + ij] * C_ba[j];
+      h[i] += (r[Record::H + ij] + own[Record::H + ij]) * S[j];
       if constexpr (kind.reconstruction == Reconstruction::linear) {
-        LX += (gathered(neighbour, Record::L + ij) + own[Record::L + ij]) *
-              algebra::load(pairs.X_ab[j]);
+        LX += (r[Record::L + ij] + own[Record::L + ij]) * algebra::load(pairs.X_ab[j]);
       }
     }
     sums.force[i] -= PC;
     jump[i] = plain[i] - 0.5 * LX;
   }
   const Lanes area = algebra::load(pairs.area);
-  const Lanes z_p = gathered(neighbour, Record::z_p);
+  const Lanes z_p = r[Record::z_p];
   if constexpr (kind.limiter == PairLimiter::sign_preserving) {
     Lanes h_h{};
     for (int i = 0; i < Dim; ++i)
@@ -129,12 +134,11 @@ DIPTYCH_INLINE void add_pairs(const MomentumSweep<Dim>& sweep,
   Vector<Lanes> D{};
   if constexpr (kind.impedance == Impedance::isotropic) {
     D = isotropic_impedance_times<Dim>(0.5 * (z_p + own[Record::z_p]),
-                                       0.5 * (gathered(neighbour, Record::z_s) + own[Record::z_s]),
-                                       h, jump);
+                                       0.5 * (r[Record::z_s] + own[Record::z_s]), h, jump);
   } else {
     physics::Response<Lanes> response;
     physics::Deformation<Lanes> X;
-    mean_state<Dim>(own, neighbour, response, X);
+    mean_state<Dim>(own, r, response, X);
     const Lanes inverse = algebra::inverse_or_zero(area);
     Vector<Lanes> N{};
     for (int i = 0; i < Dim; ++i)
@@ -157,7 +161,7 @@ DIPTYCH_INLINE void add_pairs(const MomentumSweep<Dim>& sweep,
 }
 
 /// One node. @return numerical dissipation of its half of each pair [W]; updates the largest rate
-template <int Dim, DissipationKind kind, bool has_H>
+template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
 DIPTYCH_INLINE double force_on_node(const MomentumSweep<Dim>& sweep,
                                     std::int64_t a,
                                     double& largest_rate) {
@@ -166,7 +170,7 @@ DIPTYCH_INLINE double force_on_node(const MomentumSweep<Dim>& sweep,
   const double* own = sweep.state.records.data() + a * sweep.state.record_stride;
   NodeSums<Dim> sums;
   for (std::int64_t c = graph.row[a]; c < graph.row[a + 1]; ++c) {
-    add_pairs<Dim, kind, has_H>(sweep, graph.chunks[c], own, sums);
+    add_pairs<isa, Dim, kind, has_H>(sweep, graph.chunks[c], own, sums);
   }
   double* T = sweep.state.T.block(a / n_lanes) + a % n_lanes;
   const double* C_sum = graph.C_sum.block(a / n_lanes) + a % n_lanes;
@@ -183,19 +187,54 @@ DIPTYCH_INLINE double force_on_node(const MomentumSweep<Dim>& sweep,
   return 0.25 * algebra::lane_sum(sums.power);
 }
 
-template <int Dim, DissipationKind kind, bool has_H>
-DIPTYCH_CLONES void momentum_sweep(const MomentumSweep<Dim>& sweep,
-                                   std::int64_t begin,
-                                   std::int64_t end,
-                                   std::int64_t chunk) {
+template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
+DIPTYCH_INLINE void forces_on_blocks(const MomentumSweep<Dim>& sweep,
+                                     std::int64_t begin,
+                                     std::int64_t end,
+                                     std::int64_t chunk) {
   double power = 0, rate = 0;
   const std::int64_t n_nodes = sweep.graph.n_nodes;
   const std::int64_t last = end * n_lanes < n_nodes ? end * n_lanes : n_nodes;
   for (std::int64_t a = begin * n_lanes; a < last; ++a) {
-    power += force_on_node<Dim, kind, has_H>(sweep, a, rate);
+    power += force_on_node<isa, Dim, kind, has_H>(sweep, a, rate);
   }
   sweep.numerical_power[chunk] = power;
   sweep.largest_rate[chunk] = rate;
+}
+
+template <int Dim, DissipationKind kind, bool has_H>
+void momentum_sweep_baseline(const MomentumSweep<Dim>& sweep,
+                             std::int64_t begin,
+                             std::int64_t end,
+                             std::int64_t chunk) {
+  forces_on_blocks<InstructionSet::baseline, Dim, kind, has_H>(sweep, begin, end, chunk);
+}
+template <int Dim, DissipationKind kind, bool has_H>
+DIPTYCH_AVX2 void momentum_sweep_avx2(const MomentumSweep<Dim>& sweep,
+                                      std::int64_t begin,
+                                      std::int64_t end,
+                                      std::int64_t chunk) {
+  forces_on_blocks<InstructionSet::avx2, Dim, kind, has_H>(sweep, begin, end, chunk);
+}
+template <int Dim, DissipationKind kind, bool has_H>
+DIPTYCH_AVX512 void momentum_sweep_avx512(const MomentumSweep<Dim>& sweep,
+                                          std::int64_t begin,
+                                          std::int64_t end,
+                                          std::int64_t chunk) {
+  forces_on_blocks<InstructionSet::avx512, Dim, kind, has_H>(sweep, begin, end, chunk);
+}
+
+/// The sweep of one kind for this processor.
+template <int Dim, DissipationKind kind, bool has_H>
+MomentumFunction<Dim> momentum_sweep() {
+  switch (algebra::instruction_set()) {
+    case InstructionSet::avx512:
+      return momentum_sweep_avx512<Dim, kind, has_H>;
+    case InstructionSet::avx2:
+      return momentum_sweep_avx2<Dim, kind, has_H>;
+    default:
+      return momentum_sweep_baseline<Dim, kind, has_H>;
+  }
 }
 
 /// The menu of compiled sweeps of one dimension.
@@ -211,16 +250,16 @@ MomentumFunction<Dim> momentum_function_of(const DissipationKind& kind, bool has
   constexpr DissipationKind limited_x{Reconstruction::linear, PairLimiter::sign_preserving, exact};
   const bool is_limited = kind.limiter == PairLimiter::sign_preserving;
   if (kind.impedance == isotropic) {
-    if (kind.reconstruction == Reconstruction::none) return momentum_sweep<Dim, plain, true>;
-    return is_limited ? momentum_sweep<Dim, limited, true> : momentum_sweep<Dim, linear, true>;
+    if (kind.reconstruction == Reconstruction::none) return momentum_sweep<Dim, plain, true>();
+    return is_limited ? momentum_sweep<Dim, limited, true>() : momentum_sweep<Dim, linear, true>();
   }
   if (kind.reconstruction == Reconstruction::none) {
-    return has_H ? momentum_sweep<Dim, plain_x, true> : momentum_sweep<Dim, plain_x, false>;
+    return has_H ? momentum_sweep<Dim, plain_x, true>() : momentum_sweep<Dim, plain_x, false>();
   }
   if (is_limited) {
-    return has_H ? momentum_sweep<Dim, limited_x, true> : momentum_sweep<Dim, limited_x, false>;
+    return has_H ? momentum_sweep<Dim, limited_x, true>() : momentum_sweep<Dim, limited_x, false>();
   }
-  return has_H ? momentum_sweep<Dim, linear_x, true> : momentum_sweep<Dim, linear_x, false>;
+  return has_H ? momentum_sweep<Dim, linear_x, true>() : momentum_sweep<Dim, linear_x, false>();
 }
 
 }  // namespace diptych::scheme

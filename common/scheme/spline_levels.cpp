@@ -11,9 +11,8 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr double spacing_of_finest = 2;  ///< in units of the mean spacing of the nodes
-constexpr int most_splines_of_last = 600;
-constexpr double felt = 1e-10;   ///< part of its energy that the linear fit must leave
-constexpr double ridge = 1e-11;  ///< on the scaled matrix, which is singular on affine fields
+constexpr int least_splines = 64;        ///< no coarser level than this
+constexpr double felt = 1e-10;           ///< part of its energy that the linear fit must leave
 
 /// Half the second differential: 1/2 X.Hess X = monomials.Hess, Hess = {xx,yy,zz,yz,zx,xy}.
 Vec6 monomials(const Vec3& X) {
@@ -51,7 +50,7 @@ SplineLevels::SplineLevels(const PairGraph& graph,
   for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
     row_moments(graph, k, inverse[a], a, T);
     for (Level& level : levels_)
-      add_energy(level, graph.X[a], T, &level == &levels_.back());
+      add_energy(level, graph.X[a], T);
     node_splines_.push_back(splines_at(levels_.front(), graph.X[a]));
   }
   for (Level& level : levels_) {
@@ -59,7 +58,6 @@ SplineLevels::SplineLevels(const PairGraph& graph,
       if (!(level.diagonal[i] > felt * level.uncorrected[i])) level.diagonal[i] = 0;
     }
   }
-  factorise_last();
 }
 
 void SplineLevels::set_levels(const PairGraph& graph) {
@@ -86,8 +84,7 @@ void SplineLevels::set_levels(const PairGraph& graph) {
     level.diagonal.assign(static_cast<size_t>(level.size()), 0.0);
     level.uncorrected = level.diagonal;
     H *= 2;
-  } while (levels_.back().size() > most_splines_of_last);
-  last_.setZero(levels_.back().size(), levels_.back().size());
+  } while (levels_.back().size() > least_splines);
 }
 
 SplineLevels::Splines SplineLevels::splines_at(const Level& level, const Vec3& X) const {
@@ -114,50 +111,25 @@ SplineLevels::Splines SplineLevels::splines_at(const Level& level, const Vec3& X
   return s;
 }
 
-void SplineLevels::add_energy(Level& level, const Vec3& X, const Mat6 T[2], bool is_last) {
+void SplineLevels::add_energy(Level& level, const Vec3& X, const Mat6 T[2]) {
   const Splines s = splines_at(level, X);
-  std::array<std::int64_t, 27> index;
-  std::array<Vec6, 27> hessian, T_hessian;
-  int count = 0;
   for (int z = 0; z < per_direction_z_; ++z) {
     for (int y = 0; y < 3; ++y) {
       for (int x = 0; x < 3; ++x) {
         const double* v[3] = {&s.value[0][x], &s.value[1][y], &s.value[2][z]};
         const double* g[3] = {&s.slope[0][x], &s.slope[1][y], &s.slope[2][z]};
         const double* c[3] = {&s.curvature[0][x], &s.curvature[1][y], &s.curvature[2][z]};
-        Vec6& h = hessian[count];
+        Vec6 h;
         h << *c[0] * *v[1] * *v[2], *v[0] * *c[1] * *v[2], *v[0] * *v[1] * *c[2],
             *v[0] * *g[1] * *g[2], *g[0] * *v[1] * *g[2], *g[0] * *g[1] * *v[2];
-        T_hessian[count] = T[0] * h;
-        index[count] =
+        const std::int64_t i =
             (static_cast<std::int64_t>(s.first[2] + z) * level.n[1] + s.first[1] + y) * level.n[0] +
             s.first[0] + x;
-        level.diagonal[index[count]] += h.dot(T_hessian[count]);
-        level.uncorrected[index[count]] += h.dot(T[1] * h);
-        ++count;
+        level.diagonal[i] += h.dot(T[0] * h);
+        level.uncorrected[i] += h.dot(T[1] * h);
       }
     }
   }
-  if (!is_last) return;
-  for (int i = 0; i < count; ++i) {
-    for (int j = 0; j < count; ++j)
-      last_(index[i], index[j]) += hessian[i].dot(T_hessian[j]);
-  }
-}
-
-void SplineLevels::factorise_last() {
-  const std::vector<double>& diagonal = levels_.back().diagonal;
-  last_scale_.setZero(last_.rows());
-  for (Eigen::Index i = 0; i < last_.rows(); ++i) {
-    if (diagonal[i] > 0) last_scale_[i] = 1 / std::sqrt(diagonal[i]);
-  }
-  last_ = last_scale_.asDiagonal() * last_ * last_scale_.asDiagonal();
-  last_.diagonal().array() += ridge;
-  for (Eigen::Index i = 0; i < last_.rows(); ++i) {
-    if (last_scale_[i] == 0) last_(i, i) = 1;
-  }
-  last_factor_.compute(last_);
-  last_.resize(0, 0);
 }
 
 template <class Visit>
@@ -217,15 +189,12 @@ void SplineLevels::add(const std::vector<Vec3>& r, std::vector<Vec3>& z) const {
       grid[l][c] += w * grid[l - 1][f];
     });
   }
-  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> last(
-      grid.back().data()->data(), levels_.back().size(), 3);
-  const Eigen::MatrixXd solved = last_factor_.solve(last_scale_.asDiagonal() * last);
-  last = last_scale_.asDiagonal() * solved;
-  for (size_t l = levels_.size() - 1; l-- > 0;) {
+  for (size_t l = levels_.size(); l-- > 0;) {
     for (size_t i = 0; i < grid[l].size(); ++i) {
       const double diagonal = levels_[l].diagonal[i];
       grid[l][i] = diagonal > 0 ? Vec3(grid[l][i] / diagonal) : Vec3(Vec3::Zero());
     }
+    if (l + 1 == levels_.size()) continue;
     for_each_child(levels_[l], levels_[l + 1], [&](std::int64_t f, std::int64_t c, double w) {
       grid[l][f] += w * grid[l + 1][c];
     });

@@ -8,7 +8,7 @@
 ///   T_a = 1/4 sum_b k_ab r_ab r_ab^T,  r_ab = monomials of degree 2 less their linear fit,
 /// so quadratic B-splines (C^1) on grids of spacing H, 2H, 4H, ... carry the additive
 /// preconditioner of Bramble, Pasciak and Xu (1990):
-///   z = D^-1 r + sum_levels P D_level^-1 P^T r + P_last T_last^-1 P_last^T r.
+///   z = D^-1 r + sum_levels P D_level^-1 P^T r.
 /// Test: tests/graphs/closure_repair_test.cpp (steps stay bounded when the grid is refined).
 
 #include "common/scheme/pair_graph.hpp"
@@ -46,11 +46,7 @@ class SplineLevels {
 
   void set_levels(const PairGraph& graph);
   Splines splines_at(const Level& level, const Vec3& X) const;
-  void add_energy(Level& level,
-                  const Vec3& X,
-                  const Eigen::Matrix<double, 6, 6> T[2],
-                  bool is_last);
-  void factorise_last();
+  void add_energy(Level& level, const Vec3& X, const Eigen::Matrix<double, 6, 6> T[2]);
   /// Calls visit(fine, coarse, weight) for the two-scale relation 1/4 (1 3 3 1) in each direction.
   template <class Visit>
   void for_each_child(const Level& fine, const Level& coarse, const Visit& visit) const;
@@ -60,9 +56,6 @@ class SplineLevels {
   Vec3 lower_ = Vec3::Zero();
   std::vector<Level> levels_;
   std::vector<Splines> node_splines_;  ///< [n_nodes] on the finest level
-  Eigen::MatrixXd last_;               ///< T of the last level
-  Eigen::VectorXd last_scale_;
-  Eigen::LLT<Eigen::MatrixXd> last_factor_;
 };
 
 }  // namespace diptych::scheme

@@ -29,7 +29,8 @@ State<Dim>::State(
     A = BlockField(n, branches * Layout::n_A);
     if (G) S = BlockField(n, branches * Layout::n_S);
   }
-  velocity = algebra::AlignedArray<double>(n_blocks * algebra::n_lanes * velocity_stride<Dim>);
+  // gathers read four doubles of every row, in the plane two beyond the last
+  velocity = algebra::AlignedArray<double>(n_blocks * algebra::n_lanes * velocity_stride<Dim> + 4);
   records = algebra::AlignedArray<double>(n_blocks * algebra::n_lanes * record_stride);
 }
 

@@ -8,6 +8,7 @@
 
 #include "common/algebra/layout.hpp"
 #include "common/physics/wave_speeds.hpp"
+#include "common/scheme/gather.hpp"
 #include "common/scheme/pointwise.hpp"
 #include "common/scheme/sweep_graph.hpp"
 #include "common/scheme/update.hpp"
@@ -26,18 +27,17 @@ struct StrainRateSweep {
   // results, one per chunk of parallel::for_chunks
   double* viscous_power;  ///< W
   double* least_J;        ///< NaN where a node has not J > 0
-
-  void operator()(std::int64_t begin, std::int64_t end, std::int64_t chunk) const;
 };
 
-/// Eight values of component c of the neighbours' records.
-DIPTYCH_INLINE algebra::Lanes gathered(const double* const* neighbour, int c) {
-  return algebra::Lanes{neighbour[0][c], neighbour[1][c], neighbour[2][c], neighbour[3][c],
-                        neighbour[4][c], neighbour[5][c], neighbour[6][c], neighbour[7][c]};
-}
+/// A compiled sweep over blocks [begin, end) of a chunk.
+template <int Dim, class Material>
+using StrainRateFunction = void (*)(const StrainRateSweep<Dim, Material>& sweep,
+                                    std::int64_t begin,
+                                    std::int64_t end,
+                                    std::int64_t chunk);
 
 /// dF/dt of the eight nodes of block b, into state.L.
-template <int Dim>
+template <InstructionSet isa, int Dim>
 DIPTYCH_INLINE void strain_rates_of_block(const SweepGraph<Dim>& graph,
                                           State<Dim>& state,
                                           std::int64_t b) {
@@ -53,8 +53,12 @@ DIPTYCH_INLINE void strain_rates_of_block(const SweepGraph<Dim>& graph,
       for (int l = 0; l < n_lanes; ++l) {
         neighbour[l] = velocity + static_cast<std::int64_t>(pairs.neighbour[l]) * stride;
       }
+      Lanes v[4];
+      gather<isa, Dim>(neighbour, v);
+#pragma GCC unroll 3
       for (int i = 0; i < Dim; ++i) {
-        const Lanes jump = gathered(neighbour, i) - velocity[a * stride + i];
+        const Lanes jump = v[i] - velocity[a * stride + i];
+#pragma GCC unroll 3
         for (int j = 0; j < Dim; ++j)
           sum[i * Dim + j] += jump * algebra::load(pairs.C_ab[j]);
       }
@@ -119,7 +123,7 @@ DIPTYCH_INLINE void write_records(State<Dim>& state,
 }
 
 /// One block of the sweep. @return sum of the viscous dissipation over the block [W]
-template <int Dim, class Material>
+template <InstructionSet isa, int Dim, class Material>
 DIPTYCH_INLINE double evaluate_block(const StrainRateSweep<Dim, Material>& sweep,
                                      std::int64_t b,
                                      Lanes& least_J,
@@ -127,7 +131,7 @@ DIPTYCH_INLINE double evaluate_block(const StrainRateSweep<Dim, Material>& sweep
   using Layout = algebra::Layout<Dim>;
   constexpr bool has_H = Material::has_H;
   State<Dim>& state = sweep.state;
-  strain_rates_of_block(sweep.graph, state, b);
+  strain_rates_of_block<isa>(sweep.graph, state, b);
   if (sweep.drift != 0) drift_block(state, sweep.drift, b);
   const Deformation<Lanes> X = load_deformation(state, b);
   least_J = algebra::smaller(least_J, X.J);
@@ -153,19 +157,56 @@ DIPTYCH_INLINE double evaluate_block(const StrainRateSweep<Dim, Material>& sweep
   return algebra::lane_sum(dissipation * algebra::load(sweep.graph.Omega.data() + b * n_lanes));
 }
 
-template <int Dim, class Material>
-DIPTYCH_CLONES void StrainRateSweep<Dim, Material>::operator()(std::int64_t begin,
-                                                               std::int64_t end,
-                                                               std::int64_t chunk) const {
+template <InstructionSet isa, int Dim, class Material>
+DIPTYCH_INLINE void evaluate_blocks(const StrainRateSweep<Dim, Material>& sweep,
+                                    std::int64_t begin,
+                                    std::int64_t end,
+                                    std::int64_t chunk) {
   double power = 0;
   Lanes least = Lanes{} + 1e300, n_bad{};
-  for (std::int64_t b = begin; b < end; ++b)
-    power += evaluate_block(*this, b, least, n_bad);
-  viscous_power[chunk] = power;
+  for (std::int64_t b = begin; b < end; ++b) {
+    power += evaluate_block<isa>(sweep, b, least, n_bad);
+  }
+  sweep.viscous_power[chunk] = power;
   double least_of_all = least[0];
   for (int l = 1; l < n_lanes; ++l)
     least_of_all = algebra::smaller(least_of_all, least[l]);
-  least_J[chunk] = algebra::lane_sum(n_bad) > 0 ? __builtin_nan("") : least_of_all;
+  sweep.least_J[chunk] = algebra::lane_sum(n_bad) > 0 ? __builtin_nan("") : least_of_all;
+}
+
+template <int Dim, class Material>
+void strain_rate_sweep_baseline(const StrainRateSweep<Dim, Material>& sweep,
+                                std::int64_t begin,
+                                std::int64_t end,
+                                std::int64_t chunk) {
+  evaluate_blocks<InstructionSet::baseline>(sweep, begin, end, chunk);
+}
+template <int Dim, class Material>
+DIPTYCH_AVX2 void strain_rate_sweep_avx2(const StrainRateSweep<Dim, Material>& sweep,
+                                         std::int64_t begin,
+                                         std::int64_t end,
+                                         std::int64_t chunk) {
+  evaluate_blocks<InstructionSet::avx2>(sweep, begin, end, chunk);
+}
+template <int Dim, class Material>
+DIPTYCH_AVX512 void strain_rate_sweep_avx512(const StrainRateSweep<Dim, Material>& sweep,
+                                             std::int64_t begin,
+                                             std::int64_t end,
+                                             std::int64_t chunk) {
+  evaluate_blocks<InstructionSet::avx512>(sweep, begin, end, chunk);
+}
+
+/// The sweep for this processor.
+template <int Dim, class Material>
+StrainRateFunction<Dim, Material> strain_rate_function() {
+  switch (algebra::instruction_set()) {
+    case InstructionSet::avx512:
+      return strain_rate_sweep_avx512<Dim, Material>;
+    case InstructionSet::avx2:
+      return strain_rate_sweep_avx2<Dim, Material>;
+    default:
+      return strain_rate_sweep_baseline<Dim, Material>;
+  }
 }
 
 }  // namespace diptych::scheme

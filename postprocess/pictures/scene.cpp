@@ -48,18 +48,26 @@ namespace {
 
 constexpr const char* coloured = "coloured";  // name of the array that the colours show
 
-/// VTK aborts the process where it finds no display: ask first.
-void require_display() {
-  Display* display = XOpenDisplay(nullptr);
-  if (display == nullptr) {
+/// VTK aborts the process where it finds no display: connect first, and stay connected until the
+/// picture is drawn, since Xvfb starts over, and refuses others meanwhile, when its last client
+/// goes.
+class DisplayConnection {
+ public:
+  DisplayConnection() : display_(XOpenDisplay(nullptr)) {
+    if (display_ != nullptr) return;
     const char* name = std::getenv("DISPLAY");
     throw base::EnvironmentError(
         fmt::format("no X display {}: VTK draws through X even off screen; run it as `xvfb-run -a "
                     "diptych-picture ...` (packages xvfb, xauth, libgl1-mesa-dri)",
                     name == nullptr ? "(DISPLAY is not set)" : fmt::format("at '{}'", name)));
   }
-  XCloseDisplay(display);
-}
+  DisplayConnection(const DisplayConnection&) = delete;
+  DisplayConnection& operator=(const DisplayConnection&) = delete;
+  ~DisplayConnection() { XCloseDisplay(display_); }
+
+ private:
+  Display* display_;
+};
 
 std::vector<std::string> array_names(vtkPointData* fields) {
   std::vector<std::string> names;
@@ -307,11 +315,11 @@ void save(vtkRenderWindow* window, const std::string& path) {
 void write_picture(const std::string& png_path,
                    const std::vector<Panel>& panels,
                    const PictureOptions& options) {
-  require_display();
   vtkObject::GlobalWarningDisplayOff();  // what matters is said by our own errors
   std::vector<vtkSmartPointer<vtkUnstructuredGrid>> grids;
   for (const Panel& panel : panels)
     grids.push_back(read_frame(panel, options));
+  const DisplayConnection connection;
   const auto map = colour_map(options.range.value_or(colour_range(grids)));
 
   vtkNew<vtkRenderWindow> window;

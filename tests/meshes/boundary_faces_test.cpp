@@ -29,8 +29,6 @@ TEST(BoundaryFaces, SharedFaceIsNoneAndOrderIsThatOfCells) {
 }
 
 TEST(BoundaryFaces, FaceOfThreeCellsIsRefused) {
-  auto nodes = two_cubes;
-  nodes.push_back({0.5, 0.5, 2});
   const Mesh mesh = mesh_of(2, {{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}, {0.5, 2, 0}},
                             {{CellType::triangle, {0, 1, 2}},
                              {CellType::triangle, {1, 0, 3}},
@@ -56,8 +54,7 @@ TEST(BoundaryFaces, TwistedQuadrilateralOfTheSameNodesIsRefused) {
 }
 
 TEST(BoundaryFaces, TetrahedraAgainstAHexahedronAreRefused) {
-  auto nodes = two_cubes;
-  const Mesh mesh = mesh_of(3, nodes,
+  const Mesh mesh = mesh_of(3, two_cubes,
                             {{CellType::hexahedron, left_cube},
                              {CellType::tetrahedron, {1, 2, 4, 7}},
                              {CellType::tetrahedron, {4, 2, 10, 7}}});

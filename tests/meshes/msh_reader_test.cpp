@@ -118,16 +118,17 @@ TEST(MshReader, NodesAreOrderedByTagWhateverTheirOrderInTheFile) {
 }
 
 TEST(MshReader, NamesMayHoldQuotesBlanksAndUtf8AndLinesMayEndInCrLf) {
-  std::string text = version_2(
+  const std::string text = version_2(
       "$Comments\n$Nodes\n$EndComments\n$PhysicalNames\n2\n1 4 \"../a \"b\"\"\n1 5 \"groß\"\n"
       "$EndPhysicalNames\n",
       square, {"1 1 2 4 1 4 1", "2 1 2 5 1 1 2", "3 3 2 1 1 1 2 3 4"});
-  for (const bool has_cr : {false, true}) {
-    if (has_cr) {
-      for (size_t i = 0; (i = text.find('\n', i)) != std::string::npos; i += 2)
-        text.insert(i, "\r");
-    }
-    const Mesh mesh = read_text(text);
+  std::string with_cr;
+  for (const char c : text) {
+    if (c == '\n') with_cr += '\r';
+    with_cr += c;
+  }
+  for (const auto& variant : {text, with_cr}) {
+    const Mesh mesh = read_text(variant);
     EXPECT_EQ(area_of_group(mesh, "../a \"b\""), Vec3(-1, 0, 0));
     EXPECT_EQ(area_of_group(mesh, "groß"), Vec3(0, -1, 0));
   }
@@ -140,6 +141,15 @@ TEST(MshReader, Version4WithoutEntitiesAndWithParametricNodesIsRead) {
       "1 1 2 3 4\n$EndElements\n$Periodic\n0\n$EndPeriodic\n");
   EXPECT_DOUBLE_EQ(sum_of_cell_volumes(mesh), 1);
   EXPECT_TRUE(mesh.boundary_groups.empty());
+}
+
+TEST(MshReader, HangingNodeIsRefused) {
+  auto nodes = square;
+  nodes.insert(nodes.end(), {"5 1 0.5 2", "6 2 0 2"});
+  const std::string text = version_2("", nodes, {"1 3 2 0 1 1 2 3 4", "2 2 2 0 1 2 6 5"});
+  const std::string message = input_error_of([&] { read_text(text); });
+  EXPECT_NE(message.find("text.msh: a node at (1, 0.5, 0) lies on the edge"), std::string::npos)
+      << message;
 }
 
 TEST(MshReader, MissingFileAndFolderAreNamed) {

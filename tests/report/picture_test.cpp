@@ -10,8 +10,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <gmock/gmock.h>
-#include <sys/wait.h>
-
 namespace diptych::pictures {
 namespace {
 
@@ -49,20 +47,19 @@ class Picture : public testing::Test {
     write_run(folder_ / "sph");
   }
 
-  /// Exit code; what was said is in log().
+  /// Exit code of the program; what it said is in log(). The code goes through a file, since
+  /// xvfb-run at times has an exit code of its own: it cannot clean up behind a quick program.
   int run(const std::string& before, const std::string& arguments) {
-    const std::string command = before + " '" + program_ + "' " + arguments + " > '" +
-                                (folder_ / "log") + "' 2>&1 < /dev/null";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    const std::string code = folder_ / "code", command = folder_ / "command";
+    fs::remove(code);
+    io::write_file_atomically(command, "'" + program_ + "' " + arguments + " > '" +
+                                           (folder_ / "log") + "' 2>&1; echo $? > '" + code +
+                                           "'\n");
+    const std::string line = before + " sh '" + command + "' < /dev/null > /dev/null 2>&1";
+    if (std::system(line.c_str()) < 0) ADD_FAILURE() << "cannot start a shell";
+    return fs::exists(code) ? std::stoi(io::read_file(code)) : -1;
   }
   std::string log() const { return io::read_file(folder_ / "log"); }
-
-  void require_x() {
-    if (std::system("command -v xvfb-run > /dev/null") != 0) {
-      GTEST_SKIP() << "no X server to start: apt-get install xvfb xauth libgl1-mesa-dri";
-    }
-  }
 
   test::Scratch folder_;
   std::string program_;
@@ -75,8 +72,9 @@ TEST_F(Picture, SaysWhatToDoWithoutADisplay) {
 }
 
 TEST_F(Picture, IsDrawnForOneRunAndForTwo) {
-  require_x();
-  if (IsSkipped()) return;
+  if (std::system("command -v xvfb-run > /dev/null") != 0) {
+    GTEST_SKIP() << "no X server to start: apt-get install xvfb xauth libgl1-mesa-dri";
+  }
   const std::string series = (folder_ / "sph") + "/run.hdf.series";
   ASSERT_EQ(run("xvfb-run -a", series + " -o " + (folder_ / "one.png")), 0) << log();
   ASSERT_EQ(
@@ -88,16 +86,14 @@ TEST_F(Picture, IsDrawnForOneRunAndForTwo) {
   EXPECT_NE(png, io::read_file(folder_ / "two.png"));
 }
 
-TEST_F(Picture, RefusesWhatIsNotThere) {
-  require_x();
-  if (IsSkipped()) return;
+TEST_F(Picture, RefusesWhatIsNotThereBeforeItAsksForADisplay) {
   const std::string out = " -o " + (folder_ / "a.png");
-  EXPECT_EQ(run("xvfb-run -a", (folder_ / "sph") + out + " --field 'velocty [m/s]'"), 2);
+  EXPECT_EQ(run("env -u DISPLAY", (folder_ / "sph") + out + " --field 'velocty [m/s]'"), 2);
   EXPECT_THAT(log(), HasSubstr("velocity [m s-1]"));
-  EXPECT_EQ(run("xvfb-run -a", (folder_ / "sph") + out + " --frame 2"), 2) << log();
-  EXPECT_EQ(run("xvfb-run -a", (folder_ / "fvm") + out), 4) << log();
+  EXPECT_EQ(run("env -u DISPLAY", (folder_ / "sph") + out + " --frame 2"), 2) << log();
+  EXPECT_EQ(run("env -u DISPLAY", (folder_ / "fvm") + out), 4) << log();
   fs::remove(fs::path(folder_ / "sph") / "mesh.hdf");
-  EXPECT_EQ(run("xvfb-run -a", (folder_ / "sph") + out), 2);
+  EXPECT_EQ(run("env -u DISPLAY", (folder_ / "sph") + out), 2);
   EXPECT_THAT(log(), HasSubstr("is mesh.hdf beside the frame?"));
 }
 

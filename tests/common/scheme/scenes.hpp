@@ -1,0 +1,88 @@
+#pragma once
+/// Small scenes for tests of the scheme: a case from text, its graph, its solver.
+
+#include "common/run/case_reader.hpp"
+#include "common/run/solver.hpp"
+#include "fvm/fvm_graph.hpp"
+#include "meshes/generators.hpp"
+#include "sph/sph_graph.hpp"
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+namespace diptych::tests {
+
+struct Scene {
+  run::Case setup;
+  scheme::PairGraph graph;
+  std::unique_ptr<run::Solver> solver;
+};
+
+inline scheme::PairGraph graph_of(const std::string& method, const meshes::Mesh& mesh) {
+  return method == "sph" ? sph::build_graph(mesh, {}) : fvm::build_graph(mesh, {});
+}
+
+inline meshes::Mesh box_of(const run::Case& setup) {
+  const auto type = setup.mesh.element == "hexahedron"      ? meshes::CellType::hexahedron
+                    : setup.mesh.element == "tetrahedron"   ? meshes::CellType::tetrahedron
+                    : setup.mesh.element == "quadrilateral" ? meshes::CellType::quadrilateral
+                                                            : meshes::CellType::triangle;
+  return meshes::box(type, setup.mesh.lower, setup.mesh.upper, setup.mesh.cells);
+}
+
+inline Scene scene_of(const std::string& method,
+                      const std::string& text,
+                      const std::vector<std::string>& overrides = {}) {
+  Scene scene;
+  scene.setup = run::case_from_text(text, "scene", overrides);
+  scene.graph = graph_of(method, box_of(scene.setup));
+  scene.solver = run::make_solver(scene.setup, scene.graph);
+  return scene;
+}
+
+inline void run_to(run::Solver& solver, double end) {
+  while (solver.time() < end)
+    solver.step(end);
+}
+
+/// Numbers 0 .. n-1: the user's order of a box.
+inline std::vector<std::int32_t> natural_order(const scheme::PairGraph& graph) {
+  std::vector<std::int32_t> order(graph.X.size());
+  for (size_t a = 0; a < order.size(); ++a)
+    order[a] = static_cast<std::int32_t>(a);
+  return order;
+}
+
+/// A free viscoelastic cube that spins and stretches at large strain.
+inline const char* const spinning_cube = R"(
+[mesh]
+element = "hexahedron"
+lower = [-0.5, -0.5, -0.5]
+upper = [0.5, 0.5, 0.5]
+cells = [5, 5, 5]
+[material]
+model = "mooney-rivlin"
+density = 1100
+youngs_modulus = 17e6
+poissons_ratio = 0.45
+zeta_ratio = 0.5
+[[material.branch]]
+beta_C = 0.5
+tau_C = 2e-3
+beta_G = 0.5
+tau_G = 1e-3
+[initial]
+velocity = ["-105*y + 20*x", "105*x - 10*y", "-10*z"]
+[time]
+end = 4e-3
+integrator = "ssp-rk3"
+)";
+
+/// The same without branches.
+inline std::string elastic(std::string text) {
+  const size_t begin = text.find("[[material.branch]]"), end = text.find("[initial]");
+  return text.erase(begin, end - begin);
+}
+
+}  // namespace diptych::tests

@@ -1,0 +1,241 @@
+/// The pair sweeps on random states: exact identities of physics note 3.2 with the dissipation in
+/// place, and agreement of the compiled forms.
+
+#include "common/parallel/for_chunks.hpp"
+#include "common/physics/materials/mooney_rivlin.hpp"
+#include "common/scheme/momentum.hpp"
+#include "common/scheme/strain_rates.hpp"
+#include "scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace diptych {
+namespace {
+
+using algebra::Vec3;
+using scheme::DissipationKind;
+using Material = physics::MooneyRivlin;
+
+/// A random finite deformation and velocity on a graph, evaluated once.
+class RandomBody {
+ public:
+  RandomBody(const std::string& method, DissipationKind kind, bool affine = false)
+      : graph_(tests::graph_of(
+            method,
+            meshes::box(meshes::CellType::hexahedron, Vec3::Zero(), Vec3::Ones(), {5, 4, 3}))),
+        pairs(graph_),
+        kind_(kind),
+        state(graph_.n_nodes(),
+              1,
+              true,
+              scheme::Unknowns::F,
+              kind.impedance == scheme::Impedance::exact,
+              false),
+        chunks_(static_cast<size_t>(parallel::n_chunks_of(pairs.n_blocks))) {
+    model.material = {1.3e6, 0.7e6, 4e6};
+    model.rho_R = 1100;
+    model.branches = {{0.9e6, 2e-3, 0.4e6, 1e-3}};
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    Eigen::Matrix3d G;
+    for (int k = 0; k < 9; ++k)
+      G(k / 3, k % 3) = 40 * uniform(random);
+    const auto place = [&](algebra::BlockField& field, std::int64_t a, int first,
+                           const Eigen::Matrix3d& M) {
+      constexpr int order[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+      for (int k = 0; k < 6; ++k)
+        field.at(a, first + k) = M(order[k][0], order[k][1]);
+    };
+    for (std::int64_t a = 0; a < pairs.n_blocks * algebra::n_lanes; ++a) {
+      Eigen::Matrix3d R;
+      for (int k = 0; k < 9; ++k)
+        R(k / 3, k % 3) = uniform(random);
+      const Eigen::Matrix3d F = Eigen::Matrix3d::Identity() + 0.2 * R;
+      for (int k = 0; k < 9; ++k)
+        state.F.at(a, k) = F(k / 3, k % 3);
+      place(state.A, a, 0, Eigen::Matrix3d::Identity() + 0.1 * (R + R.transpose()));
+      place(state.S, a, 0, Eigen::Matrix3d::Identity() - 0.1 * (R + R.transpose()));
+      for (int i = 0; i < 3; ++i) {
+        double v = uniform(random);
+        if (affine && a < graph_.n_nodes()) v = G.row(i).dot(graph_.X[a]);
+        state.v.at(a, i) = v;
+      }
+    }
+    scheme::publish_velocity(state, 0, pairs.n_blocks);
+  }
+
+  /// Evaluates strain rates and forces with one instruction set.
+  void evaluate(scheme::StrainRateFunction<3, Material> strain_rates,
+                scheme::MomentumFunction<3> momentum,
+                double factor = 1) {
+    const scheme::Relaxation frozen;
+    const bool exact = kind_.impedance == scheme::Impedance::exact;
+    const scheme::StrainRateSweep<3, Material> first{
+        model, pairs, state, frozen, exact, true, 0, viscous.data(), least_J.data()};
+    const scheme::MomentumSweep<3> second{
+        pairs, state, model.rho_R, factor, true, numerical.data(), rate.data()};
+    parallel::for_chunks(pairs.n_blocks,
+                         [&](auto b, auto e, auto c) { strain_rates(first, b, e, c); });
+    parallel::for_chunks(pairs.n_blocks,
+                         [&](auto b, auto e, auto c) { momentum(second, b, e, c); });
+  }
+  void evaluate(double factor = 1) {
+    evaluate(scheme::strain_rate_function<3, Material>(), scheme::momentum_function<3>(kind_, true),
+             factor);
+  }
+
+  const scheme::PairGraph& graph() const { return graph_; }
+  double numerical_power() const { return parallel::sum_in_order(numerical); }
+  Vec3 vector(const algebra::BlockField& field, std::int64_t a) const {
+    return {field.at(a, 0), field.at(a, 1), field.at(a, 2)};
+  }
+  /// sum Omega P : L, with P as the sweep left it for the neighbours
+  double stress_power() const {
+    double power = 0;
+    for (std::int64_t a = 0; a < graph_.n_nodes(); ++a) {
+      for (int k = 0; k < 9; ++k) {
+        power += graph_.Omega[a] * state.L.at(a, k) *
+                 state.records[a * state.record_stride + scheme::NodeRecord<3>::P + k];
+      }
+    }
+    return power;
+  }
+
+ private:
+  scheme::PairGraph graph_;
+
+ public:
+  scheme::SweepGraph<3> pairs;
+  scheme::Model<Material> model;
+
+ private:
+  DissipationKind kind_;
+
+ public:
+  scheme::State<3> state;
+
+ private:
+  size_t chunks_;
+
+ public:
+  std::vector<double> viscous = std::vector<double>(chunks_), least_J = viscous,
+                      numerical = viscous, rate = viscous;
+};
+
+constexpr DissipationKind isotropic{};
+constexpr DissipationKind exact{scheme::Reconstruction::linear, scheme::PairLimiter::none,
+                                scheme::Impedance::exact};
+constexpr DissipationKind limited{scheme::Reconstruction::linear,
+                                  scheme::PairLimiter::sign_preserving,
+                                  scheme::Impedance::isotropic};
+constexpr DissipationKind plain{scheme::Reconstruction::none, scheme::PairLimiter::none,
+                                scheme::Impedance::isotropic};
+
+class Sweeps : public testing::TestWithParam<std::tuple<const char*, DissipationKind>> {};
+
+// 400 random nodes with entries of order one: sums of about 1e4 products, rounding about 1e-14.
+constexpr double rounding = 1e-12;
+
+TEST_P(Sweeps, InternalForcesSumToZero) {
+  RandomBody body(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  body.evaluate();
+  Vec3 sum = Vec3::Zero();
+  double scale = 0;
+  for (std::int64_t a = 0; a < body.graph().n_nodes(); ++a) {
+    sum += body.vector(body.state.T, a);
+    scale += body.vector(body.state.T, a).norm();
+  }
+  EXPECT_GT(scale, 0);
+  EXPECT_LE(sum.norm(), rounding * scale);
+}
+
+TEST_P(Sweeps, PowerOfForcesIsStressPowerPlusDissipation) {
+  RandomBody body(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  body.evaluate();
+  double power = 0;
+  for (std::int64_t a = 0; a < body.graph().n_nodes(); ++a) {
+    power += body.vector(body.state.v, a).dot(body.vector(body.state.T, a));
+  }
+  const double stress_power = body.stress_power(), numerical = body.numerical_power();
+  EXPECT_NE(numerical, 0);
+  EXPECT_NEAR(power, -stress_power - numerical,
+              rounding * (std::abs(stress_power) + std::abs(numerical)) * 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Both,
+                         Sweeps,
+                         testing::Combine(testing::Values("sph", "fvm"),
+                                          testing::Values(isotropic, exact, limited, plain)));
+
+class Methods : public testing::TestWithParam<const char*> {};
+
+TEST_P(Methods, AffineVelocityDissipatesNothing) {
+  for (const DissipationKind& kind : {isotropic, exact, limited}) {
+    RandomBody affine(GetParam(), kind, true), rough(GetParam(), plain, true);
+    affine.evaluate();
+    rough.evaluate();
+    EXPECT_GT(rough.numerical_power(), 0);
+    EXPECT_LE(std::abs(affine.numerical_power()), 1e-13 * rough.numerical_power());
+  }
+}
+
+TEST_P(Methods, DissipationOfPlainOrLimitedJumpsIsPositiveForEveryNode) {
+  for (const DissipationKind& kind : {plain, limited}) {
+    RandomBody body(GetParam(), kind);
+    body.evaluate();
+    for (const double power : body.numerical)
+      EXPECT_GE(power, 0);
+  }
+}
+
+TEST_P(Methods, DissipationIsProportionalToItsFactor) {
+  RandomBody body(GetParam(), isotropic);
+  body.evaluate(1);
+  const double once = body.numerical_power();
+  body.evaluate(0.25);
+  EXPECT_NEAR(body.numerical_power(), 0.25 * once, rounding * std::abs(once));
+}
+
+TEST_P(Methods, CompiledFormsAgree) {
+#if defined(DIPTYCH_MULTIVERSION)
+  const auto forces = [](RandomBody& body) {
+    std::vector<double> all;
+    for (std::int64_t a = 0; a < body.graph().n_nodes(); ++a) {
+      for (int i = 0; i < 3; ++i)
+        all.push_back(body.state.T.at(a, i));
+      for (int k = 0; k < 9; ++k)
+        all.push_back(body.state.L.at(a, k));
+    }
+    return all;
+  };
+  const auto largest = [](const std::vector<double>& values) {
+    double most = 0;
+    for (const double value : values)
+      most = std::max(most, std::abs(value));
+    return most;
+  };
+  RandomBody body(GetParam(), isotropic);
+  body.evaluate(scheme::strain_rate_sweep_baseline<3, Material>,
+                scheme::momentum_sweep_baseline<3, isotropic, true>);
+  const auto baseline = forces(body);
+  const auto here = algebra::instruction_set();
+  if (here == algebra::InstructionSet::baseline) return;  // one form only on this processor
+  body.evaluate(scheme::strain_rate_sweep_avx2<3, Material>,
+                scheme::momentum_sweep_avx2<3, isotropic, true>);
+  const auto avx2 = forces(body);
+  for (size_t k = 0; k < avx2.size(); ++k) {
+    ASSERT_NEAR(avx2[k], baseline[k], rounding * largest(baseline));
+  }
+  if (here != algebra::InstructionSet::avx512) return;
+  body.evaluate(scheme::strain_rate_sweep_avx512<3, Material>,
+                scheme::momentum_sweep_avx512<3, isotropic, true>);
+  EXPECT_EQ(forces(body), avx2) << "AVX2 and AVX-512 promise the same bits";
+#endif
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, Methods, testing::Values("sph", "fvm"));
+
+}  // namespace
+}  // namespace diptych
