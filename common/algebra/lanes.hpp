@@ -101,6 +101,12 @@ DIPTYCH_INLINE Lanes load(const double* p) {
   __builtin_memcpy(&r, p, sizeof r);
   return r;
 }
+/// Eight singles, widened.
+DIPTYCH_INLINE Lanes load(const float* p) {
+  float __attribute__((vector_size(n_lanes * sizeof(float)))) r;
+  __builtin_memcpy(&r, p, sizeof r);
+  return __builtin_convertvector(r, Lanes);
+}
 DIPTYCH_INLINE void store(double* p, const Lanes& a) {
   __builtin_memcpy(p, &a, sizeof a);
 }

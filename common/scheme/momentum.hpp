@@ -8,7 +8,7 @@
 /// rate sum_b |C_ab| c_ab / (2 Omega_a) with c_ab = max(c_p,a, c_p,b) (physics note 2.1).
 ///
 /// Cost per directed pair in 3-D (linear reconstruction, isotropic): about 75 multiply-adds on 256
-/// bytes gathered and 84 bytes of geometry.
+/// bytes gathered and 68 bytes of geometry.
 
 #include "common/scheme/dissipation.hpp"
 #include "common/scheme/state.hpp"
@@ -83,7 +83,7 @@ DIPTYCH_INLINE void mean_state(const double* own,
 /// Adds eight pairs to the sums of their node a.
 template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
 DIPTYCH_INLINE void add_pairs(const MomentumSweep<Dim>& sweep,
-                              const PairChunk<Dim>& pairs,
+                              const ForcePairs<Dim>& pairs,
                               const double* own,
                               NodeSums<Dim>& sums) {
   using Record = NodeRecord<Dim>;
@@ -96,12 +96,11 @@ DIPTYCH_INLINE void add_pairs(const MomentumSweep<Dim>& sweep,
   constexpr bool exact = kind.impedance == Impedance::exact;
   Lanes r[Record::stride(exact)];
   gather<isa, exact ? Record::n_exact : Record::n_isotropic>(neighbour, r);
-  Vector<Lanes> C_ab{}, C_ba{}, S{}, plain{}, jump{}, h{};
+  Vector<Lanes> C_ba{}, S{}, plain{}, jump{}, h{};
 #pragma GCC unroll 3
   for (int i = 0; i < Dim; ++i) {
-    C_ab[i] = algebra::load(pairs.C_ab[i]);
     C_ba[i] = algebra::load(pairs.C_ba[i]);
-    S[i] = 0.5 * (C_ab[i] - C_ba[i]);
+    S[i] = algebra::load(pairs.S_ab[i]);
     plain[i] = r[Record::v + i] - own[Record::v + i];
   }
 #pragma GCC unroll 3
@@ -139,7 +138,10 @@ DIPTYCH_INLINE void add_pairs(const MomentumSweep<Dim>& sweep,
     physics::Response<Lanes> response;
     physics::Deformation<Lanes> X;
     mean_state<Dim>(own, r, response, X);
-    const Lanes inverse = algebra::inverse_or_zero(area);
+    Lanes S2{};
+    for (int i = 0; i < Dim; ++i)
+      S2 += S[i] * S[i];
+    const Lanes inverse = algebra::inverse_or_zero(algebra::square_root(S2));
     Vector<Lanes> N{};
     for (int i = 0; i < Dim; ++i)
       N[i] = S[i] * inverse;
@@ -154,8 +156,10 @@ DIPTYCH_INLINE void add_pairs(const MomentumSweep<Dim>& sweep,
   }
   if (sweep.with_bound) {
     Lanes C2{};
-    for (int i = 0; i < Dim; ++i)
-      C2 += C_ab[i] * C_ab[i];
+    for (int i = 0; i < Dim; ++i) {
+      const Lanes C_ab = 2.0 * S[i] + C_ba[i];
+      C2 += C_ab * C_ab;
+    }
     sums.rate += algebra::square_root(C2) * algebra::larger(z_p, Lanes{} + own[Record::z_p]);
   }
 }
@@ -170,7 +174,7 @@ DIPTYCH_INLINE double force_on_node(const MomentumSweep<Dim>& sweep,
   const double* own = sweep.state.records.data() + a * sweep.state.record_stride;
   NodeSums<Dim> sums;
   for (std::int64_t c = graph.row[a]; c < graph.row[a + 1]; ++c) {
-    add_pairs<isa, Dim, kind, has_H>(sweep, graph.chunks[c], own, sums);
+    add_pairs<isa, Dim, kind, has_H>(sweep, graph.force_pairs[c], own, sums);
   }
   double* T = sweep.state.T.block(a / n_lanes) + a % n_lanes;
   const double* C_sum = graph.C_sum.block(a / n_lanes) + a % n_lanes;

@@ -48,7 +48,7 @@ DIPTYCH_INLINE void strain_rates_of_block(const SweepGraph<Dim>& graph,
     const std::int64_t a = b * n_lanes + lane;
     Lanes sum[Dim * Dim] = {};
     for (std::int64_t c = graph.row[a]; c < graph.row[a + 1]; ++c) {
-      const PairChunk<Dim>& pairs = graph.chunks[c];
+      const StrainPairs<Dim>& pairs = graph.strain_pairs[c];
       const double* neighbour[n_lanes];
       for (int l = 0; l < n_lanes; ++l) {
         neighbour[l] = velocity + static_cast<std::int64_t>(pairs.neighbour[l]) * stride;

@@ -2,7 +2,7 @@
 
 #include "common/base/error.hpp"
 #include "common/parallel/for_chunks.hpp"
-#include "scenes.hpp"
+#include "tests/common/scheme/scenes.hpp"
 
 #include <gtest/gtest.h>
 

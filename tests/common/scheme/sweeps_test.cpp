@@ -5,7 +5,7 @@
 #include "common/physics/materials/mooney_rivlin.hpp"
 #include "common/scheme/momentum.hpp"
 #include "common/scheme/strain_rates.hpp"
-#include "scenes.hpp"
+#include "tests/common/scheme/scenes.hpp"
 
 #include <gtest/gtest.h>
 
