@@ -37,7 +37,7 @@ struct RunSummary {
   double setup_seconds = 0, wall_seconds = 0, loop_seconds = 0, nanoseconds_per_node_stage = 0;
   std::int64_t peak_rss_bytes = 0;
   double dt_min = 0, dt_max = 0;
-  double spacing = 0;  ///< m, mean Omega^(1/d)
+  double spacing = 0;  ///< m, Omega^(1/d) of the mean interior node
   double mean_neighbours = 0;
   double graph_closure = 0, graph_linear_exactness = 0;
   std::map<std::string, ErrorNorms> errors;  ///< velocity, displacement, deformation_gradient, stress

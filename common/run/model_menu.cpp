@@ -34,7 +34,8 @@ const scheme::BoundaryPatch& patch_of(const scheme::PairGraph& graph,
     names.push_back(patch.name);
   }
   throw base::InputError(prefix(where) + "the mesh has no boundary group '" + name + "'" +
-                         base::suggestion(name, names));
+                         (names.empty() ? std::string("; it has none: name its physical groups")
+                                        : base::suggestion(name, names)));
 }
 
 scheme::AppliedBoundary boundary_of(const Case& setup, const scheme::PairGraph& graph) {

@@ -1,0 +1,152 @@
+/// Bad input through the program: exit code 2, one message that says where and what to do, and
+/// nothing left behind.
+
+#include "tests/command_line/program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
+
+namespace diptych {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using tests::diptych;
+using tests::Folder;
+
+const std::string sound_case = R"(title = "A block that hangs from one face"
+[mesh]
+element = "hexahedron"
+lower = [0, 0, 0]
+upper = [1, 1, 1]
+cells = [2, 2, 2]
+[material]
+model = "mooney-rivlin"
+density = 1100
+youngs_modulus = 17e6
+poissons_ratio = 0.45
+zeta_ratio = 0.5
+[[boundary]]
+group = "x_min"
+type = "fixed"
+[load]
+body_force = ["0", "0", "-1100*9.81"]
+[time]
+end = 1e-3
+)";
+
+std::string with(const std::string& what, const std::string& instead) {
+  std::string text = sound_case;
+  const size_t at = text.find(what);
+  if (at == std::string::npos) ADD_FAILURE() << "no '" << what << "' in the case";
+  return text.replace(at, what.size(), instead);
+}
+
+struct Bad {
+  std::string name, text;
+  std::vector<std::string> told;  ///< parts of the message
+};
+
+std::vector<Bad> bad_cases() {
+  return {
+      {"MisspeltKey", with("density", "densty"), {"case.toml:", "densty", "density"}},
+      {"WrongType", with("cells = [2, 2, 2]", "cells = \"many\""), {"case.toml:6", "cells"}},
+      {"NegativeDensity", with("density = 1100", "density = -1100"), {"density", "-1100"}},
+      {"Incompressible", with("0.45", "0.5"), {"poissons_ratio", "0.5"}},
+      {"MissingMesh",
+       with("lower = [0, 0, 0]\nupper = [1, 1, 1]\ncells = [2, 2, 2]", "file = \"none.msh\""),
+       {"none.msh"}},
+      {"MissingGroup", with("\"x_min\"", "\"x_mim\""), {"x_mim", "x_min"}},
+      {"UnknownName", with("-1100*9.81", "-1100*gravity"), {"gravity"}},
+      {"UnknownMaterial", with("\"mooney-rivlin\"", "\"mooney\""), {"mooney-rivlin"}},
+      {"NotPolyconvex", with("zeta_ratio = 0.5", "zeta_ratio = 0.99\n#") + "", {"zeta_ratio"}},
+      {"NegativeEnd", with("end = 1e-3", "end = -1"), {"end"}},
+      {"NotToml", with("[material]", "[material"), {"case.toml:7"}},
+  };
+}
+
+class BadInput : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadInput, EndsWithCodeTwoAndOneMessage) {
+  const Folder folder, output;
+  folder.write("case.toml", GetParam().text);
+  if (GetParam().name == "NotPolyconvex") {
+    folder.write("case.toml", with("poissons_ratio = 0.45\nzeta_ratio = 0.5",
+                                   "poissons_ratio = 0.2\nzeta_ratio = 0.9"));
+  }
+  const auto outcome =
+      diptych(folder, "run case.toml --quiet --out " + (output.path() / "results").string());
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
+  for (const std::string& part : GetParam().told)
+    EXPECT_THAT(outcome.text, HasSubstr(part));
+  EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
+  EXPECT_TRUE(output.is_empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, BadInput, testing::ValuesIn(bad_cases()), [](const auto& info) {
+  return info.param.name;
+});
+
+TEST(BadMesh, InvertedCellIsNamed) {
+  const Folder folder;
+  // two tetrahedra of opposite orientation
+  folder.write("bad.msh",
+               "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n"
+               "4 0 0 1\n5 1 1 1\n$EndNodes\n$Elements\n2\n1 4 2 1 1 1 2 3 4\n"
+               "2 4 2 1 1 2 4 3 5\n$EndElements\n");
+  folder.write("case.toml",
+               with("lower = [0, 0, 0]\nupper = [1, 1, 1]\ncells = [2, 2, 2]", "file = \"bad.msh\"")
+                   .replace(sound_case.find("hexahedron"), 10, "tetrahedron"));
+  const auto outcome = diptych(folder, "run case.toml --quiet --out out");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr("bad.msh"), HasSubstr("cell")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
+TEST(CommandLine, WrongWordsEndWithCodeTwo) {
+  const Folder folder;
+  for (const char* arguments :
+       {"", "fly", "run", "run no-such-case", "run swinging-cube-elastic-hex --method fem",
+        "run swinging-cube-elastic-hex --level -1", "run swinging-cube-elastic-hex --levle 1",
+        "run swinging-cube-elastic-hex --set mesh.cels=[1,1,1]", "explain mesh.cels",
+        "converge swinging-cube-elastic-hex --levels 1"}) {
+    const auto outcome = diptych(folder, arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << ": " << outcome.text;
+    EXPECT_FALSE(outcome.text.empty()) << arguments;
+  }
+  EXPECT_THAT(diptych(folder, "run swinging-cube-elastic-hx").text,
+              HasSubstr("swinging-cube-elastic-hex"));
+  EXPECT_TRUE(folder.is_empty());
+}
+
+TEST(CommandLine, FolderOfSomebodyElseIsNotTouched) {
+  const Folder folder;
+  std::filesystem::create_directories(folder.path() / "mine" / "sph");
+  folder.write("mine/sph/thesis.txt", "years of work");
+  const auto outcome =
+      diptych(folder, "run swinging-cube-elastic-hex --quiet --threads 1 --out mine");
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
+  EXPECT_EQ(tests::text_of(folder.path() / "mine" / "sph" / "thesis.txt"), "years of work");
+}
+
+TEST(CommandLine, BreakdownEndsWithCodeThreeAndASummary) {
+  const Folder folder;
+  folder.write("case.toml", sound_case + "[initial]\nvelocity = [\"-3e4*x\", \"0\", \"0\"]\n");
+  const auto outcome = diptych(folder, "run case.toml --method fvm --quiet --threads 1 --out out");
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.text;
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr("node"), HasSubstr("step")));
+  EXPECT_THAT(tests::text_of(folder.path() / "out" / "fvm" / "summary.json"),
+              HasSubstr("\"breakdown\""));
+}
+
+TEST(CommandLine, OutputThatCannotBeWrittenEndsWithCodeFour) {
+  const Folder folder;
+  const auto outcome = diptych(
+      folder, "run swinging-cube-elastic-hex --quiet --threads 1 --out /proc/no-such-place");
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("/proc/no-such-place"));
+}
+
+}  // namespace
+}  // namespace diptych

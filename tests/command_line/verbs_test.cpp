@@ -1,0 +1,115 @@
+/// The verbs, through the program: what they print and what they leave.
+
+#include "common/io/field_writer.hpp"
+#include "common/io/run_record.hpp"
+#include "tests/command_line/program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
+
+namespace diptych {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using tests::diptych;
+using tests::Folder;
+using tests::text_of;
+
+TEST(Verbs, RunLeavesSummaryHistoryAndFields) {
+  const Folder folder;
+  const auto outcome =
+      diptych(folder, "run swinging-cube-ve2-hex --level 1 --quiet --threads 1 --out out");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  for (const char* method : {"sph", "fvm"}) {
+    const auto directory = folder.path() / "out" / method;
+    const auto summary = io::summary_from_json(text_of(directory / "summary.json"), method);
+    EXPECT_EQ(summary.method, method);
+    EXPECT_EQ(summary.nodes, 729);
+    EXPECT_EQ(summary.status, "done");
+    EXPECT_EQ(summary.errors.size(), 4u);
+    EXPECT_GT(summary.energy.viscous_dissipation, 0);
+    EXPECT_GT(summary.energy.numerical_dissipation, 0);
+    EXPECT_LT(std::abs(summary.energy.relative_residual), 1e-2);
+    EXPECT_EQ(summary.state_hash.size(), 32u);
+    const auto history = io::history_from_csv(text_of(directory / "history.csv"), method);
+    EXPECT_EQ(history.size(), 11u);
+    EXPECT_TRUE(std::filesystem::exists(directory / "run.hdf.series"));
+    const auto u = io::read_field((directory / "frame_0010.hdf").string(), "displacement [m]");
+    EXPECT_EQ(u.n_components, 3);
+    EXPECT_EQ(u.values.size(), 3u * 729);
+  }
+}
+
+TEST(Verbs, SameCaseSameHashForOneAndTwoThreads) {
+  const Folder folder;
+  const auto hash = [&](const std::string& options) {
+    const auto outcome = diptych(
+        folder, "run swinging-cube-ve2-tet --level 1 --method fvm --quiet --no-fields " + options);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+    const size_t at = outcome.text.find("state ");
+    return outcome.text.substr(at, 38);
+  };
+  EXPECT_EQ(hash("--threads 1 --out a"), hash("--threads 2 --out b"));
+}
+
+TEST(Verbs, CompareAndConvergeWriteAReport) {
+  const Folder folder;
+  const auto compared =
+      diptych(folder, "compare swinging-cube-elastic-hex --quiet --threads 1 --out a");
+  EXPECT_EQ(compared.exit_code, 0) << compared.text;
+  EXPECT_THAT(compared.text, AllOf(HasSubstr("SPH"), HasSubstr("report.html")));
+  const std::string page = text_of(folder.path() / "a" / "report.html");
+  EXPECT_THAT(page, AllOf(HasSubstr("<canvas"), HasSubstr("</html>")));
+  const auto converged =
+      diptych(folder, "converge swinging-cube-elastic-hex --levels 2 --quiet --threads 1 --out b");
+  EXPECT_EQ(converged.exit_code, 0) << converged.text;
+  EXPECT_THAT(converged.text, HasSubstr("ord."));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "b" / "report.html"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "b" / "level_1" / "sph" / "summary.json"));
+}
+
+TEST(Verbs, EveryShippedCaseIsListedAndSound) {
+  const Folder folder;
+  const auto list = diptych(folder, "list");
+  ASSERT_EQ(list.exit_code, 0) << list.text;
+  int n_cases = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(DIPTYCH_SOURCE_DIR "/benchmarks/cases")) {
+    if (!entry.is_directory()) continue;
+    const std::string name = entry.path().filename().string();
+    EXPECT_THAT(list.text, HasSubstr(name + " "));
+    const auto check = diptych(folder, "check " + name + " --threads 1");
+    EXPECT_EQ(check.exit_code, 0) << name << ": " << check.text;
+    ++n_cases;
+  }
+  EXPECT_GE(n_cases, 4);
+}
+
+TEST(Verbs, CommittedReferencePageIsTheOneThatTheProgramPrints) {
+  const Folder folder;
+  const auto page = diptych(folder, "explain all");
+  EXPECT_EQ(page.exit_code, 0);
+  EXPECT_EQ(page.text, text_of(DIPTYCH_SOURCE_DIR "/benchmarks/cases/KEYS.md"))
+      << "refresh it: build/release/diptych explain all > benchmarks/cases/KEYS.md";
+}
+
+TEST(Readme, EveryCommandOfTheProgramWorks) {
+  const Folder folder;
+  const std::string readme = text_of(DIPTYCH_SOURCE_DIR "/README.md");
+  const std::string program = "    build/release/diptych ";
+  int n_commands = 0;
+  for (size_t at = readme.find(program); at != std::string::npos;
+       at = readme.find(program, at + 1)) {
+    const size_t begin = at + program.size(), end = readme.find('\n', begin);
+    const std::string arguments = readme.substr(begin, end - begin);
+    const auto outcome = diptych(folder, arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << arguments << "\n" << outcome.text;
+    ++n_commands;
+  }
+  EXPECT_GE(n_commands, 5);
+}
+
+}  // namespace
+}  // namespace diptych
