@@ -19,7 +19,7 @@ base::Registry<meshes::Quadrature> stencils() {
 
 scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) {
   const meshes::Quadrature quadrature = stencils().at(options.stencil);
-  meshes::DualMeasure measure = meshes::dual_measure(mesh, meshes::Quadrature::exact);
+  meshes::DualMeasure measure = meshes::dual_measure(mesh, quadrature);
   scheme::PairGraph graph;
   graph.dimension = mesh.dimension;
   graph.X = mesh.nodes;
@@ -31,8 +31,7 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
   find_pairs(mesh, quadrature, graph);
   link_reverse_pairs(graph);
   const std::vector<double> volume = add_cells(mesh, quadrature, graph);
-  // The vertex rule does not integrate the volumes of distorted cells exactly; a factor per row
-  // keeps the direction of the gradient and makes it exact for linear fields with Omega_a.
+  // The vertex volumes are scaled to the exact total (dual_measure.hpp); so is each row.
   for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
     const double factor = graph.Omega[a] / volume[a];
     for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)

@@ -1,9 +1,14 @@
 #pragma once
 /// Nodal volumes and boundary area vectors of a mesh, the measure that both methods share.
 ///
-/// Equations: Omega_a = int N_a dV, A_a N_a = oint N_a N dA (physics note 4.1), or both with the
-/// vertex rule. Only the exact form keeps sum_a X_a (x) A_aN_a = sum_a Omega_a I on every mesh,
-/// without which no linear-exact set of C_ab can close; the factories use it.
+/// Equations, in two forms:
+///   exact:  Omega_a = int N_a dV, A_a N_a = oint N_a N dA                      (physics note 4.1)
+///   vertex: both by the vertex rule of the edge stencil, the volumes scaled to the exact total and
+///           the areas balanced (see the source).
+/// Both satisfy sum_a A_aN_a = 0 and sum_a X_a (x) A_aN_a = sum_a Omega_a I, without which no
+/// linear-exact set of C_ab can close. They agree on simplices, rectangles and bricks. On curved
+/// hexahedral meshes the edge stencil nearly closes with the vertex form only (its gap is of second
+/// order, with the exact form of first), so this is what both methods use by default.
 /// Test: tests/graphs/dual_measure_test.cpp.
 
 #include "meshes/mesh.hpp"

@@ -156,9 +156,11 @@ Mat3 jacobian(const ReferenceCell& cell,
               const QuadraturePoint& point,
               std::span<const std::int32_t> nodes,
               const std::vector<Vec3>& X) {
+  // from the first node: a body far from the origin loses no digits
   Mat3 J = Mat3::Zero();
-  for (int a = 0; a < cell.n_nodes; ++a)
-    J += X[nodes[a]] * point.dN[a].transpose();
+  for (int a = 1; a < cell.n_nodes; ++a) {
+    J += (X[nodes[a]] - X[nodes[0]]) * point.dN[a].transpose();
+  }
   if (cell.dimension == 2) J(2, 2) = 1;
   return J;
 }
@@ -192,8 +194,8 @@ std::array<Vec3, 4> face_area_shares(const BoundaryFace& face,
     for (const QuadraturePoint& point : rule) {
       Vec3 along_x = Vec3::Zero(), along_y = Vec3::Zero();
       for (int a = 0; a < 4; ++a) {
-        along_x += point.dN[a][0] * corner(a);
-        along_y += point.dN[a][1] * corner(a);
+        along_x += point.dN[a][0] * (corner(a) - corner(0));
+        along_y += point.dN[a][1] * (corner(a) - corner(0));
       }
       const Vec3 area = point.weight * along_x.cross(along_y);
       for (int a = 0; a < 4; ++a)

@@ -17,6 +17,7 @@ namespace diptych::run {
 struct SolverSetup {
   scheme::DissipationKind dissipation;
   double dissipation_factor = 1;
+  double face_correction = 0;  ///< kappa_f
   scheme::Unknowns unknowns = scheme::Unknowns::FHJ;
   time::Integrator integrator;
   double cfl = 0;
@@ -50,7 +51,8 @@ class BodySolver : public Solver {
         least_J_(viscous_power_.size()),
         numerical_power_(viscous_power_.size()),
         largest_rate_(viscous_power_.size()) {
-    set_initial_state(graph_, setup_.initial, state_);
+    if (setup_.face_correction != 0) state_.allow_face_correction();
+    set_initial_state(graph_, setup_.initial, setup_.face_correction, state_);
     boundary_.constrain(state_, model_.rho_R, 0);
     for_blocks([&](auto begin, auto end) { scheme::publish_velocity(state_, begin, end); });
     evaluate({}, 0);
@@ -103,6 +105,10 @@ class BodySolver : public Solver {
 
   /// Strain rates (18b), relaxation (14), stress (9), wave speeds; leapfrog drifts in between.
   void evaluate(const scheme::Relaxation& relaxation, double drift) {
+    const double kappa_f = setup_.face_correction;
+    if (kappa_f != 0) {
+      for_blocks([&](auto begin, auto end) { face_.gradients(pairs_, state_, begin, end); });
+    }
     const scheme::StrainRateSweep<Dim, Material> sweep{
         model_,
         pairs_,
@@ -110,12 +116,17 @@ class BodySolver : public Solver {
         relaxation,
         setup_.dissipation.impedance == scheme::Impedance::exact,
         setup_.energy_budget,
+        kappa_f,
         drift,
         viscous_power_.data(),
         least_J_.data()};
     parallel::for_chunks(pairs_.n_blocks, [&](auto begin, auto end, auto chunk) {
       strain_rates_(sweep, begin, end, chunk);
     });
+    if (kappa_f != 0) {
+      for_blocks(
+          [&](auto begin, auto end) { face_.stresses(pairs_, state_, kappa_f, begin, end); });
+    }
   }
 
   /// Internal forces (18a) with D_ab; with_bound: also the largest stable step of this state.
@@ -242,6 +253,7 @@ class BodySolver : public Solver {
   scheme::AppliedBoundary boundary_;
   scheme::MomentumFunction<Dim> momentum_;
   scheme::StrainRateFunction<Dim, Material> strain_rates_;
+  scheme::FaceCorrectionSweeps<Dim> face_ = scheme::face_correction_sweeps<Dim>();
   scheme::State<Dim> state_;
   std::vector<algebra::Vec3> X_centred_;
   // results of the sweeps, one per chunk

@@ -86,6 +86,7 @@ struct SchemeCase {
   std::string limiter = "none";            ///< entry of the limiter menu
   std::string impedance = "isotropic";     ///< isotropic or exact
   double dissipation = 1;                  ///< multiplies D_ab, >= 0
+  double face_correction = 0;              ///< kappa_f of physics note 3.8, 0: none
   bool angular_momentum_projection = false;
   bool energy_budget = true;
 };

@@ -198,6 +198,10 @@ constexpr std::array key_table{
            "\"exact\""),
     key("scheme.dissipation", number, "-", "1", "", at_least(0), "Factor of the dissipation D_ab.",
         "0"),
+    key("scheme.face_correction", number, "-", "0", "", between(0, 0.25),
+        "Factor kappa_f of the face correction with its adjoint: 0 none, 1/6 fourth-order first "
+        "derivatives on a lattice, 1/8 exact face values of quadratics.",
+        "\"1/6\""),
     key("scheme.angular_momentum_projection", flag, "-", "false", "", any,
         "Correct the forces so that angular momentum is conserved.", "true"),
     key("scheme.energy_budget", flag, "-", "true", "", any,

@@ -75,6 +75,7 @@ SolverSetup solver_setup_of(const Case& setup, const scheme::AppliedBoundary& bo
   s.dissipation = {reconstruction.at(setup.scheme.reconstruction), limiter.at(setup.scheme.limiter),
                    impedance.at(setup.scheme.impedance)};
   s.dissipation_factor = setup.scheme.dissipation;
+  s.face_correction = setup.scheme.face_correction;
   s.unknowns = unknowns.at(setup.scheme.unknowns);
   s.integrator = time::integrator_menu().at(setup.time.integrator);
   s.cfl = setup.time.cfl > 0 ? setup.time.cfl : s.integrator.default_cfl;

@@ -16,6 +16,7 @@ std::vector<algebra::Vec3> centred(const scheme::PairGraph& graph);
 template <int Dim>
 void set_initial_state(const scheme::PairGraph& graph,
                        const InitialCase& initial,
+                       double kappa_f,
                        scheme::State<Dim>& state);
 
 /// 32 hexadecimal digits.

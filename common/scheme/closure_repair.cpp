@@ -1,19 +1,13 @@
 #include "common/scheme/closure_repair.hpp"
 
+#include "common/scheme/conjugate_gradients.hpp"
 #include "common/scheme/spline_levels.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace diptych::scheme {
 
 namespace {
-
-using Field = std::vector<Vec3>;
-using Operator = std::function<void(const Field& y, Field& Sy)>;
-/// z = approximate S^-1 r
-using Preconditioner = std::function<void(const Field& r, Field& z)>;
 
 /// What is missing: A_aN_a + 1/2 sum_b (C_ab - C_ba).
 Field closure_gap(const PairGraph& graph) {
@@ -37,109 +31,74 @@ std::vector<double> area_units(const PairGraph& graph) {
   return unit;
 }
 
-double greatest(const Field& gap, const std::vector<double>& unit) {
-  double result = 0;
-  for (size_t a = 0; a < gap.size(); ++a)
-    result = std::max(result, gap[a].norm() * unit[a]);
-  return result;
-}
+/// One of the two corrections: C is changed by a linear function of y, the gap by -S y.
+class Correction {
+ public:
+  virtual ~Correction() = default;
+  virtual void apply_S(const Field& y, Field& Sy) = 0;
+  virtual void precondition(const Field& r, Field& z) = 0;
+  virtual void change(const Field& y, std::vector<Vec3>& C) = 0;
+};
 
-Vec3 dot(const Field& x, const Field& y) {
-  Vec3 sum = Vec3::Zero();
-  for (size_t a = 0; a < x.size(); ++a)
-    sum += x[a].cwiseProduct(y[a]);
-  return sum;
-}
-
-/// x / y by component, 0 where y is: a component that is solved (or absent, z in 2-D) rests.
-Vec3 quotient(const Vec3& x, const Vec3& y) {
-  Vec3 result = Vec3::Zero();
-  for (int i = 0; i < 3; ++i) {
-    if (y[i] > 0) result[i] = x[i] / y[i];
+void divide(const Field& r, const std::vector<double>& diagonal, Field& z) {
+  for (size_t a = 0; a < r.size(); ++a) {
+    z[a] = diagonal[a] > 0 ? Vec3(r[a] / diagonal[a]) : Vec3(Vec3::Zero());
   }
-  return result;
 }
 
-Preconditioner by_diagonal(std::vector<double> diagonal) {
-  return [diagonal = std::move(diagonal)](const Field& r, Field& z) {
-    for (size_t a = 0; a < r.size(); ++a) {
-      z[a] = diagonal[a] > 0 ? Vec3(r[a] / diagonal[a]) : Vec3(Vec3::Zero());
+/// dC_ab = -2 w_ab gamma_a with gamma = A^T y, which is the gamma of least norm: S = A A^T,
+///   (A gamma)_a = sum_b (w_ab gamma_a - w_ba gamma_b),  (A^T y)_a = sum_b w_ab (y_a - y_b).
+class RowCorrection : public Correction {
+ public:
+  RowCorrection(const PairGraph& graph, const std::vector<double>& w)
+      : graph_(graph),
+        w_(w),
+        w_reverse_(w.size()),
+        sum_(graph.X.size(), 0.0),
+        diagonal_(graph.X.size(), 0.0),
+        gamma_(graph.X.size()) {
+    for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+        w_reverse_[p] = w[graph.reverse[p]];
+        sum_[a] += w[p];
+        diagonal_[a] += w_reverse_[p] * w_reverse_[p];
+      }
+      diagonal_[a] += sum_[a] * sum_[a];
     }
-  };
-}
-
-/// Preconditioned conjugate gradients for S y = r, the three components side by side (each with
-/// its own step lengths), from y = 0.
-/// @return steps taken
-int conjugate_gradients(const Operator& S,
-                        const Preconditioner& precondition,
-                        const std::vector<double>& unit,
-                        Field r,
-                        const RepairLimits& limits,
-                        Field& y) {
-  const size_t n = r.size();
-  y.assign(n, Vec3::Zero());
-  Field p(n), Sp(n), z(n);
-  precondition(r, z);
-  p = z;
-  Vec3 rz = dot(r, z);
-  int step = 0;
-  while (step < limits.iterations && greatest(r, unit) > 0.3 * limits.closure) {
-    S(p, Sp);
-    const Vec3 alpha = quotient(rz, dot(p, Sp));
-    for (size_t a = 0; a < n; ++a) {
-      y[a] += alpha.cwiseProduct(p[a]);
-      r[a] -= alpha.cwiseProduct(Sp[a]);
+  }
+  void apply_S(const Field& y, Field& Sy) override {
+    apply(w_, y, gamma_);
+    apply(w_reverse_, gamma_, Sy);
+  }
+  void precondition(const Field& r, Field& z) override { divide(r, diagonal_, z); }
+  void change(const Field& y, std::vector<Vec3>& C) override {
+    apply(w_, y, gamma_);
+    for (std::int64_t a = 0; a < graph_.n_nodes(); ++a) {
+      for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p)
+        C[p] -= 2 * w_[p] * gamma_[a];
     }
-    precondition(r, z);
-    const Vec3 rz_next = dot(r, z);
-    const Vec3 beta = quotient(rz_next, rz);
-    for (size_t a = 0; a < n; ++a)
-      p[a] = z[a] + beta.cwiseProduct(p[a]);
-    rz = rz_next;
-    ++step;
   }
-  return step;
-}
 
-/// Solves for the gap and applies the correction, again for what round-off left (at most five
-/// times, as long as it helps).
-ClosureRepair repair(PairGraph& graph,
-                     const Operator& S,
-                     const Preconditioner& precondition,
-                     const std::function<void(const Field& y)>& correct,
-                     const RepairLimits& limits) {
-  ClosureRepair result;
-  const std::vector<double> unit = area_units(graph);
-  Field gap = closure_gap(graph), y;
-  result.before = result.after = greatest(gap, unit);
-  const std::vector<Vec3> C_before = graph.C;
-  for (int pass = 0; pass < 5 && result.after > limits.closure; ++pass) {
-    RepairLimits left = limits;
-    left.iterations -= result.iterations;
-    result.iterations += conjugate_gradients(S, precondition, unit, gap, left, y);
-    const std::vector<Vec3> C_last = graph.C;
-    correct(y);
-    gap = closure_gap(graph);
-    const double after = greatest(gap, unit);
-    if (!(after < result.after)) {
-      graph.C = C_last;
-      break;
-    }
-    const bool slow = after > 0.5 * result.after;
-    result.after = after;
-    if (slow) break;
+ private:
+  /// out_a = (sum_b w_ab) in_a - sum_b weight_ab in_b
+  void apply(const std::vector<double>& weight, const Field& in, Field& out) const {
+    for_each_node(in.size(), [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t a = begin; a < end; ++a) {
+        Vec3 s = sum_[a] * in[a];
+        for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
+          s -= weight[p] * in[graph_.neighbour[p]];
+        }
+        out[a] = s;
+      }
+    });
   }
-  double change = 0, size = 0;
-  for (size_t p = 0; p < C_before.size(); ++p) {
-    change += (graph.C[p] - C_before[p]).norm();
-    size += C_before[p].norm();
-  }
-  result.mean_change = change / size;
-  return result;
-}
+  const PairGraph& graph_;
+  const std::vector<double>& w_;
+  std::vector<double> w_reverse_, sum_, diagonal_;
+  Field gamma_;
+};
 
-/// M_a^-1 = (sum_b k_ab X_ab (x) X_ab)^-1 of every row; a unit third direction in 2-D.
+/// M_a^-1 = (sum_b k_ab X_ab (x) X_ab)^-1 of every row; a third direction of its own in 2-D.
 std::vector<Mat3> inverse_second_moments(const PairGraph& graph, const std::vector<double>& k) {
   std::vector<Mat3> inverse(graph.X.size());
   for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
@@ -154,19 +113,137 @@ std::vector<Mat3> inverse_second_moments(const PairGraph& graph, const std::vect
   return inverse;
 }
 
+/// sum_b k_ab X_ab
+Vec3 first_moment(const PairGraph& graph, const std::vector<double>& k, std::int64_t a) {
+  Vec3 m = Vec3::Zero();
+  for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+    m += k[p] * (graph.X[graph.neighbour[p]] - graph.X[a]);
+  }
+  return m;
+}
+
+/// dC_ab = 1/2 k_ab [lambda_b - lambda_a - (grad lambda)_a X_ab]; the gap changes by -S lambda,
+///   (S lambda)_a = -1/4 sum_b k_ab [2 (lambda_b - lambda_a) - (grad_a + grad_b) X_ab].
+class PairCorrection : public Correction {
+ public:
+  PairCorrection(const PairGraph& graph, const std::vector<double>& k)
+      : graph_(graph),
+        k_(k),
+        inverse_(inverse_second_moments(graph, k)),
+        diagonal_(graph.X.size(), 0.0),
+        slope_(graph.X.size()),
+        smooth_(graph, k, inverse_) {
+    for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+      const Vec3 m = inverse_[a] * first_moment(graph, k, a);
+      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+        const Vec3 X_ab = graph.X[graph.neighbour[p]] - graph.X[a];
+        const double fitted = k[p] * X_ab.dot(inverse_[graph.neighbour[p]] * X_ab);
+        diagonal_[a] += 0.25 * k[p] * (2 - X_ab.dot(m) - fitted);
+      }
+    }
+  }
+  void apply_S(const Field& lambda, Field& S_lambda) override {
+    fit(lambda);
+    const std::vector<Vec3>& X = graph_.X;
+    for_each_node(X.size(), [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t a = begin; a < end; ++a) {
+        Vec3 s = Vec3::Zero();
+        for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
+          const std::int32_t b = graph_.neighbour[p];
+          s += k_[p] * (2 * (lambda[b] - lambda[a]) - (slope_[a] + slope_[b]) * (X[b] - X[a]));
+        }
+        S_lambda[a] = -0.25 * s;
+      }
+    });
+  }
+  void precondition(const Field& r, Field& z) override {
+    divide(r, diagonal_, z);
+    smooth_.add(r, z);
+  }
+  void change(const Field& lambda, std::vector<Vec3>& C) override {
+    fit(lambda);
+    const std::vector<Vec3>& X = graph_.X;
+    for (std::int64_t a = 0; a < graph_.n_nodes(); ++a) {
+      for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
+        const std::int32_t b = graph_.neighbour[p];
+        C[p] += 0.5 * k_[p] * (lambda[b] - lambda[a] - slope_[a] * (X[b] - X[a]));
+      }
+    }
+  }
+
+ private:
+  /// slope_[a] = grad lambda, row i the gradient of component i.
+  void fit(const Field& lambda) {
+    const std::vector<Vec3>& X = graph_.X;
+    for_each_node(X.size(), [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t a = begin; a < end; ++a) {
+        Mat3 m = Mat3::Zero();
+        for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
+          const std::int32_t b = graph_.neighbour[p];
+          m += (k_[p] * (lambda[b] - lambda[a])) * (X[b] - X[a]).transpose();
+        }
+        slope_[a] = m * inverse_[a];
+      }
+    });
+  }
+  const PairGraph& graph_;
+  const std::vector<double>& k_;
+  std::vector<Mat3> inverse_;
+  std::vector<double> diagonal_;
+  std::vector<Mat3> slope_;
+  SplineLevels smooth_;
+};
+
+double relative_change(const std::vector<Vec3>& C, const std::vector<Vec3>& C_before) {
+  double change = 0, size = 0;
+  for (size_t p = 0; p < C.size(); ++p) {
+    change += (C[p] - C_before[p]).norm();
+    size += C_before[p].norm();
+  }
+  return change / size;
+}
+
+constexpr int most_passes = 4;
+
+/// Solves for the gap and applies the correction, again for what round-off left, as long as that
+/// halves it.
+ClosureRepair repair(PairGraph& graph, Correction& correction, const RepairLimits& limits) {
+  ClosureRepair result;
+  const std::vector<double> unit = area_units(graph);
+  const AffinePart affine_part(graph.X);
+  const FieldOperator S = [&](const Field& y, Field& Sy) { correction.apply_S(y, Sy); };
+  const FieldOperator inverse = [&](const Field& r, Field& z) { correction.precondition(r, z); };
+  const std::vector<Vec3> C_before = graph.C;
+  Field gap = closure_gap(graph), y;
+  result.before = result.after = greatest(gap, unit);
+  for (int pass = 0; pass < most_passes && !(result.after <= limits.closure); ++pass) {
+    const SolveLimits left{0.5 * limits.closure, limits.iterations - result.iterations};
+    result.iterations += conjugate_gradients(S, inverse, affine_part, unit, left, gap, y);
+    std::vector<Vec3> C = graph.C;
+    correction.change(y, C);
+    C.swap(graph.C);
+    gap = closure_gap(graph);
+    const double before = result.after, after = greatest(gap, unit);
+    if (!(after < before)) {
+      C.swap(graph.C);
+      break;
+    }
+    result.after = after;
+    if (after > 0.5 * before) break;
+  }
+  result.mean_change = relative_change(graph.C, C_before);
+  return result;
+}
+
 }  // namespace
 
 std::vector<double> moment_free_weights(const PairGraph& graph, const std::vector<double>& k) {
   const std::vector<Mat3> inverse = inverse_second_moments(graph, k);
-  std::vector<double> w(k.size());
+  std::vector<double> w(k.size(), 0.0);
   for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
     const std::int64_t begin = graph.row[a], end = graph.row[a + 1];
     if (end - begin <= graph.dimension) continue;
-    Vec3 m = Vec3::Zero();
-    for (std::int64_t p = begin; p < end; ++p) {
-      m += k[p] * (graph.X[graph.neighbour[p]] - graph.X[a]);
-    }
-    const Vec3 slope = inverse[a] * m;
+    const Vec3 slope = inverse[a] * first_moment(graph, k, a);
     for (std::int64_t p = begin; p < end; ++p) {
       w[p] = k[p] * (1 - slope.dot(graph.X[graph.neighbour[p]] - graph.X[a]));
     }
@@ -177,105 +254,15 @@ std::vector<double> moment_free_weights(const PairGraph& graph, const std::vecto
 ClosureRepair repair_closure_rows(PairGraph& graph,
                                   const std::vector<double>& w,
                                   const RepairLimits& limits) {
-  const std::int64_t n = graph.n_nodes();
-  std::vector<double> w_reverse(w.size()), sum(graph.X.size(), 0.0), diagonal(graph.X.size());
-  for (std::int64_t a = 0; a < n; ++a) {
-    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-      w_reverse[p] = w[graph.reverse[p]];
-      sum[a] += w[p];
-      diagonal[a] += w_reverse[p] * w_reverse[p];
-    }
-    diagonal[a] += sum[a] * sum[a];
-  }
-  // A^T y = sum_b w_ab (y_a - y_b);  (A gamma)_a = sum_b (w_ab gamma_a - w_ba gamma_b)
-  Field gamma(graph.X.size());
-  const auto transposed = [&](const Field& y) {
-    for (std::int64_t a = 0; a < n; ++a) {
-      Vec3 g = sum[a] * y[a];
-      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-        g -= w[p] * y[graph.neighbour[p]];
-      }
-      gamma[a] = g;
-    }
-  };
-  const Operator S = [&](const Field& y, Field& Sy) {
-    transposed(y);
-    for (std::int64_t a = 0; a < n; ++a) {
-      Vec3 s = sum[a] * gamma[a];
-      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-        s -= w_reverse[p] * gamma[graph.neighbour[p]];
-      }
-      Sy[a] = s;
-    }
-  };
-  const auto correct = [&](const Field& y) {
-    transposed(y);
-    for (std::int64_t a = 0; a < n; ++a) {
-      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-        graph.C[p] -= 2 * w[p] * gamma[a];
-      }
-    }
-  };
-  return repair(graph, S, by_diagonal(std::move(diagonal)), correct, limits);
+  RowCorrection correction(graph, w);
+  return repair(graph, correction, limits);
 }
 
 ClosureRepair repair_closure_pairs(PairGraph& graph,
                                    const std::vector<double>& k,
                                    const RepairLimits& limits) {
-  const std::int64_t n = graph.n_nodes();
-  const std::vector<Vec3>& X = graph.X;
-  const std::vector<Mat3> inverse = inverse_second_moments(graph, k);
-  std::vector<Mat3> slope(X.size());  // row i: gradient of component i of lambda
-  const auto fit = [&](const Field& lambda) {
-    for (std::int64_t a = 0; a < n; ++a) {
-      Mat3 m = Mat3::Zero();
-      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-        const std::int32_t b = graph.neighbour[p];
-        m += (k[p] * (lambda[b] - lambda[a])) * (X[b] - X[a]).transpose();
-      }
-      slope[a] = m * inverse[a];
-    }
-  };
-  const Operator S = [&](const Field& lambda, Field& S_lambda) {
-    fit(lambda);
-    for (std::int64_t a = 0; a < n; ++a) {
-      Vec3 s = Vec3::Zero();
-      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-        const std::int32_t b = graph.neighbour[p];
-        s += k[p] * (2 * (lambda[b] - lambda[a]) - (slope[a] + slope[b]) * (X[b] - X[a]));
-      }
-      S_lambda[a] = -0.25 * s;
-    }
-  };
-  std::vector<double> diagonal(X.size(), 0.0);
-  for (std::int64_t a = 0; a < n; ++a) {
-    Vec3 m = Vec3::Zero();
-    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-      m += k[p] * (X[graph.neighbour[p]] - X[a]);
-    }
-    m = inverse[a] * m;
-    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-      const std::int32_t b = graph.neighbour[p];
-      const Vec3 X_ab = X[b] - X[a];
-      diagonal[a] += 0.25 * k[p] * (2 - X_ab.dot(m) - k[p] * X_ab.dot(inverse[b] * X_ab));
-    }
-  }
-  const auto correct = [&](const Field& lambda) {
-    fit(lambda);
-    for (std::int64_t a = 0; a < n; ++a) {
-      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-        const std::int32_t b = graph.neighbour[p];
-        graph.C[p] += 0.5 * k[p] * (lambda[b] - lambda[a] - slope[a] * (X[b] - X[a]));
-      }
-    }
-  };
-  const Preconditioner rough = by_diagonal(std::move(diagonal));
-  const SplineLevels smooth(graph, k, inverse);
-  const Preconditioner precondition = [&](const Field& r, Field& z) {
-    rough(r, z);
-    smooth.add(r, z);
-  };
-  return repair(graph, S, precondition, correct, limits);
+  PairCorrection correction(graph, k);
+  return repair(graph, correction, limits);
 }
 
 }  // namespace diptych::scheme

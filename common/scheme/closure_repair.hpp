@@ -29,8 +29,8 @@ struct ClosureRepair {
 };
 
 struct RepairLimits {
-  double closure = 1e-13;  ///< stop below this; where it cannot be reached, `after` says so
-  int iterations = 20000;
+  double closure = 2e-13;  ///< stop below this; where it cannot be reached, `after` says so
+  int iterations = 3000;
 };
 
 /// Weights with vanishing first moment: w_ab = k_ab (1 - (X_b - X_a).M_a^-1 m_a), M_a and m_a the

@@ -8,19 +8,17 @@ namespace diptych::scheme {
 
 namespace {
 
-/// Component by component; the same bits for every number of threads.
+/// Below this many nodes a loop is too short to be worth the start of threads.
+constexpr size_t least_parallel = 50000;
+
+/// Steps without progress after which the system has no solution, or round-off is reached.
+constexpr int patience = 500;
+
+/// Component by component.
 Vec3 dot(const Field& x, const Field& y) {
-  const auto n = static_cast<std::int64_t>(x.size());
-  std::vector<Vec3> parts(static_cast<size_t>(parallel::n_chunks_of(n)));
-  parallel::for_chunks(n, [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
-    Vec3 sum = Vec3::Zero();
-    for (std::int64_t a = begin; a < end; ++a)
-      sum += x[a].cwiseProduct(y[a]);
-    parts[chunk] = sum;
-  });
   Vec3 sum = Vec3::Zero();
-  for (const Vec3& part : parts)
-    sum += part;
+  for (size_t a = 0; a < x.size(); ++a)
+    sum += x[a].cwiseProduct(y[a]);
   return sum;
 }
 
@@ -36,8 +34,13 @@ Vec3 quotient(const Vec3& x, const Vec3& y) {
 }  // namespace
 
 void for_each_node(size_t n, const std::function<void(std::int64_t, std::int64_t)>& work) {
-  parallel::for_chunks(static_cast<std::int64_t>(n), [&](std::int64_t begin, std::int64_t end,
-                                                         std::int64_t) { work(begin, end); });
+  const auto end = static_cast<std::int64_t>(n);
+  if (n < least_parallel) {
+    work(0, end);
+    return;
+  }
+  parallel::for_chunks(
+      end, [&](std::int64_t first, std::int64_t last, std::int64_t) { work(first, last); });
 }
 
 AffinePart::AffinePart(const std::vector<Vec3>& X) : X_(X) {
@@ -77,8 +80,10 @@ int conjugate_gradients(const FieldOperator& S,
   precondition(r, z);
   Field p = z;
   Vec3 rz = dot(r, z);
-  int step = 0;
-  while (step < limits.steps && greatest(r, unit) > limits.residual) {
+  Field best_y = y;
+  double residual = greatest(r, unit), best = residual;
+  int step = 0, best_step = 0;
+  while (step < limits.steps && residual > limits.residual && step < best_step + patience) {
     S(p, Sp);
     const Vec3 alpha = quotient(rz, dot(p, Sp));
     for (size_t a = 0; a < n; ++a) {
@@ -92,8 +97,15 @@ int conjugate_gradients(const FieldOperator& S,
     for (size_t a = 0; a < n; ++a)
       p[a] = z[a] + beta.cwiseProduct(p[a]);
     rz = rz_next;
+    residual = greatest(r, unit);
     ++step;
+    if (residual < 0.7 * best) {
+      best = residual;
+      best_step = step;
+      best_y = y;
+    }
   }
+  if (residual > best) y = best_y;
   return step;
 }
 

@@ -41,7 +41,8 @@ struct SolveLimits {
   int steps = 0;
 };
 
-/// Solves from y = 0 until max_a |r_a| unit_a <= limits.residual.
+/// Solves from y = 0 until max_a |r_a| unit_a <= limits.residual, or until that stops falling (a
+/// system without a solution): y is then the best found.
 /// @return steps taken
 int conjugate_gradients(const FieldOperator& S,
                         const FieldOperator& precondition,

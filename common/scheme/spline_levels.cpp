@@ -11,8 +11,10 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr double spacing_of_finest = 2;  ///< in units of the mean spacing of the nodes
-constexpr int least_splines = 64;        ///< no coarser level than this
-constexpr double felt = 1e-10;           ///< part of its energy that the linear fit must leave
+constexpr double felt_energy = 1e-10;    ///< part of its energy that the linear fit must leave
+/// Part of its mass that must lie in the body: a spline that only touches nodes of the boundary
+/// has far more energy there than its curvature tells.
+constexpr double felt_mass = 2e-3;
 
 /// Half the second differential: 1/2 X.Hess X = monomials.Hess, Hess = {xx,yy,zz,yz,zx,xy}.
 Vec6 monomials(const Vec3& X) {
@@ -50,12 +52,19 @@ SplineLevels::SplineLevels(const PairGraph& graph,
   for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
     row_moments(graph, k, inverse[a], a, T);
     for (Level& level : levels_)
-      add_energy(level, graph.X[a], T);
+      add_energy(level, graph.X[a], graph.Omega[a], T);
     node_splines_.push_back(splines_at(levels_.front(), graph.X[a]));
   }
-  for (Level& level : levels_) {
-    for (size_t i = 0; i < level.diagonal.size(); ++i) {
-      if (!(level.diagonal[i] > felt * level.uncorrected[i])) level.diagonal[i] = 0;
+  for (Level& level : levels_)
+    leave_out_unfelt(level);
+}
+
+void SplineLevels::leave_out_unfelt(Level& level) {
+  const double full_mass = std::pow(0.55, dimension_) * level.H.head(dimension_).prod();
+  for (size_t i = 0; i < level.diagonal.size(); ++i) {
+    if (!(level.diagonal[i] > felt_energy * level.uncorrected[i]) ||
+        level.mass[i] < felt_mass * full_mass) {
+      level.diagonal[i] = 0;
     }
   }
 }
@@ -70,21 +79,26 @@ void SplineLevels::set_levels(const PairGraph& graph) {
     volume += graph.Omega[a];
   }
   const auto n_nodes = static_cast<double>(graph.n_nodes());
+  const Eigen::ArrayXd length = (upper - lower_).head(dimension_).array();
   double H = spacing_of_finest * std::pow(volume / n_nodes, 1.0 / dimension_);
-  const auto count = [&](int i) {
-    return i < dimension_ ? std::floor((upper[i] - lower_[i]) / H) + 3 : 1;
-  };
-  while (count(0) * count(1) * count(2) > n_nodes + 1000)
+  while ((length / H + 3).prod() > n_nodes + 1000)
     H *= 1.25;
-  do {
+  // Whole cells in every direction, on the coarsest level too: no spline just touches the box.
+  const int n_levels = 1 + std::max(0, static_cast<int>(std::log2(length.minCoeff() / H)));
+  Index cells{1, 1, 1};
+  for (int i = 0; i < dimension_; ++i) {
+    const double coarse = std::round(length[i] / (H * std::exp2(n_levels - 1)));
+    cells[i] = std::max(1, static_cast<int>(coarse)) << (n_levels - 1);
+  }
+  for (int l = 0; l < n_levels; ++l) {
     Level& level = levels_.emplace_back();
-    level.H = H;
-    for (int i = 0; i < 3; ++i)
-      level.n[i] = static_cast<int>(count(i));
+    for (int i = 0; i < dimension_; ++i) {
+      level.n[i] = (cells[i] >> l) + 2;
+      level.H[i] = length[i] / (cells[i] >> l);
+    }
     level.diagonal.assign(static_cast<size_t>(level.size()), 0.0);
-    level.uncorrected = level.diagonal;
-    H *= 2;
-  } while (levels_.back().size() > least_splines);
+    level.uncorrected = level.mass = level.diagonal;
+  }
 }
 
 SplineLevels::Splines SplineLevels::splines_at(const Level& level, const Vec3& X) const {
@@ -96,7 +110,7 @@ SplineLevels::Splines SplineLevels::splines_at(const Level& level, const Vec3& X
       s.slope[i][0] = s.curvature[i][0] = 0;
       continue;
     }
-    const double x = (X[i] - lower_[i]) / level.H;
+    const double x = (X[i] - lower_[i]) / level.H[i];
     s.first[i] = std::clamp(static_cast<int>(x), 0, level.n[i] - 3);
     const double t = x - s.first[i];
     const double value[3] = {0.5 * (1 - t) * (1 - t), 0.5 + t - t * t, 0.5 * t * t};
@@ -104,14 +118,14 @@ SplineLevels::Splines SplineLevels::splines_at(const Level& level, const Vec3& X
     const double curvature[3] = {1, -2, 1};
     for (int j = 0; j < 3; ++j) {
       s.value[i][j] = value[j];
-      s.slope[i][j] = slope[j] / level.H;
-      s.curvature[i][j] = curvature[j] / (level.H * level.H);
+      s.slope[i][j] = slope[j] / level.H[i];
+      s.curvature[i][j] = curvature[j] / (level.H[i] * level.H[i]);
     }
   }
   return s;
 }
 
-void SplineLevels::add_energy(Level& level, const Vec3& X, const Mat6 T[2]) {
+void SplineLevels::add_energy(Level& level, const Vec3& X, double Omega, const Mat6 T[2]) {
   const Splines s = splines_at(level, X);
   for (int z = 0; z < per_direction_z_; ++z) {
     for (int y = 0; y < 3; ++y) {
@@ -125,6 +139,8 @@ void SplineLevels::add_energy(Level& level, const Vec3& X, const Mat6 T[2]) {
         const std::int64_t i =
             (static_cast<std::int64_t>(s.first[2] + z) * level.n[1] + s.first[1] + y) * level.n[0] +
             s.first[0] + x;
+        const double value = *v[0] * *v[1] * *v[2];
+        level.mass[i] += Omega * value * value;
         level.diagonal[i] += h.dot(T[0] * h);
         level.uncorrected[i] += h.dot(T[1] * h);
       }

@@ -32,10 +32,11 @@ class SplineLevels {
  private:
   using Index = std::array<int, 3>;
   struct Level {
-    double H = 0;                     ///< m
+    Vec3 H = Vec3::Ones();            ///< m, per direction
     Index n{1, 1, 1};                 ///< splines per direction
-    std::vector<double> diagonal;     ///< Hess : T : Hess of each spline, 0 where it is not felt
+    std::vector<double> diagonal;     ///< Hess : T : Hess of each spline, 0 where it is left out
     std::vector<double> uncorrected;  ///< the same without the linear fit, to judge round-off
+    std::vector<double> mass;         ///< sum_a Omega_a value^2, to judge whether it is felt
     std::int64_t size() const { return static_cast<std::int64_t>(n[0]) * n[1] * n[2]; }
   };
   /// The splines that a point feels: three per direction from `first`, values and derivatives.
@@ -46,7 +47,11 @@ class SplineLevels {
 
   void set_levels(const PairGraph& graph);
   Splines splines_at(const Level& level, const Vec3& X) const;
-  void add_energy(Level& level, const Vec3& X, const Eigen::Matrix<double, 6, 6> T[2]);
+  void add_energy(Level& level,
+                  const Vec3& X,
+                  double Omega,
+                  const Eigen::Matrix<double, 6, 6> T[2]);
+  void leave_out_unfelt(Level& level);
   /// Calls visit(fine, coarse, weight) for the two-scale relation 1/4 (1 3 3 1) in each direction.
   template <class Visit>
   void for_each_child(const Level& fine, const Level& coarse, const Visit& visit) const;

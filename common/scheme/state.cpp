@@ -35,8 +35,15 @@ State<Dim>::State(
 }
 
 template <int Dim>
+void State<Dim>::allow_face_correction() {
+  const std::int64_t size = n_blocks * algebra::n_lanes * tensor_stride<Dim>;
+  gradients = algebra::AlignedArray<double>(size);
+  stresses = algebra::AlignedArray<double>(size);
+}
+
+template <int Dim>
 std::int64_t State<Dim>::bytes() const {
-  std::int64_t sum = 8 * (velocity.size() + records.size());
+  std::int64_t sum = 8 * (velocity.size() + records.size() + gradients.size() + stresses.size());
   for (const BlockField* f :
        {&v, &u, &F, &H, &J, &A, &S, &v_0, &u_0, &F_0, &H_0, &J_0, &L_0, &L, &T}) {
     sum += f->bytes();

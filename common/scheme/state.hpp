@@ -39,6 +39,10 @@ struct NodeRecord {
 template <int Dim>
 inline constexpr int velocity_stride = Dim == 3 ? 4 : 2;
 
+/// A tensor of a node, padded to whole gathers (face correction).
+template <int Dim>
+inline constexpr int tensor_stride = Dim == 3 ? 12 : 4;
+
 template <int Dim>
 struct State {
   std::int64_t n_nodes = 0, n_blocks = 0;
@@ -59,10 +63,16 @@ struct State {
   // what neighbours read
   algebra::AlignedArray<double> velocity;  ///< [n_nodes][velocity_stride]
   algebra::AlignedArray<double> records;   ///< [n_nodes][record_stride]
+  // face correction only: what its sweeps gather
+  algebra::AlignedArray<double> gradients;  ///< [n_nodes][tensor_stride], uncorrected dF/dt
+  algebra::AlignedArray<double> stresses;   ///< [n_nodes][tensor_stride], P
 
   State() = default;
   State(std::int64_t n, int branches, bool G, Unknowns which, bool exact_impedance, bool keep_L_0);
   std::int64_t bytes() const;
+  /// Makes room for the face correction.
+  void allow_face_correction();
+  bool has_face_correction() const { return gradients.size() > 0; }
   /// Unknowns per node, as reported: v, u, F, H, J, A, S as stored.
   int unknowns_per_node() const;
 };

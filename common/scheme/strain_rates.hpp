@@ -8,6 +8,7 @@
 
 #include "common/algebra/layout.hpp"
 #include "common/physics/wave_speeds.hpp"
+#include "common/scheme/face_correction.hpp"
 #include "common/scheme/gather.hpp"
 #include "common/scheme/pointwise.hpp"
 #include "common/scheme/sweep_graph.hpp"
@@ -22,8 +23,9 @@ struct StrainRateSweep {
   State<Dim>& state;
   const Relaxation& relaxation;
   bool exact_impedance;
-  bool with_dissipation;  ///< sum the viscous dissipation
-  double drift;           ///< s, leapfrog: moves u, F, H, J by the new rates before the stress
+  bool with_dissipation;   ///< sum the viscous dissipation
+  double face_correction;  ///< kappa_f, 0: none; else state.gradients hold the uncorrected dF/dt
+  double drift;            ///< s, leapfrog: moves u, F, H, J by the new rates before the stress
   // results, one per chunk of parallel::for_chunks
   double* viscous_power;  ///< W
   double* least_J;        ///< NaN where a node has not J > 0
@@ -88,6 +90,20 @@ DIPTYCH_INLINE void put_tensor_in_records(State<Dim>& state,
       put_in_records(state, b, c + i * Dim + j, value(i, j));
 }
 
+/// Writes the in-plane part of a tensor of block b to an array of rows.
+template <int Dim>
+DIPTYCH_INLINE void put_tensor(double* rows,
+                               int stride,
+                               std::int64_t b,
+                               const Tensor<Lanes>& value) {
+  double* row = rows + b * n_lanes * stride;
+  for (int k = 0; k < Dim * Dim; ++k) {
+    for (int lane = 0; lane < n_lanes; ++lane) {
+      row[lane * stride + k] = value(k / Dim, k % Dim)[lane];
+    }
+  }
+}
+
 /// Fills the records of block b: what the momentum sweep reads of a neighbour.
 template <int Dim>
 DIPTYCH_INLINE void write_records(State<Dim>& state,
@@ -105,7 +121,12 @@ DIPTYCH_INLINE void write_records(State<Dim>& state,
       v[lane] = velocity[lane * stride + i];
     put_in_records(state, b, Record::v + i, v);
   }
-  put_tensor_in_records(state, b, Record::P, P);
+  if (state.has_face_correction()) {
+    put_tensor<Dim>(state.stresses.data(), tensor_stride<Dim>, b,
+                    P);  // P' follows in a sweep of its own
+  } else {
+    put_tensor_in_records(state, b, Record::P, P);
+  }
   put_tensor_in_records(state, b, Record::L, algebra::load_tensor<Dim>(state.L.block(b), 0));
   put_tensor_in_records(state, b, Record::H, X.H);
   if (!exact_impedance) return;
@@ -131,7 +152,11 @@ DIPTYCH_INLINE double evaluate_block(const StrainRateSweep<Dim, Material>& sweep
   using Layout = algebra::Layout<Dim>;
   constexpr bool has_H = Material::has_H;
   State<Dim>& state = sweep.state;
-  strain_rates_of_block<isa>(sweep.graph, state, b);
+  if (sweep.face_correction == 0) {
+    strain_rates_of_block<isa>(sweep.graph, state, b);
+  } else {
+    correct_rates_of_block<isa>(sweep.graph, state, sweep.face_correction, b);
+  }
   if (sweep.drift != 0) drift_block(state, sweep.drift, b);
   const Deformation<Lanes> X = load_deformation(state, b);
   least_J = algebra::smaller(least_J, X.J);

@@ -1,0 +1,85 @@
+#include "common/scheme/face_correction.hpp"
+
+#include "common/scheme/strain_rates.hpp"
+
+namespace diptych::scheme {
+
+namespace {
+
+/// Uncorrected rates of blocks [begin, end), to where neighbours gather them.
+template <InstructionSet isa, int Dim>
+DIPTYCH_INLINE void plain_gradients(const SweepGraph<Dim>& graph,
+                                    State<Dim>& state,
+                                    std::int64_t begin,
+                                    std::int64_t end) {
+  for (std::int64_t b = begin; b < end; ++b) {
+    strain_rates_of_block<isa>(graph, state, b);
+    put_tensor<Dim>(state.gradients.data(), tensor_stride<Dim>, b,
+                    algebra::load_tensor<Dim>(state.L.block(b), 0));
+  }
+}
+
+template <int Dim>
+void gradients_baseline(const SweepGraph<Dim>& graph,
+                        State<Dim>& state,
+                        std::int64_t begin,
+                        std::int64_t end) {
+  plain_gradients<InstructionSet::baseline>(graph, state, begin, end);
+}
+template <int Dim>
+void stresses_baseline(const SweepGraph<Dim>& graph,
+                       State<Dim>& state,
+                       double kappa_f,
+                       std::int64_t begin,
+                       std::int64_t end) {
+  correct_stresses<InstructionSet::baseline>(graph, state, kappa_f, begin, end);
+}
+template <int Dim>
+DIPTYCH_AVX2 void gradients_avx2(const SweepGraph<Dim>& graph,
+                                 State<Dim>& state,
+                                 std::int64_t begin,
+                                 std::int64_t end) {
+  plain_gradients<InstructionSet::avx2>(graph, state, begin, end);
+}
+template <int Dim>
+DIPTYCH_AVX2 void stresses_avx2(const SweepGraph<Dim>& graph,
+                                State<Dim>& state,
+                                double kappa_f,
+                                std::int64_t begin,
+                                std::int64_t end) {
+  correct_stresses<InstructionSet::avx2>(graph, state, kappa_f, begin, end);
+}
+template <int Dim>
+DIPTYCH_AVX512 void gradients_avx512(const SweepGraph<Dim>& graph,
+                                     State<Dim>& state,
+                                     std::int64_t begin,
+                                     std::int64_t end) {
+  plain_gradients<InstructionSet::avx512>(graph, state, begin, end);
+}
+template <int Dim>
+DIPTYCH_AVX512 void stresses_avx512(const SweepGraph<Dim>& graph,
+                                    State<Dim>& state,
+                                    double kappa_f,
+                                    std::int64_t begin,
+                                    std::int64_t end) {
+  correct_stresses<InstructionSet::avx512>(graph, state, kappa_f, begin, end);
+}
+
+}  // namespace
+
+template <int Dim>
+FaceCorrectionSweeps<Dim> face_correction_sweeps() {
+  switch (algebra::instruction_set()) {
+    case InstructionSet::avx512:
+      return {gradients_avx512<Dim>, stresses_avx512<Dim>};
+    case InstructionSet::avx2:
+      return {gradients_avx2<Dim>, stresses_avx2<Dim>};
+    default:
+      return {gradients_baseline<Dim>, stresses_baseline<Dim>};
+  }
+}
+
+template FaceCorrectionSweeps<2> face_correction_sweeps<2>();
+template FaceCorrectionSweeps<3> face_correction_sweeps<3>();
+
+}  // namespace diptych::scheme

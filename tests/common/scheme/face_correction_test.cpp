@@ -1,0 +1,108 @@
+/// The face correction: exact for linear fields, adjoint of its stress side, momentum and torque.
+
+#include "common/scheme/face_correction.hpp"
+
+#include "tests/common/scheme/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace diptych {
+namespace {
+
+using algebra::Mat3;
+using algebra::Vec3;
+
+const std::string corrected_cube =
+    tests::spinning_cube + std::string("[scheme]\nface_correction = \"1/6\"\n");
+
+class FaceCorrection : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Both, FaceCorrection, testing::Values("sph", "fvm"));
+
+/// One instruction set is enough: the sweeps are compared with each other in sweeps_test.cpp.
+std::vector<Mat3> correction(const scheme::SweepGraph<3>& pairs,
+                             scheme::Side side,
+                             const std::vector<Mat3>& tensors) {
+  constexpr auto isa = scheme::InstructionSet::baseline;
+  std::vector<double> rows(tensors.size() * 12 + 12);
+  for (size_t a = 0; a < tensors.size(); ++a) {
+    for (int k = 0; k < 9; ++k)
+      rows[12 * a + k] = tensors[a](k / 3, k % 3);
+  }
+  std::vector<Mat3> result(tensors.size());
+  for (size_t a = 0; a < tensors.size(); ++a) {
+    double sum[9];
+    if (side == scheme::Side::rates) {
+      scheme::correction_of_node<isa, scheme::Side::rates>(pairs, rows.data(),
+                                                           static_cast<std::int64_t>(a), sum);
+    } else {
+      scheme::correction_of_node<isa, scheme::Side::stress>(pairs, rows.data(),
+                                                            static_cast<std::int64_t>(a), sum);
+    }
+    for (int k = 0; k < 9; ++k)
+      result[a](k / 3, k % 3) = sum[k];
+  }
+  return result;
+}
+
+TEST_P(FaceCorrection, StressSideIsTheTransposeOfTheRateSide) {
+  const auto graph = tests::graph_of(
+      GetParam(),
+      meshes::box(meshes::CellType::hexahedron, Vec3::Zero(), Vec3(1, 2, 1), {4, 5, 3}));
+  const scheme::SweepGraph<3> pairs(graph);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<Mat3> L(graph.X.size()), P(graph.X.size());
+  for (size_t a = 0; a < L.size(); ++a) {
+    for (int k = 0; k < 9; ++k) {
+      L[a](k / 3, k % 3) = uniform(random);
+      P[a](k / 3, k % 3) = uniform(random);
+    }
+  }
+  const auto BL = correction(pairs, scheme::Side::rates, L);
+  const auto BP = correction(pairs, scheme::Side::stress, P);
+  double left = 0, right = 0, size = 0;
+  for (size_t a = 0; a < L.size(); ++a) {
+    left += P[a].cwiseProduct(BL[a]).sum();
+    right += BP[a].cwiseProduct(L[a]).sum();
+    size += P[a].norm() * BL[a].norm();
+  }
+  EXPECT_GT(size, 0);
+  EXPECT_NEAR(left, right, 1e-13 * size);  // sums of some thousand products
+}
+
+TEST_P(FaceCorrection, LeavesLinearFieldsAlone) {
+  const auto graph = tests::graph_of(
+      GetParam(), meshes::box(meshes::CellType::hexahedron, Vec3::Zero(), Vec3::Ones(), {4, 4, 4}));
+  const scheme::SweepGraph<3> pairs(graph);
+  const std::vector<Mat3> uniform(graph.X.size(), Mat3::Random());
+  for (const Mat3& change : correction(pairs, scheme::Side::rates, uniform)) {
+    EXPECT_EQ(change.norm(), 0);
+  }
+}
+
+TEST_P(FaceCorrection, KeepsMomentumEnergyBudgetAndTorque) {
+  tests::Scene scene = tests::scene_of(GetParam(), corrected_cube,
+                                       {"scheme.dissipation=0", "time.integrator=\"ssp-rk3\""});
+  const scheme::Balance start = scene.solver->balance();
+  const auto residual = [&](int n) {
+    tests::Scene body = tests::scene_of(GetParam(), corrected_cube, {"scheme.dissipation=0"});
+    for (int k = 1; k <= n; ++k)
+      body.solver->step(1e-3 * k / n);
+    const auto now = body.solver->balance();
+    EXPECT_LE((now.linear_momentum - start.linear_momentum).norm(), 1e-13 * start.momentum_scale);
+    // without D_ab only the integrator breaks angular momentum
+    return std::pair{std::abs(now.kinetic + now.strain - start.kinetic - start.strain +
+                              body.solver->audit().viscous_dissipation) /
+                         start.kinetic,
+                     (now.angular_momentum - start.angular_momentum).norm() / start.angular_scale};
+  };
+  const auto coarse = residual(24), fine = residual(48);
+  EXPECT_GE(std::log2(coarse.first / fine.first), 2.7);
+  EXPECT_GE(std::log2(coarse.second / fine.second), 2.7);
+  EXPECT_LE(fine.second, 1e-5);
+}
+
+}  // namespace
+}  // namespace diptych
