@@ -145,7 +145,7 @@ class BodySolver : public Solver {
     double rate = 0;
     for (const double r : largest_rate_)
       rate = r >= rate || std::isnan(r) ? r : rate;
-    stable_dt_ = setup_.cfl / rate;
+    stable_dt_ = setup_.cfl / (rate * scheme::frequency_factor(setup_.face_correction));
   }
 
   /// The step to make now: stable, and the time left divided evenly.

@@ -2,6 +2,8 @@
 
 #include "common/scheme/strain_rates.hpp"
 
+#include <cmath>
+
 namespace diptych::scheme {
 
 namespace {
@@ -66,6 +68,14 @@ DIPTYCH_AVX512 void stresses_avx512(const SweepGraph<Dim>& graph,
 }
 
 }  // namespace
+
+double frequency_factor(double kappa_f) {
+  if (kappa_f == 0) return 1;
+  // derivative zero: c + 2 k (c - 2 c^2 + 1) = 0 with c = cos(theta) < 0
+  const double k2 = 2 * kappa_f, p = 1 + k2;
+  const double c = (p - std::sqrt(p * p + 8 * k2 * k2)) / (4 * k2);
+  return std::sqrt(1 - c * c) * (1 + k2 * (1 - c));
+}
 
 template <int Dim>
 FaceCorrectionSweeps<Dim> face_correction_sweeps() {

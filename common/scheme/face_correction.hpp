@@ -96,6 +96,10 @@ DIPTYCH_INLINE void correct_stresses(const SweepGraph<Dim>& graph,
   }
 }
 
+/// By how much the correction raises the largest frequency of a lattice, and so lowers the stable
+/// step: max over theta of sin(theta) [1 + 2 kappa_f (1 - cos(theta))].
+double frequency_factor(double kappa_f);
+
 /// The two sweeps that the correction adds, over blocks [begin, end).
 template <int Dim>
 struct FaceCorrectionSweeps {

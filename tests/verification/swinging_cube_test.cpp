@@ -46,12 +46,32 @@ TEST_P(SwingingCube, ConvergesAtSecondOrder) {
 INSTANTIATE_TEST_SUITE_P(
     Cases,
     SwingingCube,
-    testing::Values(Expectation{"swinging-cube-elastic-hex", "sph", 1.9, 1.8, 1.35e-2, 5.0e-2},
-                    Expectation{"swinging-cube-elastic-hex", "fvm", 1.9, 1.8, 3.5e-3, 1.26e-2},
-                    Expectation{"swinging-cube-ve2-hex", "sph", 1.9, 1.8, 6.2e-3, 3.0e-2},
-                    Expectation{"swinging-cube-ve2-hex", "fvm", 1.9, 1.8, 1.5e-3, 7.5e-3},
-                    Expectation{"swinging-cube-elastic-tet", "fvm", 1.8, 1.5, 2e-2, 5e-2},
-                    Expectation{"swinging-cube-ve2-tet", "fvm", 1.8, 1.5, 2e-2, 5e-2}));
+    testing::Values(Expectation{"swinging-cube-elastic-hex", "sph", 1.9, 1.8, 5.5e-3, 3.3e-3},
+                    Expectation{"swinging-cube-elastic-hex", "fvm", 1.8, 1.8, 2.2e-3, 1.6e-3},
+                    Expectation{"swinging-cube-ve2-hex", "sph", 1.9, 1.8, 2.3e-3, 1.7e-3},
+                    Expectation{"swinging-cube-ve2-hex", "fvm", 1.9, 1.8, 7.6e-4, 8.3e-4},
+                    Expectation{"swinging-cube-elastic-tet", "sph", 1.8, 1.5, 7e-3, 8e-3},
+                    Expectation{"swinging-cube-elastic-tet", "fvm", 1.8, 1.5, 7e-3, 1e-2},
+                    Expectation{"swinging-cube-ve2-tet", "sph", 1.8, 1.5, 5e-3, 5e-3},
+                    Expectation{"swinging-cube-ve2-tet", "fvm", 1.8, 1.5, 5e-3, 8e-3}));
+
+TEST(SwingingCube, FaceCorrectionDividesStressErrorByFive) {
+  const auto errors = [](const char* method, const char* kappa_f) {
+    const auto setup = run::read_case(harness::find_case("swinging-cube-elastic-hex"),
+                                      {std::string("scheme.face_correction=") + kappa_f});
+    harness::StudyOptions options;
+    options.methods = {method};
+    options.levels = {2};
+    options.threads = 1;
+    options.quiet = true;
+    return harness::run_study(setup, options).runs[0].errors;
+  };
+  for (const char* method : {"sph", "fvm"}) {
+    const auto plain = errors(method, "0"), corrected = errors(method, "\"1/6\"");
+    EXPECT_LE(corrected.at("stress").l2, 0.2 * plain.at("stress").l2) << method;
+    EXPECT_LE(corrected.at("displacement").l2, 0.2 * plain.at("displacement").l2) << method;
+  }
+}
 
 TEST(SwingingCubeVE2, ViscousDissipationOfTheMethodsAgreesWithinOnePercent) {
   const auto setup = run::read_case(harness::find_case("swinging-cube-ve2-hex"));

@@ -72,6 +72,17 @@ TEST_P(FaceCorrection, StressSideIsTheTransposeOfTheRateSide) {
   EXPECT_NEAR(left, right, 1e-13 * size);  // sums of some thousand products
 }
 
+TEST(FrequencyFactor, IsTheMaximumOfTheSymbol) {
+  EXPECT_EQ(scheme::frequency_factor(0), 1);
+  for (const double kappa_f : {0.01, 0.125, 1.0 / 6, 0.25}) {
+    double most = 0;
+    for (double theta = 0; theta < 3.1416; theta += 1e-4) {
+      most = std::max(most, std::sin(theta) * (1 + 2 * kappa_f * (1 - std::cos(theta))));
+    }
+    EXPECT_NEAR(scheme::frequency_factor(kappa_f), most, 1e-8);
+  }
+}
+
 TEST_P(FaceCorrection, LeavesLinearFieldsAlone) {
   const auto graph = tests::graph_of(
       GetParam(), meshes::box(meshes::CellType::hexahedron, Vec3::Zero(), Vec3::Ones(), {4, 4, 4}));
