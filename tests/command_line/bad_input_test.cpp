@@ -66,6 +66,10 @@ std::vector<Bad> bad_cases() {
   };
 }
 
+std::string name_of(const testing::TestParamInfo<Bad>& bad) {
+  return bad.param.name;
+}
+
 class BadInput : public testing::TestWithParam<Bad> {};
 
 TEST_P(BadInput, EndsWithCodeTwoAndOneMessage) {
@@ -84,9 +88,7 @@ TEST_P(BadInput, EndsWithCodeTwoAndOneMessage) {
   EXPECT_TRUE(output.is_empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, BadInput, testing::ValuesIn(bad_cases()), [](const auto& info) {
-  return info.param.name;
-});
+INSTANTIATE_TEST_SUITE_P(Cases, BadInput, testing::ValuesIn(bad_cases()), name_of);
 
 TEST(BadMesh, InvertedCellIsNamed) {
   const Folder folder;

@@ -1,8 +1,8 @@
 #include "common/scheme/closure_repair.hpp"
 
 #include "common/scheme/conjugate_gradients.hpp"
-#include "graph_checks.hpp"
 #include "sph/sph_graph.hpp"
+#include "tests/graphs/graph_checks.hpp"
 
 #include <gtest/gtest.h>
 

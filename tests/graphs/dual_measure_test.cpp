@@ -1,7 +1,7 @@
 #include "meshes/dual_measure.hpp"
 
 #include "common/base/error.hpp"
-#include "graph_checks.hpp"
+#include "tests/graphs/graph_checks.hpp"
 
 #include <gtest/gtest.h>
 

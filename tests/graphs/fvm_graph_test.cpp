@@ -1,9 +1,9 @@
 #include "fvm/fvm_graph.hpp"
 
 #include "common/base/error.hpp"
-#include "graph_checks.hpp"
 #include "meshes/dual_measure.hpp"
 #include "meshes/shape_integrals.hpp"
+#include "tests/graphs/graph_checks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 /// conditions (linear exactness, closure) on every graph that the two factories make.
 
 #include "fvm/fvm_graph.hpp"
-#include "graph_checks.hpp"
 #include "sph/sph_graph.hpp"
+#include "tests/graphs/graph_checks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "common/base/error.hpp"
 #include "fvm/fvm_graph.hpp"
-#include "graph_checks.hpp"
+#include "tests/graphs/graph_checks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "meshes/shape_integrals.hpp"
 
-#include "graph_checks.hpp"
+#include "tests/graphs/graph_checks.hpp"
 
 #include <gtest/gtest.h>
 

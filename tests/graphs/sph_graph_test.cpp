@@ -2,8 +2,8 @@
 
 #include "common/base/error.hpp"
 #include "fvm/fvm_graph.hpp"
-#include "graph_checks.hpp"
 #include "sph/kernel_correction.hpp"
+#include "tests/graphs/graph_checks.hpp"
 
 #include <gtest/gtest.h>
 
