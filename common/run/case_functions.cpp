@@ -104,10 +104,9 @@ const base::Registry<FunctionType>& function_menu() {
   static const auto menu =
       base::Registry<FunctionType>("functions.type")
           .add("expression", {read_expression, {"value"}})
-          .add("zener_mode",
-               {read_zener_mode,
-                {"wave_number_squared", "density", "modulus", "branch_moduli", "branch_times",
-                 "amplitude", "rate", "relaxed"}})
+          .add("zener_mode", {read_zener_mode,
+                              {"wave_number_squared", "density", "modulus", "branch_moduli",
+                               "branch_times", "amplitude", "rate", "relaxed"}})
           .add("zener_slab", {read_zener_slab, slab})
           .add("zener_wave", {read_zener_wave, bar})
           .add("uniaxial_wave", {read_uniaxial_wave,

@@ -46,19 +46,20 @@ constexpr std::array section_table{
     Section{"parameters", false,
             "Numbers with names, in order: each may use the ones before it, all later keys may use "
             "them in expressions."},
-    Section{"functions.*", false,
-            "A function of time, or of place and time, that later expressions may use under the name "
-            "of its section, here NAME. expression gives NAME. "
-            "zener_mode gives NAME (amplitude q), NAME_dot, NAME_ddot and NAME_1 ... NAME_n "
-            "(branch strains q_a) of rho q'' + k2 [M q + sum M_a (q - q_a)] = 0, "
-            "q_a' = (q - q_a)/tau_a. "
-            "zener_slab and zener_wave give NAME (displacement), NAME_v, NAME_strain, NAME_stress "
-            "of small waves along x in that solid, virgin and at rest at t = 0: in 0 <= x <= length "
-            "held at x = 0 with the stress signal(t) at x = length, or in x >= 0 with the velocity "
-            "signal(t) at x = 0; NAME_speed, NAME_attenuation of the steady wave. "
-            "uniaxial_wave gives NAME (displacement), NAME_v, NAME_f, NAME_P, NAME_f_wall, "
-            "NAME_P_wall, NAME_speed of the elastic half space x >= 0 in uniaxial strain that moves "
-            "at a velocity and is held at x = 0: a shock where it is negative, else a fan."},
+    Section{
+        "functions.*", false,
+        "A function of time, or of place and time, that later expressions may use under the name "
+        "of its section, here NAME. expression gives NAME. "
+        "zener_mode gives NAME (amplitude q), NAME_dot, NAME_ddot and NAME_1 ... NAME_n "
+        "(branch strains q_a) of rho q'' + k2 [M q + sum M_a (q - q_a)] = 0, "
+        "q_a' = (q - q_a)/tau_a. "
+        "zener_slab and zener_wave give NAME (displacement), NAME_v, NAME_strain, NAME_stress "
+        "of small waves along x in that solid, virgin and at rest at t = 0: in 0 <= x <= length "
+        "held at x = 0 with the stress signal(t) at x = length, or in x >= 0 with the velocity "
+        "signal(t) at x = 0; NAME_speed, NAME_attenuation of the steady wave. "
+        "uniaxial_wave gives NAME (displacement), NAME_v, NAME_f, NAME_P, NAME_f_wall, "
+        "NAME_P_wall, NAME_speed of the elastic half space x >= 0 in uniaxial strain that moves "
+        "at a velocity and is held at x = 0: a shock where it is negative, else a fan."},
     Section{"mesh", false, "The body: a box made here, or a mesh file."},
     Section{"material", false,
             "The solid; the elastic constants are one pair of youngs_modulus + poissons_ratio, "

@@ -77,8 +77,9 @@ double UniaxialWave::stretch_of_speed(double c) const {
 }
 
 std::vector<std::string> UniaxialWave::names() const {
-  return {name_,          name_ + "_v",      name_ + "_f",    name_ + "_P",
-          name_ + "_f_wall", name_ + "_P_wall", name_ + "_speed"};
+  return {name_,           name_ + "_v",      name_ + "_f",
+          name_ + "_P",    name_ + "_f_wall", name_ + "_P_wall",
+          name_ + "_speed"};
 }
 
 std::vector<double> UniaxialWave::values_at(const Vec3& X, double t) const {

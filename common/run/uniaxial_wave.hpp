@@ -1,7 +1,8 @@
 #pragma once
 /// Exact finite-strain impact and pull in uniaxial strain (physics note 7): the half space x >= 0
 /// of the elastic Mooney-Rivlin solid moves at velocity v along x and its face x = 0 is held from
-/// t = 0 on. With P(f) = b (f - 1/f) + lambda_hat (f - 1), b = mu (1 + zeta_ratio), P' > 0, P'' < 0:
+/// t = 0 on. With P(f) = b (f - 1/f) + lambda_hat (f - 1), b = mu (1 + zeta_ratio), P' > 0, P'' <
+/// 0:
 ///
 ///     v < 0, impact: a shock,  rho v^2 = P(f) (f - 1),  at X = U t, U = -v/(1 - f)
 ///     v > 0, pull:   a fan,    v = int_1^f c df,  c = sqrt(P'/rho), between X = c(f) t and c(1) t
@@ -36,8 +37,8 @@ class UniaxialWave : public TimeFunction {
   bool depends_on_position() const override { return true; }
   std::vector<double> values_at(const Vec3& X, double t) const override;
 
-  double stress(double f) const;       ///< P(f)  [Pa]
-  double speed(double f) const;        ///< c(f), reference  [m/s]
+  double stress(double f) const;  ///< P(f)  [Pa]
+  double speed(double f) const;   ///< c(f), reference  [m/s]
   double wall_stretch() const { return f_wall_; }
   double front_speed() const { return front_speed_; }  ///< m/s
 

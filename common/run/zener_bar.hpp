@@ -24,7 +24,7 @@ namespace diptych::run {
 enum class Signal {
   step,              ///< amplitude
   one_minus_cosine,  ///< amplitude (1 - cos(omega t))
-  sine               ///< amplitude sin(omega t) (1 - exp(-ramp_rate t))^3: four times differentiable
+  sine  ///< amplitude sin(omega t) (1 - exp(-ramp_rate t))^3: four times differentiable
 };
 
 struct ZenerBarParameters {

@@ -1,7 +1,8 @@
 /// Impact and pull against the tabulated states and the conservation laws.
 
-#include "common/base/error.hpp"
 #include "common/run/uniaxial_wave.hpp"
+
+#include "common/base/error.hpp"
 
 #include <gtest/gtest.h>
 

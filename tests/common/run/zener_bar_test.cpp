@@ -1,8 +1,9 @@
 /// The bar against d'Alembert, against the sum of its modes, against itself at two precisions, and
 /// against the table of the plane wave in the standard linear solid (VE1).
 
-#include "common/run/time_functions.hpp"
 #include "common/run/zener_bar.hpp"
+
+#include "common/run/time_functions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -50,8 +51,8 @@ TEST(ZenerBar, GivesTheTabulatedPlaneWave) {
   const ZenerBar bar("w", p);
   EXPECT_NEAR(bar.phase_speed(), 151.665442, 1e-6);
   EXPECT_NEAR(bar.attenuation(), 1.194405e-1, 1e-7);
-  EXPECT_NEAR(bar.values_at({0, 0, 0}, 0.02)[1],
-              std::sin(4.0) * std::pow(1 - std::exp(-2.0), 3), 1e-9)
+  EXPECT_NEAR(bar.values_at({0, 0, 0}, 0.02)[1], std::sin(4.0) * std::pow(1 - std::exp(-2.0), 3),
+              1e-9)
       << "at x = 0 the velocity is the signal";
   // when the start has decayed, v = exp(-alpha x) sin(omega (t - x/c))
   for (const double x : {0.3, 1.0, 2.5}) {
