@@ -171,22 +171,29 @@ class BodySolver : public Solver {
 
   double ssp_step(double t_limit) {
     const scheme::Audit audit_0 = audit_;
-    double dt = 0, stage_time = time_;
+    double dt = 0, stage_time = time_, fraction = 0;
     const auto& stages = setup_.integrator.stages;
     for (size_t i = 0; i < stages.size(); ++i) {
       const bool first = i == 0, last = i + 1 == stages.size();
       sum_forces(first);
-      if (first) dt = choose_dt(t_limit);
+      if (first) {
+        dt = choose_dt(t_limit);
+        boundary_.begin_step(time_, dt);
+      }
       load_rates_ = boundary_.add_loads(state_, stage_time);
       scheme::Audit rate = rates();
-      rate.external_work += boundary_.power_of_constraints(state_, model_.rho_R, stage_time, dt);
+      rate.external_work += boundary_.power_of_constraints(state_, model_.rho_R, fraction);
       const scheme::StageCombination stage{stages[i].alpha, stages[i].beta, dt, first};
       audit_ = audit_.combined(stage.alpha, audit_0, stage.beta, dt, rate);
       for_blocks([&](auto begin, auto end) {
         scheme::update_stage(state_, pairs_, model_.rho_R, stage, begin, end);
       });
       stage_time = time_ + stages[i].time * dt;
-      constrain(stage_time);
+      for_blocks([&](auto begin, auto end) { scheme::publish_velocity(state_, begin, end); });
+      add_impulse(last ? boundary_.constrain(state_, model_.rho_R, stage_time)
+                       : boundary_.constrain_stage(state_, model_.rho_R, stages[i].alpha,
+                                                   stages[i].beta, fraction));
+      fraction = stages[i].time;
       const Rule rule = model_.branches.empty()                      ? Rule::frozen
                         : last && setup_.integrator.gauss_relaxation ? Rule::gauss
                                                                      : Rule::linear;
@@ -197,12 +204,13 @@ class BodySolver : public Solver {
 
   double leapfrog_step(double t_limit) {
     const double dt = choose_dt(t_limit);
+    boundary_.begin_step(time_, dt);
     scheme::Audit rate;
     kick(dt / 2, !model_.branches.empty());
     rate.external_work = 0.5 * boundary_.power_of_loads(state_);
     rate.impulse = {0.5 * load_rates_.force, 0.5 * load_rates_.torque};
     constrain(time_ + dt / 2);
-    rate.external_work += boundary_.power_of_constraints(state_, model_.rho_R, time_ + dt / 2, dt);
+    rate.external_work += boundary_.power_of_constraints(state_, model_.rho_R, 0.5);
     const Rule rule = model_.branches.empty() ? Rule::frozen : Rule::linear;
     rate.viscous_dissipation = 0.5 * parallel::sum_in_order(viscous_power_);
     evaluate({rule, true, dt, model_.branches}, dt);
@@ -228,7 +236,9 @@ class BodySolver : public Solver {
   /// Prescribed velocities at time t, then the velocities as neighbours read them.
   void constrain(double t) {
     for_blocks([&](auto begin, auto end) { scheme::publish_velocity(state_, begin, end); });
-    const scheme::Impulse impulse = boundary_.constrain(state_, model_.rho_R, t);
+    add_impulse(boundary_.constrain(state_, model_.rho_R, t));
+  }
+  void add_impulse(const scheme::Impulse& impulse) {
     audit_.impulse.linear += impulse.linear;
     audit_.impulse.angular += impulse.angular;
   }

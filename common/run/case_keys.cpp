@@ -46,11 +46,20 @@ constexpr std::array section_table{
     Section{"parameters", false,
             "Numbers with names, in order: each may use the ones before it, all later keys may use "
             "them in expressions."},
-    Section{"functions.*", false,
-            "A function of time that expressions may use under the name of its section, here "
-            "NAME: zener_mode gives NAME (amplitude q), NAME_dot, NAME_ddot and NAME_1 ... NAME_n "
-            "(branch strains q_a) of rho q'' + k2 [M q + sum M_a (q - q_a)] = 0, "
-            "q_a' = (q - q_a)/tau_a."},
+    Section{
+        "functions.*", false,
+        "A function of time, or of place and time, that later expressions may use under the name "
+        "of its section, here NAME. expression gives NAME. "
+        "zener_mode gives NAME (amplitude q), NAME_dot, NAME_ddot and NAME_1 ... NAME_n "
+        "(branch strains q_a) of rho q'' + k2 [M q + sum M_a (q - q_a)] = 0, "
+        "q_a' = (q - q_a)/tau_a. "
+        "zener_slab and zener_wave give NAME (displacement), NAME_v, NAME_strain, NAME_stress "
+        "of small waves along x in that solid, virgin and at rest at t = 0: in 0 <= x <= length "
+        "held at x = 0 with the stress signal(t) at x = length, or in x >= 0 with the velocity "
+        "signal(t) at x = 0; NAME_speed, NAME_attenuation of the steady wave. "
+        "uniaxial_wave gives NAME (displacement), NAME_v, NAME_f, NAME_P, NAME_f_wall, "
+        "NAME_P_wall, NAME_speed of the elastic half space x >= 0 in uniaxial strain that moves "
+        "at a velocity and is held at x = 0: a shock where it is negative, else a fan."},
     Section{"mesh", false, "The body: a box made here, or a mesh file."},
     Section{"material", false,
             "The solid; the elastic constants are one pair of youngs_modulus + poissons_ratio, "
@@ -83,10 +92,13 @@ constexpr std::array key_table{
 
     choice("functions.*.type", "", required, menus::functions, "Kind of function.",
            "\"zener_mode\""),
-    key("functions.*.wave_number_squared", number, "1/m^2", "", required, above(0),
+    key("functions.*.value", scalar_field, "-", "", "with expression", any,
+        "What the name stands for.", "\"sin(pi*t/T)^2\""),
+    key("functions.*.wave_number_squared", number, "1/m^2", "", "with zener_mode", above(0),
         "Square k2 of the wave number |k| of the mode.", "\"3*pi^2/4\""),
-    key("functions.*.density", number, "kg/m^3", "", required, above(0), "Density rho.", "1100"),
-    key("functions.*.modulus", number, "Pa", "", required, above(0),
+    key("functions.*.density", number, "kg/m^3", "", "required but with expression", above(0),
+        "Density rho.", "1100"),
+    key("functions.*.modulus", number, "Pa", "", "with zener_*", above(0),
         "Equilibrium modulus M of the mode: lambda + 2 mu for a pressure wave, mu for a shear "
         "wave.", "22.885e6"),
     key("functions.*.branch_moduli", numbers, "Pa", "[]", "", above(0),
@@ -94,10 +106,29 @@ constexpr std::array key_table{
         "[3.269e6, 6.538e6]"),
     key("functions.*.branch_times", numbers, "s", "[]", "", above(0),
         "Relaxation times tau_a, as many as branch_moduli.", "[2e-3, 1e-3]"),
-    key("functions.*.amplitude", number, "-", "0", "", any, "q at t = 0.", "5e-4"),
+    key("functions.*.amplitude", number, "-, Pa, m/s", "0", "", any,
+        "q at t = 0 (zener_mode), or size of the signal: stress (zener_slab), velocity "
+        "(zener_wave).", "5e-4"),
     key("functions.*.rate", number, "1/s", "0", "", any, "Rate of q at t = 0.", "0"),
     key("functions.*.relaxed", flag, "-", "false", "", any,
         "Branches start at q_a = q (true) or at q_a = 0 (false).", "true"),
+    key("functions.*.length", number, "m", "", "with zener_slab", above(0), "Length of the slab.",
+        "1"),
+    choice("functions.*.signal", "\"step\"", "", menus::signals,
+           "Load: amplitude times 1, 1 - cos(omega t), or sin(omega t) (1 - exp(-ramp_rate t))^3.",
+           "\"sine\""),
+    key("functions.*.angular_frequency", number, "1/s", "", "with an oscillating signal", above(0),
+        "omega of the signal.", "200"),
+    key("functions.*.ramp_rate", number, "1/s", "", "with signal = \"sine\"", above(0),
+        "How fast the signal comes up.", "100"),
+    key("functions.*.shear_modulus", number, "Pa", "", "with uniaxial_wave", above(0),
+        "Shear modulus mu.", "6.54e6"),
+    key("functions.*.lame", number, "Pa", "", "with uniaxial_wave", above(0),
+        "First Lame constant lambda.", "9.81e6"),
+    key("functions.*.zeta_ratio", number, "-", "0", "", Range{0, 1, true, false},
+        "zeta/(xi + zeta) of the Mooney-Rivlin solid.", "0.5"),
+    key("functions.*.velocity", number, "m/s", "", "with uniaxial_wave", any,
+        "Velocity of the body before x = 0 is held; not 0.", "-10"),
 
     choice("mesh.element", "\"hexahedron\"", "required with mesh.file", menus::elements,
            "Cell type; the last two make the case 2-D (plane strain), and then all vectors have "

@@ -29,7 +29,9 @@ inline constexpr std::array<Name, 2> limiters{"none", "sign-preserving"};
 inline constexpr std::array<Name, 2> impedances{"isotropic", "exact"};
 inline constexpr std::array<Name, 3> kernels{"cubic-spline", "quintic-spline", "wendland-c2"};
 inline constexpr std::array<Name, 2> stencils{"edge", "integral"};
-inline constexpr std::array<Name, 1> functions{"zener_mode"};
+inline constexpr std::array<Name, 5> functions{"expression", "zener_mode", "zener_slab",
+                                               "zener_wave", "uniaxial_wave"};
+inline constexpr std::array<Name, 3> signals{"step", "one-minus-cosine", "sine"};
 }  // namespace menus
 
 enum class KeyType {

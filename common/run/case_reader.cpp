@@ -3,10 +3,10 @@
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
 #include "common/run/case_document.hpp"
+#include "common/run/case_functions.hpp"
 #include "common/run/case_keys.hpp"
 #include "common/run/case_material.hpp"
 #include "common/run/case_values.hpp"
-#include "common/run/time_functions.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -85,24 +85,6 @@ void read_parameters(Sections& sections) {
   }
 }
 
-ZenerModeParameters zener_mode_parameters(const SectionValues& section) {
-  ZenerModeParameters p;
-  p.wave_number_squared = section.number("wave_number_squared");
-  p.density = section.number("density");
-  p.modulus = section.number("modulus");
-  p.branch_moduli = section.numbers("branch_moduli");
-  p.branch_times = section.numbers("branch_times");
-  p.amplitude = section.number("amplitude");
-  p.rate = section.number("rate");
-  p.relaxed = section.flag("relaxed");
-  if (p.branch_moduli.size() != p.branch_times.size()) {
-    section.fail("branch_times", fmt::format("has {} entries and branch_moduli {}; give one time "
-                                             "for each modulus",
-                                             p.branch_times.size(), p.branch_moduli.size()));
-  }
-  return p;
-}
-
 void read_functions(Sections& sections) {
   const Value* table = sections.table("functions");
   if (table == nullptr) return;
@@ -113,10 +95,9 @@ void read_functions(Sections& sections) {
     const SectionValues section(sections.document(), &member.value, "functions." + member.name,
                                 sections.vocabulary, sections.dimension);
     check_new_name(member.name, taken, member.where);
-    section.menu_name("type");
     std::shared_ptr<const TimeFunction> function;
     try {
-      function = std::make_shared<ZenerMode>(member.name, zener_mode_parameters(section));
+      function = read_function(member.name, section);
     } catch (const base::InputError& error) {
       const std::string message = error.what();
       if (message.rfind("functions.", 0) != 0) throw;

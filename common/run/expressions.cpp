@@ -252,6 +252,7 @@ bool Expression::Compiled::bind_time_function(const std::string& name,
                               [&](const BoundFunction& b) { return b.function == function; });
     if (bound == functions.end()) {
       functions.push_back({function, std::vector<double>(names.size(), 0.0)});
+      on_position = on_position || function->depends_on_position();
       bound = functions.end() - 1;
     }
     // The values stay where they are on the heap when `functions` grows.
@@ -312,13 +313,12 @@ void Expression::Compiled::compile() {
 
 double Expression::Compiled::evaluate(const Vec3& place, double time) {
   if (!on_time && !on_position) return value;
-  if (on_time && time != t) {
-    for (BoundFunction& bound : functions) {
-      const std::vector<double> values = bound.function->values(time);
-      std::copy(values.begin(), values.end(), bound.values.begin());
-    }
-  } else if (!on_position) {
-    return value;
+  const bool later = on_time && time != t;
+  if (!later && !on_position) return value;
+  for (BoundFunction& bound : functions) {
+    if (!later && !bound.function->depends_on_position()) continue;
+    const std::vector<double> values = bound.function->values_at(place, time);
+    std::copy(values.begin(), values.end(), bound.values.begin());
   }
   std::copy(place.data(), place.data() + 3, X);
   t = time;

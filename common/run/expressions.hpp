@@ -27,14 +27,17 @@ struct SourcePlace {
 /// "file:line:column: "; what is 0 is left out.
 std::string prefix(const SourcePlace& where);
 
-/// A function of time that expressions may use as a variable: name -> value(t).
-/// Several names may come from one object (q, q_dot, q_1, ...).
+/// A function of time, or of place and time, that expressions may use as a variable: name ->
+/// value(t). Several names may come from one object (q, q_dot, q_1, ...).
 class TimeFunction {
  public:
   virtual ~TimeFunction() = default;
   virtual std::vector<std::string> names() const = 0;
-  /// values of names() at time t, same order
+  /// values of names() at time t, same order; at X = 0 where they depend on the place
   virtual std::vector<double> values(double t) const = 0;
+  virtual bool depends_on_position() const { return false; }
+  /// values of names() at reference position X  [m]
+  virtual std::vector<double> values_at(const Vec3& /*X*/, double t) const { return values(t); }
 };
 
 /// Names that expressions may use.

@@ -99,6 +99,7 @@ AppliedBoundary::AppliedBoundary(const PairGraph& graph,
   for (const auto& [node, projector] : projectors) {
     constrained_.push_back(
         {node, graph.Omega[node], graph.X[node], projector.keep(), projector.velocity()});
+    has_velocities_ |= static_cast<bool>(projector.velocity());
   }
   std::vector<char> loaded(graph.X.size(), body_force_ ? 1 : 0);
   for (const PlacedCondition& placed : conditions_) {
@@ -116,23 +117,72 @@ AppliedBoundary::AppliedBoundary(const PairGraph& graph,
   forces_.assign(loaded_nodes_.size(), Vec3::Zero());
 }
 
-template <int Dim>
-Impulse AppliedBoundary::constrain(State<Dim>& state, double rho_R, double t) const {
-  const auto n = static_cast<std::int64_t>(constrained_.size());
-  std::vector<Vec3> prescribed;  // expressions are evaluated by one thread
-  for (std::int64_t k = 0; k < n; ++k) {
+/// Prescribed parts of the velocities of the constrained nodes at time t; expressions are evaluated
+/// by one thread.
+std::vector<Vec3> AppliedBoundary::prescribed(double t) const {
+  std::vector<Vec3> values(constrained_.size(), Vec3::Zero());
+  for (size_t k = 0; k < constrained_.size(); ++k) {
     if (!constrained_[k].velocity) continue;
-    if (prescribed.empty()) prescribed.assign(n, Vec3::Zero());
     const Vec3 v = constrained_[k].velocity(constrained_[k].X, t);
-    prescribed[k] = v - constrained_[k].keep * v;
+    values[k] = v - constrained_[k].keep * v;
   }
+  return values;
+}
+
+void AppliedBoundary::begin_step(double t, double dt) {
+  if (!has_velocities_) return;
+  const bool goes_on = t == step_begin_ + step_ && !in_step_[4].empty();
+  if (goes_on) {
+    std::swap(in_step_[0], in_step_[4]);
+  } else {
+    in_step_[0] = prescribed(t);
+  }
+  for (int k = 1; k <= 4; ++k)
+    in_step_[k] = prescribed(t + 0.25 * k * dt);
+  step_begin_ = t;
+  step_ = dt;
+}
+
+/// Rate of prescribed velocity k by the fourth-order differences of its five values.
+Vec3 AppliedBoundary::rate(size_t k, double fraction) const {
+  constexpr double begin[5] = {-25, 48, -36, 16, -3}, middle[5] = {1, -8, 0, 8, -1};
+  Vec3 sum = Vec3::Zero();
+  for (size_t i = 0; i < 5; ++i) {
+    const double weight = fraction == 0 ? begin[i] : fraction == 1 ? -begin[4 - i] : middle[i];
+    sum += weight * in_step_[i][k];
+  }
+  return sum / (3 * step_);
+}
+
+template <int Dim>
+Impulse AppliedBoundary::constrain(State<Dim>& state, double rho_R, double t) {
+  if (has_velocities_) {
+    const bool at_end = t == step_begin_ + step_, in_middle = t == step_begin_ + 0.5 * step_;
+    target_ = step_ > 0 && at_end      ? in_step_[4]
+              : step_ > 0 && in_middle ? in_step_[2]
+                                       : prescribed(t);
+  }
+  return overwrite(state, rho_R);
+}
+
+template <int Dim>
+Impulse AppliedBoundary::constrain_stage(
+    State<Dim>& state, double rho_R, double alpha, double beta, double fraction) {
+  for (size_t k = 0; has_velocities_ && k < target_.size(); ++k)
+    target_[k] = alpha * in_step_[0][k] + beta * (target_[k] + step_ * rate(k, fraction));
+  return overwrite(state, rho_R);
+}
+
+template <int Dim>
+Impulse AppliedBoundary::overwrite(State<Dim>& state, double rho_R) const {
+  const auto n = static_cast<std::int64_t>(constrained_.size());
   std::vector<Impulse> parts(parallel::n_chunks_of(n));
   parallel::for_chunks(n, [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
     for (std::int64_t k = begin; k < end; ++k) {
       const ConstrainedNode& c = constrained_[k];
       const Vec3 before = vector_at<Dim>(state.v, c.node);
       Vec3 after = c.keep * before;
-      if (!prescribed.empty()) after += prescribed[k];
+      if (has_velocities_) after += target_[k];
       for (int i = 0; i < Dim; ++i) {
         state.v.at(c.node, i) = after[i];
         state.velocity[c.node * velocity_stride<Dim> + i] = after[i];
@@ -205,29 +255,25 @@ double AppliedBoundary::power_of_loads(const State<Dim>& state) const {
 template <int Dim>
 double AppliedBoundary::power_of_constraints(const State<Dim>& state,
                                              double rho_R,
-                                             double t,
-                                             double dt) const {
+                                             double fraction) const {
+  if (!has_velocities_) return 0;
   double power = 0;
-  for (const ConstrainedNode& c : constrained_) {
+  for (size_t i = 0; i < constrained_.size(); ++i) {
+    const ConstrainedNode& c = constrained_[i];
     if (!c.velocity) continue;
-    const Vec3 v = c.velocity(c.X, t);
-    // acceleration of the prescribed velocity by a fourth-order central difference
-    const double step = 0.1 * dt;
-    const Vec3 dv = (8 * (c.velocity(c.X, t + step) - c.velocity(c.X, t - step)) -
-                     (c.velocity(c.X, t + 2 * step) - c.velocity(c.X, t - 2 * step))) /
-                    (12 * step);
-    const Vec3 reaction = rho_R * c.Omega * dv - vector_at<Dim>(state.T, c.node);
+    const Vec3 v = vector_at<Dim>(state.v, c.node);
+    const Vec3 reaction = rho_R * c.Omega * rate(i, fraction) - vector_at<Dim>(state.T, c.node);
     power += reaction.dot(v - c.keep * v);
   }
   return power;
 }
 
-#define DIPTYCH_INSTANTIATE(Dim)                                                                   \
-  template Impulse AppliedBoundary::constrain(State<Dim>&, double, double) const;                  \
-  template LoadRates AppliedBoundary::add_loads(State<Dim>&, double);                              \
-  template double AppliedBoundary::power_of_loads(const State<Dim>&) const;                        \
-  template double AppliedBoundary::power_of_constraints(const State<Dim>&, double, double, double) \
-      const;
+#define DIPTYCH_INSTANTIATE(Dim)                                                                  \
+  template Impulse AppliedBoundary::constrain(State<Dim>&, double, double);                       \
+  template Impulse AppliedBoundary::constrain_stage(State<Dim>&, double, double, double, double); \
+  template LoadRates AppliedBoundary::add_loads(State<Dim>&, double);                             \
+  template double AppliedBoundary::power_of_loads(const State<Dim>&) const;                       \
+  template double AppliedBoundary::power_of_constraints(const State<Dim>&, double, double) const;
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)
 #undef DIPTYCH_INSTANTIATE

@@ -7,6 +7,7 @@
 #include "common/scheme/boundary/boundary_condition.hpp"
 #include "common/scheme/state.hpp"
 
+#include <array>
 #include <vector>
 
 namespace diptych::scheme {
@@ -30,10 +31,22 @@ class AppliedBoundary {
   bool has_constraints() const { return !constrained_.empty(); }
   bool has_loads() const { return !loaded_nodes_.empty(); }
 
-  /// Overwrites the prescribed velocity components at time t.
+  /// Prescribed velocities of the step from t to t + dt: five instants, a quarter of it apart.
+  /// Rates are those of the polynomial through them.
+  void begin_step(double t, double dt);
+
+  /// Overwrites the prescribed velocity components by their values at time t: the end or the middle
+  /// of the step, or the start of the run.
   /// @return impulse of the constraint forces: sum rho Omega (v after - v before), and its moment
   template <int Dim>
-  Impulse constrain(State<Dim>& state, double rho_R, double t) const;
+  Impulse constrain(State<Dim>& state, double rho_R, double t);
+
+  /// Overwrites them by what the stage alpha v^n + beta (v + dt v') makes of the rate at the
+  /// beginning of the stage (fraction of the step). The exact values at the time of the stage would
+  /// differ from what the free nodes have then by O(dt^2), and so strain the body beside them.
+  template <int Dim>
+  Impulse constrain_stage(
+      State<Dim>& state, double rho_R, double alpha, double beta, double fraction);
 
   /// Adds the loads at time t to state.T. @return their power and their force and torque
   template <int Dim>
@@ -43,11 +56,11 @@ class AppliedBoundary {
   template <int Dim>
   double power_of_loads(const State<Dim>& state) const;
 
-  /// Power of the constraint forces, from the force field (loads included) and the acceleration of
-  /// the prescribed velocities (difference over a tenth of dt)  [W]. Zero where all prescribed
-  /// velocities are.
+  /// Power of the constraint forces, from the force field (loads included), the velocities as they
+  /// are and the acceleration of the prescribed ones at a fraction of the step: 0, 1/2 or 1  [W].
+  /// Zero where all prescribed velocities are.
   template <int Dim>
-  double power_of_constraints(const State<Dim>& state, double rho_R, double t, double dt) const;
+  double power_of_constraints(const State<Dim>& state, double rho_R, double fraction) const;
 
  private:
   struct ConstrainedNode {
@@ -58,6 +71,10 @@ class AppliedBoundary {
     VectorFunction velocity;  ///< empty: zero
   };
   std::vector<ConstrainedNode> constrained_;
+  bool has_velocities_ = false;               ///< whether any of them is prescribed other than zero
+  double step_begin_ = 0, step_ = 0;          ///< s
+  std::array<std::vector<Vec3>, 5> in_step_;  ///< [constrained_] m/s, at quarters of the step
+  std::vector<Vec3> target_;                  ///< [constrained_] m/s, as last applied
   std::vector<PlacedCondition> conditions_;
   VectorFunction body_force_;
   bool loads_depend_on_time_ = false;
@@ -69,6 +86,10 @@ class AppliedBoundary {
   std::vector<Vec3> X_user_;                ///< [n_nodes] m, as the expressions see them
   std::vector<std::int32_t> slot_of_node_;  ///< [n_nodes] into loaded_nodes_, -1
 
+  std::vector<Vec3> prescribed(double t) const;
+  Vec3 rate(size_t k, double fraction) const;
+  template <int Dim>
+  Impulse overwrite(State<Dim>& state, double rho_R) const;
   template <int Dim>
   void evaluate_loads(const State<Dim>& state, double t);
 };

@@ -1,0 +1,28 @@
+#pragma once
+/// An expression under a name: what later expressions of a case would otherwise have to repeat.
+/// Test: tests/common/run/case_functions_test.cpp.
+
+#include "common/run/expressions.hpp"
+
+#include <utility>
+
+namespace diptych::run {
+
+/// One name, NAME.
+class ExpressionFunction : public TimeFunction {
+ public:
+  ExpressionFunction(std::string name, Expression expression)
+      : name_(std::move(name)), expression_(std::move(expression)) {}
+  std::vector<std::string> names() const override { return {name_}; }
+  std::vector<double> values(double t) const override { return values_at(Vec3::Zero(), t); }
+  bool depends_on_position() const override { return expression_.depends_on_position(); }
+  std::vector<double> values_at(const Vec3& X, double t) const override {
+    return {expression_(X, t)};
+  }
+
+ private:
+  std::string name_;
+  Expression expression_;
+};
+
+}  // namespace diptych::run
