@@ -22,6 +22,7 @@ class NodeProjector {
             X[0], X[1], X[2]));
       }
       velocity_ = constraint.velocity;
+      acceleration_ = constraint.acceleration;
     }
     for (Vec3 d : constraint.directions) {
       d.normalize();
@@ -43,6 +44,7 @@ class NodeProjector {
     return P;
   }
   const VectorFunction& velocity() const { return velocity_; }
+  const VectorFunction& acceleration() const { return acceleration_; }
 
  private:
   bool same_velocity(const VectorFunction& other, const Vec3& X) const {
@@ -50,7 +52,7 @@ class NodeProjector {
     return (a - b).norm() <= 1e-12 * (a.norm() + b.norm());
   }
   std::vector<Vec3> basis_;
-  VectorFunction velocity_;
+  VectorFunction velocity_, acceleration_;
 };
 
 Vec3 centroid_of(const PairGraph& graph) {
@@ -97,8 +99,8 @@ AppliedBoundary::AppliedBoundary(const PairGraph& graph,
     }
   }
   for (const auto& [node, projector] : projectors) {
-    constrained_.push_back(
-        {node, graph.Omega[node], graph.X[node], projector.keep(), projector.velocity()});
+    constrained_.push_back({node, graph.Omega[node], graph.X[node], projector.keep(),
+                            projector.velocity(), projector.acceleration()});
   }
   std::vector<char> loaded(graph.X.size(), body_force_ ? 1 : 0);
   for (const PlacedCondition& placed : conditions_) {
@@ -107,13 +109,24 @@ AppliedBoundary::AppliedBoundary(const PairGraph& graph,
     for (const std::int32_t node : placed.patch->nodes)
       loaded[node] = 1;
   }
-  slot_of_node_.assign(graph.X.size(), -1);
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+  mark_loaded(loaded);
+}
+
+void AppliedBoundary::mark_loaded(const std::vector<char>& loaded) {
+  loaded_nodes_.clear();
+  slot_of_node_.assign(loaded.size(), -1);
+  for (size_t a = 0; a < loaded.size(); ++a) {
     if (!loaded[a]) continue;
     slot_of_node_[a] = static_cast<std::int32_t>(loaded_nodes_.size());
     loaded_nodes_.push_back(static_cast<std::int32_t>(a));
   }
   forces_.assign(loaded_nodes_.size(), Vec3::Zero());
+}
+
+void AppliedBoundary::follow(std::shared_ptr<KnownLoads> known) {
+  known_ = std::move(known);
+  loads_depend_on_time_ = true;
+  mark_loaded(std::vector<char>(X_.size(), 1));
 }
 
 template <int Dim>
@@ -161,11 +174,17 @@ void AppliedBoundary::evaluate_loads(const State<Dim>& state, double t) {
       forces_[k] += Omega_[a] * body_force_(X_user_[a], t);
     }
   }
+  if (known_) {
+    known_->move_to(t);
+    for (size_t k = 0; k < loaded_nodes_.size(); ++k)
+      forces_[k] += Omega_[loaded_nodes_[k]] * known_->body_force(loaded_nodes_[k]);
+  }
   for (const PlacedCondition& placed : conditions_) {
     if (!placed.condition->loads()) continue;
     for (size_t k = 0; k < placed.patch->nodes.size(); ++k) {
       const std::int32_t a = placed.patch->nodes[k];
-      LoadedNode node{X_user_[a], placed.patch->area[k], Mat3::Identity()};
+      LoadedNode node{X_user_[a], placed.patch->area[k], Mat3::Identity(), Mat3::Zero()};
+      if (placed.condition->needs_P()) node.P = known_->stress(a);
       if (placed.condition->needs_H()) {
         algebra::Tensor<double> F = algebra::identity<double>();
         for (int ij = 0; ij < Dim * Dim; ++ij)
@@ -211,11 +230,13 @@ double AppliedBoundary::power_of_constraints(const State<Dim>& state,
   for (const ConstrainedNode& c : constrained_) {
     if (!c.velocity) continue;
     const Vec3 v = c.velocity(c.X, t);
-    // acceleration of the prescribed velocity by a fourth-order central difference
+    // acceleration where it is not known: fourth-order central difference
     const double step = 0.1 * dt;
-    const Vec3 dv = (8 * (c.velocity(c.X, t + step) - c.velocity(c.X, t - step)) -
-                     (c.velocity(c.X, t + 2 * step) - c.velocity(c.X, t - 2 * step))) /
-                    (12 * step);
+    const Vec3 dv = c.acceleration
+                        ? c.acceleration(c.X, t)
+                        : (8 * (c.velocity(c.X, t + step) - c.velocity(c.X, t - step)) -
+                           (c.velocity(c.X, t + 2 * step) - c.velocity(c.X, t - 2 * step))) /
+                              (12 * step);
     const Vec3 reaction = rho_R * c.Omega * dv - vector_at<Dim>(state.T, c.node);
     power += reaction.dot(v - c.keep * v);
   }

@@ -21,6 +21,8 @@ using ScalarFunction = std::function<double(const Vec3& X, double t)>;
 struct BoundaryValues {
   VectorFunction vector;  ///< traction [Pa] or velocity [m/s]
   ScalarFunction scalar;  ///< pressure [Pa]
+  VectorFunction rate;    ///< its time derivative where it is known, else empty
+  bool known = false;     ///< traction from the stress of a known motion
   bool depends_on_time = false;
 };
 
@@ -29,6 +31,7 @@ struct NodeConstraint {
   std::int32_t node = 0;
   std::vector<Vec3> directions;  ///< unit vectors, need not be orthogonal
   VectorFunction velocity;       ///< empty: zero
+  VectorFunction acceleration;   ///< empty: by differences of velocity
 };
 
 /// Deformation of a loaded node.
@@ -36,6 +39,7 @@ struct LoadedNode {
   Vec3 X;     ///< m, reference position
   Vec3 area;  ///< m^2, its share of the patch, A_a N_a
   Mat3 H;     ///< cofactor, follower loads only
+  Mat3 P;     ///< Pa, stress of a known motion, its tractions only
 };
 
 class BoundaryCondition {
@@ -47,6 +51,7 @@ class BoundaryCondition {
   /// Whether force() may be non-zero.
   virtual bool loads() const { return false; }
   virtual bool needs_H() const { return false; }
+  virtual bool needs_P() const { return false; }
   virtual bool depends_on_time() const { return false; }
   /// Force on a node of the patch  [N]
   virtual Vec3 force(const LoadedNode& node, double t) const;

@@ -8,18 +8,21 @@ namespace {
 
 class PrescribedVelocity : public BoundaryCondition {
  public:
-  explicit PrescribedVelocity(VectorFunction velocity) : velocity_(std::move(velocity)) {}
+  PrescribedVelocity(VectorFunction velocity, VectorFunction acceleration)
+      : velocity_(std::move(velocity)), acceleration_(std::move(acceleration)) {}
   std::vector<NodeConstraint> constraints(const PairGraph&,
                                           const BoundaryPatch& patch) const override {
     std::vector<NodeConstraint> list;
     for (const std::int32_t node : patch.nodes) {
-      list.push_back({node, {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, velocity_});
+      list.push_back(
+          {node, {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, velocity_, acceleration_});
     }
     return list;
   }
 
  private:
-  VectorFunction velocity_;  ///< empty: fixed
+  VectorFunction velocity_;      ///< empty: fixed
+  VectorFunction acceleration_;  ///< empty: unknown
 };
 
 /// No normal velocity, free tangentially (also a frictionless roller).
@@ -29,7 +32,7 @@ class Symmetry : public BoundaryCondition {
                                           const BoundaryPatch& patch) const override {
     std::vector<NodeConstraint> list;
     for (size_t k = 0; k < patch.nodes.size(); ++k) {
-      list.push_back({patch.nodes[k], {unit_normal(patch.area[k])}, {}});
+      list.push_back({patch.nodes[k], {unit_normal(patch.area[k])}, {}, {}});
     }
     return list;
   }
@@ -48,7 +51,7 @@ class SkewSymmetry : public BoundaryCondition {
         if (std::abs(n[i]) < std::abs(n[least])) least = i;
       }
       const Vec3 t = n.cross(Vec3::Unit(least)).normalized();
-      list.push_back({patch.nodes[k], {t, n.cross(t)}, {}});
+      list.push_back({patch.nodes[k], {t, n.cross(t)}, {}, {}});
     }
     return list;
   }
@@ -57,10 +60,10 @@ class SkewSymmetry : public BoundaryCondition {
 }  // namespace
 
 std::unique_ptr<BoundaryCondition> make_fixed(const BoundaryValues&) {
-  return std::make_unique<PrescribedVelocity>(VectorFunction{});
+  return std::make_unique<PrescribedVelocity>(VectorFunction{}, VectorFunction{});
 }
 std::unique_ptr<BoundaryCondition> make_velocity(const BoundaryValues& values) {
-  return std::make_unique<PrescribedVelocity>(values.vector);
+  return std::make_unique<PrescribedVelocity>(values.vector, values.rate);
 }
 std::unique_ptr<BoundaryCondition> make_symmetry(const BoundaryValues&) {
   return std::make_unique<Symmetry>();
