@@ -8,9 +8,11 @@
 
 namespace diptych::algebra {
 
+/// Aligned like its scalar: code for wider instruction sets (DIPTYCH_CLONES) relies on it, and
+/// baseline code by itself would align Lanes to 16 bytes only.
 /// @tparam T  double or Lanes  @tparam n  number of variables
 template <class T, int n>
-struct Dual {
+struct alignas(sizeof(T)) Dual {
   T v;     ///< value
   T d[n];  ///< derivatives
 

@@ -6,9 +6,10 @@
 
 namespace diptych::algebra {
 
+/// Aligned like its scalar (see Dual).
 /// @tparam T  double or Lanes  @tparam n  number of variables
 template <class T, int n>
-struct Jet {
+struct alignas(sizeof(T)) Jet {
   static constexpr int n_second = n * (n + 1) / 2;
   T v;             ///< value
   T d[n];          ///< first derivatives

@@ -18,7 +18,7 @@ std::vector<LanePlace> lane_places(const std::vector<Vec3>& X) {
   for (size_t a = 0; a < places.size() * n_lanes; ++a) {
     const Vec3& from = X[std::min(a, X.size() - 1)];
     for (int i = 0; i < 3; ++i)
-      places[a / n_lanes][i][a % n_lanes] = from[i];
+      places[a / n_lanes].X[i][a % n_lanes] = from[i];
   }
   return places;
 }
@@ -78,10 +78,11 @@ template <int Dim>
 void ManufacturedSolution<Dim>::evaluate(std::int64_t begin, std::int64_t end) {
   TapeEvaluation<Lanes, Dim, true> evaluated(motion_->tape());
   for (std::int64_t b = begin; b < end; ++b) {
-    evaluated.place(places_[b].data());
+    evaluated.place(places_[b].X);
     evaluated.time(at_time_);
     const auto F = deformation_gradient<Dim>(*motion_, evaluated);
-    const auto P = stress_of_(F, history_.at(b));
+    algebra::Tensor<Scalar> P;
+    stress_of_(F, history_.at(b), P);
     Lanes force[3] = {Lanes{}, Lanes{}, Lanes{}};
     for (int i = 0; i < Dim; ++i) {
       const auto& u = evaluated[motion_->component(i)];

@@ -26,8 +26,8 @@ class ManufacturedSolution : public KnownState {
   using Scalar = algebra::Dual<Lanes, Dim>;
   using Branch = physics::BranchState<Scalar>;
   /// P of eight nodes with its gradient, from F and the branches.
-  using Stress = std::function<algebra::Tensor<Scalar>(const algebra::Tensor<Scalar>& F,
-                                                       const Branch* branches)>;
+  using Stress = std::function<void(
+      const algebra::Tensor<Scalar>& F, const Branch* branches, algebra::Tensor<Scalar>& P)>;
 
   /// @param X    [n_nodes] m, reference positions
   /// @param end  s, end of the run
@@ -46,7 +46,7 @@ class ManufacturedSolution : public KnownState {
   Snapshot snapshot(double t) override;
 
  private:
-  void evaluate(std::int64_t begin, std::int64_t end);
+  DIPTYCH_CLONES void evaluate(std::int64_t begin, std::int64_t end);
   void check() const;
 
   std::shared_ptr<const Motion> motion_;
@@ -64,22 +64,29 @@ class ManufacturedSolution : public KnownState {
 extern template class ManufacturedSolution<2>;
 extern template class ManufacturedSolution<3>;
 
-/// The solution for a model; Stress is its response and that of its branches.
+/// P of a model with all its branches.
+template <int Dim, class Material>
+DIPTYCH_CLONES void stress_of_block(const scheme::Model<Material>& model,
+                                    const algebra::Tensor<algebra::Dual<Lanes, Dim>>& F,
+                                    const physics::BranchState<algebra::Dual<Lanes, Dim>>* branches,
+                                    algebra::Tensor<algebra::Dual<Lanes, Dim>>& P) {
+  constexpr bool has_H = Material::has_H;
+  const auto X = physics::deformation_of(F);
+  auto response = model.material.response(X);
+  for (size_t k = 0; k < model.branches.size(); ++k)
+    physics::add_branch_response<has_H>(model.branches[k], branches[k], X, response);
+  P = physics::piola_stress<has_H>(response, X);
+}
+
+/// The solution for a model.
 template <int Dim, class Material>
 std::shared_ptr<KnownState> manufactured_solution(std::shared_ptr<const Motion> motion,
                                                   const scheme::Model<Material>& model,
                                                   const std::vector<Vec3>& X,
                                                   bool relaxed,
                                                   double end) {
-  using Scalar = typename ManufacturedSolution<Dim>::Scalar;
-  using Branch = typename ManufacturedSolution<Dim>::Branch;
-  const auto stress = [model](const algebra::Tensor<Scalar>& F, const Branch* branches) {
-    const auto state = physics::deformation_of(F);
-    auto response = model.material.response(state);
-    for (size_t k = 0; k < model.branches.size(); ++k)
-      physics::add_branch_response<Material::has_H>(model.branches[k], branches[k], state,
-                                                    response);
-    return physics::piola_stress<Material::has_H>(response, state);
+  const auto stress = [model](const auto& F, const auto* branches, auto& P) {
+    stress_of_block<Dim>(model, F, branches, P);
   };
   return std::make_shared<ManufacturedSolution<Dim>>(std::move(motion), X, model.branches,
                                                      model.rho_R, relaxed, end, stress);

@@ -37,8 +37,8 @@ class Motion {
 
 /// F = I + grad u with its gradient, from the evaluated tape of the motion.
 template <int Dim, class Evaluation>
-algebra::Tensor<algebra::Dual<Lanes, Dim>> deformation_gradient(const Motion& motion,
-                                                                const Evaluation& evaluated) {
+DIPTYCH_INLINE algebra::Tensor<algebra::Dual<Lanes, Dim>> deformation_gradient(
+    const Motion& motion, const Evaluation& evaluated) {
   algebra::Tensor<algebra::Dual<Lanes, Dim>> F = algebra::identity<algebra::Dual<Lanes, Dim>>();
   for (int i = 0; i < Dim; ++i) {
     const auto& u = evaluated[motion.component(i)];

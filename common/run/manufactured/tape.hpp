@@ -56,7 +56,7 @@ Slopes slopes(Operator op, double a, double constant);
 
 /// Result of an operation on jets; @pre neither a constant nor a variable.
 template <class T, int n>
-Jet<T, n> jet_of(const Operation& o, const std::vector<Jet<T, n>>& values) {
+DIPTYCH_INLINE Jet<T, n> jet_of(const Operation& o, const std::vector<Jet<T, n>>& values) {
   const Jet<T, n>& a = values[o.first];
   switch (o.op) {
     case Operator::add:
@@ -126,7 +126,7 @@ class TapeEvaluation {
   explicit TapeEvaluation(const Tape& tape) : tape_(tape), values_(tape.size()) {}
 
   /// Moves to reference position X.
-  void place(const T X[3]) {
+  DIPTYCH_INLINE void place(const T X[3]) {
     for (int i = 0; i < 3; ++i)
       X_[i] = X[i];
     const auto& operations = tape_.operations();
@@ -135,7 +135,7 @@ class TapeEvaluation {
     }
   }
   /// Moves to the time of Tape::at_time.
-  void time(const std::vector<Jet<double, 1>>& at_time) {
+  DIPTYCH_INLINE void time(const std::vector<Jet<double, 1>>& at_time) {
     const auto& operations = tape_.operations();
     for (int k = 0; k < tape_.size(); ++k) {
       const Operation& o = operations[k];
@@ -154,7 +154,7 @@ class TapeEvaluation {
   const Value& operator[](int k) const { return values_[k]; }
 
  private:
-  Value result(const Operation& o) const {
+  DIPTYCH_INLINE Value result(const Operation& o) const {
     if (o.op == Operator::constant) return algebra::constant_jet<T, n>(T{} + o.constant);
     if (o.op != Operator::variable) return jet_of(o, values_);
     Value r = algebra::constant_jet<T, n>(X_[o.first]);
@@ -164,7 +164,7 @@ class TapeEvaluation {
 
   const Tape& tape_;
   std::vector<Value> values_;
-  T X_[3]{};
+  alignas(sizeof(T)) T X_[3]{};
 };
 
 }  // namespace diptych::run

@@ -82,7 +82,7 @@ void ViscousHistory<Dim>::restart() {
     TapeEvaluation<Lanes, Dim, false> evaluated(motion_->tape());
     const TimeValues start = motion_->tape().at_time(0);
     for (size_t b = 0; b < places_.size(); ++b) {
-      evaluated.place(places_[b].data());
+      evaluated.place(places_[b].X);
       evaluated.time(start);
       physics::Deformation<Scalar> X;
       X.F = deformation_gradient<Dim>(*motion_, evaluated);
@@ -98,7 +98,7 @@ void ViscousHistory<Dim>::restart() {
 template <int Dim>
 void ViscousHistory<Dim>::calibrate(double end) {
   for (const int n_points : {2, 3, 4}) {
-    const double longest = longest_interval(n_points, end, 1 << 10);
+    const double longest = longest_interval(n_points, end, 1 << 8);
     if (longest > 0) accuracies_.push_back({n_points, longest});
   }
   const double longest = longest_interval(6, end, 1 << 16);
@@ -122,7 +122,7 @@ double ViscousHistory<Dim>::longest_interval(int n_points, double end, int most)
       const std::int64_t rank = s * algebra::n_lanes + lane;
       const std::int64_t block = rank * (n_blocks - 1) / (n_samples * algebra::n_lanes - 1);
       for (int i = 0; i < 3; ++i)
-        place[i][lane] = places_[block][i][(5 * rank + 3 * s) % algebra::n_lanes];
+        place.X[i][lane] = places_[block].X[i][(5 * rank + 3 * s) % algebra::n_lanes];
     }
     sample.push_back(place);
   }
@@ -174,7 +174,7 @@ template <int Dim>
 void ViscousHistory<Dim>::integrate(const Plan& plan, std::int64_t begin, std::int64_t end) {
   TapeEvaluation<Lanes, Dim, false> evaluated(motion_->tape());
   for (std::int64_t b = begin; b < end; ++b) {
-    evaluated.place(places_[b].data());
+    evaluated.place(places_[b].X);
     Branch* branch = &latest_[b * n_branches()];
     for (size_t c = 0; c < clocks_.size(); ++c) {
       const Clock& clock = clocks_[c];
@@ -203,13 +203,14 @@ template <int Dim>
 void ViscousHistory<Dim>::move_to(double t) {
   if (clocks_.empty() || t == latest_time_) return;
   if (t < base_time_) restart();
-  if (t == latest_time_) return;
   if (t > latest_time_) {
     base_ = latest_;
     base_time_ = latest_time_;
   } else {
     latest_ = base_;
+    latest_time_ = base_time_;
   }
+  if (t == latest_time_) return;
   const Plan way = plan(base_time_, t);
   parallel::for_chunks(static_cast<std::int64_t>(places_.size()),
                        [&](auto begin, auto end, auto) { integrate(way, begin, end); });

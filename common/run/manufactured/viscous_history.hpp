@@ -12,7 +12,9 @@
 namespace diptych::run {
 
 /// Reference positions of eight nodes.
-using LanePlace = std::array<Lanes, 3>;
+struct alignas(sizeof(Lanes)) LanePlace {
+  Lanes X[3];
+};
 
 template <int Dim>
 class ViscousHistory {
@@ -56,7 +58,7 @@ class ViscousHistory {
   void calibrate(double end);
   double longest_interval(int n_points, double end, int most) const;
   Plan plan(double from, double to) const;
-  void integrate(const Plan& plan, std::int64_t begin, std::int64_t end);
+  DIPTYCH_CLONES void integrate(const Plan& plan, std::int64_t begin, std::int64_t end);
 
   const Motion* motion_;
   std::vector<LanePlace> places_;
