@@ -5,6 +5,7 @@ packages_build="g++ cmake ninja-build pkg-config libeigen3-dev libhdf5-dev libto
   libmuparser-dev libcli11-dev libfmt-dev nlohmann-json3-dev libxxhash-dev"
 packages_report="libjs-chart.js"
 packages_tests="libgtest-dev libgmock-dev gmsh"
+packages_pictures="libvtk9-dev libx11-dev xvfb xauth libgl1-mesa-dri"
 packages_format="clang-format-14"
 
 # need_packages PACKAGE...: installs those that are missing; says which, and where it may not, what

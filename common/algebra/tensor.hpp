@@ -3,6 +3,7 @@
 /// allocation, everything inlined. Notation of the paper: (A x B)_iI = e_ijk e_IJK A_jJ B_kK.
 /// Tests: tests/common/algebra/tensor_test.cpp.
 
+#include "common/algebra/dual.hpp"
 #include "common/algebra/lanes.hpp"
 #include "common/algebra/vectors.hpp"
 

@@ -1,6 +1,7 @@
 #pragma once
 /// The solver of one compiled model: the order of operations of a step (physics note 5.5).
 
+#include "common/run/manufactured/manufactured_solution.hpp"
 #include "common/run/solver.hpp"
 #include "common/run/state_access.hpp"
 #include "common/scheme/angular_momentum.hpp"
@@ -24,6 +25,7 @@ struct SolverSetup {
   bool angular_momentum_projection = false;
   bool energy_budget = true;
   InitialCase initial;
+  std::shared_ptr<KnownState> known;  ///< exact state of a manufactured solution, or null
 };
 
 template <int Dim, class Material>
@@ -90,6 +92,10 @@ class BodySolver : public Solver {
     const auto X = physics::deformation_of(algebra::to_tensor(F));
     const auto response = model_.material.response(X);
     return algebra::to_eigen(physics::piola_stress<Material::has_H>(response, X));
+  }
+  std::optional<Snapshot> exact_state(double t) const override {
+    if (!setup_.known) return std::nullopt;
+    return setup_.known->snapshot(t);
   }
   std::int64_t bytes() const override { return state_.bytes() + pairs_.bytes(); }
 

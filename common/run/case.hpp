@@ -5,12 +5,14 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/algebra/vectors.hpp"
 #include "common/run/expressions.hpp"
+#include "common/run/manufactured/motion.hpp"
 
 namespace diptych::run {
 
@@ -53,15 +55,17 @@ struct BoundaryCase {
   std::string type;   ///< entry of the boundary menu: traction, pressure, fixed, velocity, symmetry,
                       ///< skew-symmetry
   VectorExpression value;  ///< traction (Pa, dead, per reference area) or velocity (m/s)
+  bool manufactured = false;  ///< traction or velocity of the manufactured motion instead
   Expression pressure;     ///< Pa, follower pressure
   SourcePlace where;       ///< of the table, for messages about groups that the mesh lacks
 };
 
-/// [initial]
+/// [initial]. With a manufactured motion displacement and velocity are its own.
 struct InitialCase {
   VectorExpression displacement;          ///< m; F is its discrete gradient unless given below
   VectorExpression velocity;              ///< m/s
   std::optional<TensorExpression> deformation_gradient;
+  std::shared_ptr<const Motion> motion;   ///< of [manufactured], or null
   bool relaxed = false;  ///< internal variables: "virgin" (A = S = I) or "relaxed" (at equilibrium)
 };
 
@@ -123,6 +127,7 @@ struct Case {
   InitialCase initial;
   std::vector<BoundaryCase> boundaries;
   VectorExpression body_force;  ///< N/m^3 per reference volume
+  std::shared_ptr<const Motion> motion;  ///< of [manufactured], or null
   TimeCase time;
   OutputCase output;
   SchemeCase scheme;

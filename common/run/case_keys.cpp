@@ -68,6 +68,9 @@ constexpr std::array section_table{
             "A Maxwell branch: xi^a = beta_C xi relaxing with tau_C, zeta^a = beta_G zeta relaxing "
             "with tau_G; at least one of the two."},
     Section{"initial", false, "The state at t = 0."},
+    Section{"manufactured", false,
+            "A motion that the body is made to follow (manufactured solution): body force, initial "
+            "values, boundary values and exact fields are derived from it."},
     Section{"boundary", true,
             "A boundary condition on groups of the mesh; what no entry names is free."},
     Section{"load", false, "Loads on the whole body."},
@@ -190,6 +193,11 @@ constexpr std::array key_table{
            "Branches start at C_v = G_v = I (virgin) or at equilibrium with F (relaxed).",
            "\"relaxed\""),
 
+    key("manufactured.displacement", vector_field, "m", "", "required in its section", any,
+        "Displacement u(X, t) of the motion x = X + u, smooth: + - * / ^, parameters, and sin, "
+        "cos, tan, their inverses, sinh, cosh, tanh, their inverses, exp, log, sqrt.",
+        "[\"0.1*sin(3*t)*sin(pi*x)*cos(pi*y)\", \"0\", \"0\"]"),
+
     key("boundary.group", groups, "-", "", required, any, "Mesh group, or a list of them.",
         "[\"x_min\", \"y_min\"]"),
     choice("boundary.type", "", required, menus::boundaries,
@@ -198,7 +206,9 @@ constexpr std::array key_table{
            "(tangential velocity zero, normally free).", "\"traction\""),
     key("boundary.value", vector_field, "Pa, m/s", "",
         "with traction, velocity; pressure: a scalar", any,
-        "Traction or velocity vector, or pressure.", "[0, 0, \"-5e4*sin(t)\"]"),
+        "Traction or velocity vector, or pressure; \"manufactured\": traction or velocity of the "
+        "motion of [manufactured].",
+        "[0, 0, \"-5e4*sin(t)\"]"),
 
     key("load.body_force", vector_field, "N/m^3", "[0, 0, 0]", "", any,
         "Force per undeformed volume.", "[0, 0, \"-9.81*rho\"]"),

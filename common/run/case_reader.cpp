@@ -171,13 +171,22 @@ MeshCase read_mesh(const SectionValues& section, const fs::path& folder, int dim
   return mesh;
 }
 
-BoundaryCase read_boundary(const SectionValues& section) {
+BoundaryCase read_boundary(const SectionValues& section, bool has_motion) {
   BoundaryCase boundary;
   boundary.where = section.where();
   boundary.groups = section.groups("group");
   boundary.type = section.menu_name("type");
   if (boundary.type == "pressure") {
     boundary.pressure = section.scalar_field("value");
+  } else if (section.is_word("value", "manufactured")) {
+    if (boundary.type != "traction" && boundary.type != "velocity") {
+      section.fail("value", fmt::format("= \"manufactured\" is for type = \"traction\" and "
+                                        "\"velocity\", not for \"{}\"",
+                                        boundary.type));
+    }
+    if (!has_motion)
+      section.fail("value", "= \"manufactured\" needs a motion; give it in [manufactured]");
+    boundary.manufactured = true;
   } else if (boundary.type == "traction" || boundary.type == "velocity") {
     boundary.value = section.vector_field("value");
   } else {
@@ -224,6 +233,25 @@ InitialCase read_initial(const SectionValues& section) {
   initial.deformation_gradient = section.tensor_field_if("deformation_gradient", true);
   initial.relaxed = section.menu_name("internal") == "relaxed";
   return initial;
+}
+
+/// The motion of [manufactured], or null; what it determines must not be given besides.
+std::shared_ptr<const Motion> read_motion(const Sections& sections) {
+  if (sections.table("manufactured") == nullptr) return nullptr;
+  const SectionValues section = sections.section("manufactured");
+  section.vector_field("displacement");  // syntax and names, with the messages of expressions
+  auto motion = std::make_shared<Motion>(section.vector_texts("displacement"), sections.vocabulary);
+  const auto refuse = [&](const char* place, const char* name) {
+    sections.section(place).refuse(name,
+                                   "is already given by the motion of [manufactured]; remove "
+                                   "one of the two");
+  };
+  for (const char* name : {"displacement", "velocity", "deformation_gradient"})
+    refuse("initial", name);
+  refuse("load", "body_force");
+  for (const char* name : {"displacement", "velocity", "deformation_gradient", "stress"})
+    refuse("exact", name);
+  return motion;
 }
 
 TimeCase read_time(const SectionValues& section) {
@@ -281,9 +309,11 @@ void read_sections(Sections& sections, const fs::path& folder, Case& c) {
   c.material = read_material(
       sections.section("material"),
       sections.entries(branches == nullptr ? nullptr : &branches->value, "material.branch"));
+  c.motion = read_motion(sections);
   c.initial = read_initial(sections.section("initial"));
+  c.initial.motion = c.motion;
   for (const SectionValues& entry : sections.entries(sections.table("boundary"), "boundary"))
-    c.boundaries.push_back(read_boundary(entry));
+    c.boundaries.push_back(read_boundary(entry, c.motion != nullptr));
   check_contradictions(c.boundaries);
   c.body_force = sections.section("load").vector_field("body_force");
   c.time = read_time(sections.section("time"));

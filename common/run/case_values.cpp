@@ -316,6 +316,21 @@ VectorExpression SectionValues::vector_field(const std::string& name) const {
   return field;
 }
 
+std::vector<ExpressionText> SectionValues::vector_texts(const std::string& name) const {
+  std::vector<ExpressionText> texts;
+  for (const Value& value : entries(required(name), name, dimension_)) {
+    const bool is_text = value.kind == Value::Kind::text;
+    texts.push_back({is_text ? value.text : fmt::format("{}", number_of(value, name)),
+                     is_text ? value.text_where : value.where});
+  }
+  return texts;
+}
+
+bool SectionValues::is_word(const std::string& name, const std::string& word) const {
+  const Value* value = find(name);
+  return value != nullptr && value->kind == Value::Kind::text && value->text == word;
+}
+
 std::optional<VectorExpression> SectionValues::vector_field_if(const std::string& name) const {
   if (!has(name)) return std::nullopt;
   return vector_field(name);

@@ -6,6 +6,7 @@
 #include "common/run/case_document.hpp"
 #include "common/run/case_keys.hpp"
 #include "common/run/expressions.hpp"
+#include "common/run/manufactured/motion.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -55,6 +56,10 @@ class SectionValues {
   std::vector<std::int64_t> counts(const std::string& name) const;  ///< d of them
   Expression scalar_field(const std::string& name) const;
   VectorExpression vector_field(const std::string& name) const;  ///< zero where missing
+  /// The entries of vector_field as they were written.
+  std::vector<ExpressionText> vector_texts(const std::string& name) const;
+  /// Whether the value is this word, without being an expression.
+  bool is_word(const std::string& name, const std::string& word) const;
   std::optional<VectorExpression> vector_field_if(const std::string& name) const;
   /// 3x3, or in 2-D where `plane` 2x2 with 1 in the third place of the diagonal.
   std::optional<TensorExpression> tensor_field_if(const std::string& name, bool plane) const;

@@ -28,13 +28,35 @@ Mat3 ExactErrors::exact_deformation_gradient(const Vec3& X, double t) const {
   return F;
 }
 
-/// @param error  node -> size of the error  @param value  node -> size of the exact field
-template <class Error, class Value>
-void ExactErrors::measure_field(const std::string& name, const Error& error, const Value& value) {
+namespace {
+
+double size_of(double value) {
+  return std::abs(value);
+}
+template <class Field>
+double size_of(const Field& value) {
+  return value.norm();
+}
+
+}  // namespace
+
+/// @param fields, exact  [part][node]; parts (branches) add in squares
+/// @param rest           value of the undeformed body
+template <class Field>
+void ExactErrors::measure_field(const std::string& name,
+                                const std::vector<std::vector<Field>>& fields,
+                                const std::vector<std::vector<Field>>& exact,
+                                const Field& rest) {
+  if (exact.empty() || exact[0].empty() || fields.empty()) return;
   Norms& norms = norms_[name];
   io::ErrorNorms e, f;
   for (std::int64_t a = 0; a < graph_.n_nodes(); ++a) {
-    const double Omega = graph_.Omega[a], d = error(a), v = value(a);
+    double d = 0, v = 0;
+    for (size_t part = 0; part < exact.size(); ++part) {
+      d = std::hypot(d, size_of(Field(fields[part][a] - exact[part][a])));
+      v = std::hypot(v, size_of(Field(exact[part][a] - rest)));
+    }
+    const double Omega = graph_.Omega[a];
     e.l1 += Omega * d;
     e.l2 += Omega * d * d;
     e.linf = std::max(e.linf, d);
@@ -50,34 +72,55 @@ void ExactErrors::measure_field(const std::string& name, const Error& error, con
   norms.scale.linf = std::max(norms.scale.linf, f.linf);
 }
 
-void ExactErrors::measure(const Snapshot& s) {
-  const double t = s.time;
+/// What [exact] gives or what follows from it; the other fields stay empty.
+Snapshot ExactErrors::exact_snapshot(double t) const {
   const auto& exact = setup_.exact;
-  const auto vectors = [&](const std::string& name, const VectorExpression& f,
-                           const std::vector<Vec3>& field) {
-    std::vector<Vec3> value(field.size());
-    for (size_t a = 0; a < field.size(); ++a)
-      value[a] = f(graph_.X[a], t);
-    measure_field(
-        name, [&](std::int64_t a) { return (field[a] - value[a]).norm(); },
-        [&](std::int64_t a) { return value[a].norm(); });
-  };
-  if (exact.velocity) vectors("velocity", *exact.velocity, s.v);
-  if (!exact.displacement) return;
-  vectors("displacement", *exact.displacement, s.u);
-  std::vector<Mat3> F(s.F.size()), P(s.F.size());
-  for (size_t a = 0; a < F.size(); ++a)
-    F[a] = exact_deformation_gradient(graph_.X[a], t);
-  measure_field(
-      "deformation_gradient", [&](std::int64_t a) { return (s.F[a] - F[a]).norm(); },
-      [&](std::int64_t a) { return (F[a] - Mat3::Identity()).norm(); });
-  if (!exact.stress && !setup_.material.branches.empty()) return;
-  for (size_t a = 0; a < F.size(); ++a) {
-    P[a] = exact.stress ? (*exact.stress)(graph_.X[a], t) : solver_.equilibrium_stress(F[a]);
+  const size_t n = graph_.X.size();
+  Snapshot s;
+  for (size_t a = 0; exact.velocity && a < n; ++a)
+    s.v.push_back((*exact.velocity)(graph_.X[a], t));
+  if (!exact.displacement) return s;
+  for (size_t a = 0; a < n; ++a) {
+    s.u.push_back((*exact.displacement)(graph_.X[a], t));
+    s.F.push_back(exact_deformation_gradient(graph_.X[a], t));
+    const auto X = physics::deformation_of(algebra::to_tensor(s.F[a]));
+    s.H.push_back(algebra::to_eigen(X.H));
+    s.J.push_back(X.J);
   }
-  measure_field(
-      "stress", [&](std::int64_t a) { return (s.P[a] - P[a]).norm(); },
-      [&](std::int64_t a) { return P[a].norm(); });
+  if (!exact.stress && !setup_.material.branches.empty()) return s;
+  for (size_t a = 0; a < n; ++a)
+    s.P.push_back(exact.stress ? (*exact.stress)(graph_.X[a], t)
+                               : solver_.equilibrium_stress(s.F[a]));
+  return s;
+}
+
+void ExactErrors::measure(const Snapshot& s) {
+  const std::optional<Snapshot> known = solver_.exact_state(s.time);
+  const Snapshot exact = known ? *known : exact_snapshot(s.time);
+  using Vectors = std::vector<std::vector<Vec3>>;
+  using Tensors = std::vector<std::vector<Mat3>>;
+  const Vec3 zero = Vec3::Zero();
+  const Mat3 I = Mat3::Identity();
+  measure_field("velocity", Vectors{s.v}, Vectors{exact.v}, zero);
+  measure_field("displacement", Vectors{s.u}, Vectors{exact.u}, zero);
+  measure_field("deformation_gradient", Tensors{s.F}, Tensors{exact.F}, I);
+  measure_field("cofactor", Tensors{s.H}, Tensors{exact.H}, I);
+  measure_field<double>("jacobian", {s.J}, {exact.J}, 1.0);
+  measure_field("stress", Tensors{s.P}, Tensors{exact.P}, Mat3(Mat3::Zero()));
+  // only what branches relax: a C branch has no S, a G branch no A
+  Tensors A, A_exact, S, S_exact;
+  for (size_t k = 0; k < exact.A.size(); ++k) {
+    if (setup_.material.branches[k].beta_C > 0) {
+      A.push_back(s.A[k]);
+      A_exact.push_back(exact.A[k]);
+    }
+    if (setup_.material.branches[k].beta_G > 0 && !s.S.empty()) {
+      S.push_back(s.S[k]);
+      S_exact.push_back(exact.S[k]);
+    }
+  }
+  measure_field("viscous_C", A, A_exact, I);
+  measure_field("viscous_G", S, S_exact, I);
 }
 
 std::map<std::string, io::ErrorNorms> ExactErrors::relative() const {

@@ -3,7 +3,7 @@
 /// volumes; the L2 norm of an error e relative to a field f is
 ///   sqrt(sum Omega |e|^2) / max over output times of sqrt(sum Omega |f|^2),
 /// so that an instant at which the exact field passes through zero does not blow the figure up.
-/// The deformation gradient is measured against F - I.
+/// F, H, A and S are measured against their difference from I, J against J - 1.
 
 #include "common/io/run_record.hpp"
 #include "common/run/case.hpp"
@@ -19,7 +19,9 @@ class ExactErrors {
   ExactErrors(const Case& setup, const scheme::PairGraph& graph, const Solver& solver);
 
   /// Whether the case has an exact solution at all.
-  bool available() const { return setup_.exact.displacement || setup_.exact.velocity; }
+  bool available() const {
+    return setup_.motion || setup_.exact.displacement || setup_.exact.velocity;
+  }
   /// Compares a snapshot; scales grow with every call.
   void measure(const Snapshot& snapshot);
   /// Norms of the last snapshot by field name, relative to the scales seen so far.
@@ -29,8 +31,12 @@ class ExactErrors {
   struct Norms {
     io::ErrorNorms error, scale;
   };
-  template <class Error, class Value>
-  void measure_field(const std::string& name, const Error& error, const Value& value);
+  template <class Field>
+  void measure_field(const std::string& name,
+                     const std::vector<std::vector<Field>>& fields,
+                     const std::vector<std::vector<Field>>& exact,
+                     const Field& rest);
+  Snapshot exact_snapshot(double t) const;
   Mat3 exact_deformation_gradient(const algebra::Vec3& X, double t) const;
 
   const Case& setup_;

@@ -38,6 +38,13 @@ const scheme::BoundaryPatch& patch_of(const scheme::PairGraph& graph,
                                         : base::suggestion(name, names)));
 }
 
+/// Velocity of a motion; its traction comes from the known state.
+void follow_motion(const std::shared_ptr<const Motion>& motion, scheme::BoundaryValues& values) {
+  values.vector = [motion](const Vec3& X, double t) { return motion->velocity(X, t); };
+  values.known = true;
+  values.depends_on_time = true;
+}
+
 scheme::AppliedBoundary boundary_of(const Case& setup, const scheme::PairGraph& graph) {
   std::vector<scheme::PlacedCondition> conditions;
   for (const BoundaryCase& boundary : setup.boundaries) {
@@ -47,6 +54,7 @@ scheme::AppliedBoundary boundary_of(const Case& setup, const scheme::PairGraph& 
     values.scalar = boundary.pressure;
     values.depends_on_time =
         boundary.value.depends_on_time() || boundary.pressure.depends_on_time();
+    if (boundary.manufactured) follow_motion(setup.motion, values);
     for (const std::string& group : boundary.groups) {
       conditions.push_back({maker(values), &patch_of(graph, group, boundary.where)});
     }

@@ -22,6 +22,12 @@ std::unique_ptr<Solver> solver_of(const Material& material,
                                   scheme::AppliedBoundary boundary) {
   const auto branches = branches_of(setup.material, material.branch_xi(), material.branch_zeta());
   const scheme::Model<Material> model{material, setup.material.density, branches};
+  if (setup.motion) {
+    const auto known = graph.dimension == 2 ? manufactured_solution<2, Material>
+                                            : manufactured_solution<3, Material>;
+    solver_setup.known = known(setup.motion, model, graph.X, setup.initial.relaxed, setup.time.end);
+    boundary.follow(solver_setup.known);
+  }
   if (graph.dimension == 2) {
     return std::make_unique<BodySolver<2, Material>>(graph, model, std::move(solver_setup),
                                                      std::move(boundary));

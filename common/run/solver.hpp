@@ -7,6 +7,7 @@
 #include "common/scheme/pair_graph.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,7 @@ struct StepReport {
 struct Snapshot {
   double time = 0;
   std::vector<algebra::Vec3> u, v;      ///< m, m/s
-  std::vector<Mat3> F, P;               ///< -, Pa
+  std::vector<Mat3> F, H, P;            ///< -, -, Pa
   std::vector<double> J;                ///< -
   std::vector<std::vector<Mat3>> A, S;  ///< [branch][node] C_v^-1, G_v^-1
 };
@@ -49,6 +50,11 @@ class Solver {
   virtual std::int64_t bytes() const = 0;
   /// P(F) of the material without its branches  [Pa]
   virtual Mat3 equilibrium_stress(const Mat3& F) const = 0;
+  /// The exact fields at time t where the case gives the motion (manufactured solution).
+  virtual std::optional<Snapshot> exact_state(double t) const {
+    (void)t;
+    return std::nullopt;
+  }
 };
 
 /// @param graph  kept by reference: must outlive the solver

@@ -96,11 +96,12 @@ void set_initial_state(const scheme::PairGraph& graph,
                        scheme::State<Dim>& state) {
   const std::int64_t n = graph.n_nodes();
   std::vector<Vec3> u(n);
+  const Motion* motion = initial.motion.get();
   for (std::int64_t a = 0; a < n; ++a)
-    u[a] = initial.displacement(graph.X[a], 0);
+    u[a] = motion ? motion->displacement(graph.X[a], 0) : initial.displacement(graph.X[a], 0);
   const std::vector<Mat3> gradients = discrete_gradients(graph, u, kappa_f);
   for (std::int64_t a = 0; a < n; ++a) {
-    const Vec3 v = initial.velocity(graph.X[a], 0);
+    const Vec3 v = motion ? motion->velocity(graph.X[a], 0) : initial.velocity(graph.X[a], 0);
     for (int i = 0; i < Dim; ++i) {
       state.u.at(a, i) = u[a][i];
       state.v.at(a, i) = v[i];

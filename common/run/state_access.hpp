@@ -85,6 +85,7 @@ Snapshot snapshot_of(const scheme::Model<Material>& model,
   s.u.assign(n, algebra::Vec3::Zero());
   s.v.assign(n, algebra::Vec3::Zero());
   s.F.resize(n);
+  s.H.resize(n);
   s.P.resize(n);
   s.J.resize(n);
   s.A.assign(state.n_branches, std::vector<Mat3>(n));
@@ -103,6 +104,7 @@ Snapshot snapshot_of(const scheme::Model<Material>& model,
       if (!s.S.empty()) s.S[k][a] = algebra::to_eigen(branch.S);
     }
     s.F[a] = algebra::to_eigen(X.F);
+    s.H[a] = algebra::to_eigen(X.H);
     s.J[a] = X.J;
     s.P[a] = algebra::to_eigen(physics::piola_stress<Material::has_H>(response, X));
   }

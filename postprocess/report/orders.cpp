@@ -66,7 +66,8 @@ std::vector<std::string> fields_of(const std::vector<io::RunSummary>& runs) {
     for (const auto& [field, norms] : run.errors)
       names.insert(field);
   }
-  return ordered(names, std::array{"velocity", "displacement", "deformation_gradient", "stress"});
+  return ordered(names, std::array{"velocity", "displacement", "deformation_gradient", "stress",
+                                   "cofactor", "jacobian", "viscous_C", "viscous_G"});
 }
 
 std::string method_title(const std::string& method) {
@@ -80,6 +81,10 @@ std::string field_symbol(const std::string& field) {
   if (field == "displacement") return "u";
   if (field == "deformation_gradient") return "F";
   if (field == "stress") return "P";
+  if (field == "cofactor") return "H";
+  if (field == "jacobian") return "J";
+  if (field == "viscous_C") return "A";
+  if (field == "viscous_G") return "S";
   return "";
 }
 

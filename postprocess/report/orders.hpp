@@ -24,13 +24,14 @@ std::vector<std::string> methods_of(const std::vector<io::RunSummary>& runs);
 std::vector<io::RunSummary> runs_of(const std::vector<io::RunSummary>& runs,
                                     std::string_view method);
 
-/// Fields with errors: velocity, displacement, deformation_gradient, stress, then others by name.
+/// Fields with errors: velocity, displacement, deformation_gradient, stress, cofactor, jacobian,
+/// viscous_C, viscous_G, then others by name.
 std::vector<std::string> fields_of(const std::vector<io::RunSummary>& runs);
 
 /// "SPH", "Finite volume", or the name itself.
 std::string method_title(const std::string& method);
 
-/// "v", "u", "F", "P", or nothing for a field without a symbol.
+/// "v", "u", "F", "P", "H", "J", "A", "S", or nothing for a field without a symbol.
 std::string field_symbol(const std::string& field);
 
 /// "deformation gradient" for "deformation_gradient".

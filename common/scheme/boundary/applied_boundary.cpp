@@ -108,13 +108,24 @@ AppliedBoundary::AppliedBoundary(const PairGraph& graph,
     for (const std::int32_t node : placed.patch->nodes)
       loaded[node] = 1;
   }
-  slot_of_node_.assign(graph.X.size(), -1);
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+  mark_loaded(loaded);
+}
+
+void AppliedBoundary::mark_loaded(const std::vector<char>& loaded) {
+  loaded_nodes_.clear();
+  slot_of_node_.assign(loaded.size(), -1);
+  for (size_t a = 0; a < loaded.size(); ++a) {
     if (!loaded[a]) continue;
     slot_of_node_[a] = static_cast<std::int32_t>(loaded_nodes_.size());
     loaded_nodes_.push_back(static_cast<std::int32_t>(a));
   }
   forces_.assign(loaded_nodes_.size(), Vec3::Zero());
+}
+
+void AppliedBoundary::follow(std::shared_ptr<KnownLoads> known) {
+  known_ = std::move(known);
+  loads_depend_on_time_ = true;
+  mark_loaded(std::vector<char>(X_.size(), 1));
 }
 
 /// Prescribed parts of the velocities of the constrained nodes at time t; expressions are evaluated
@@ -211,11 +222,17 @@ void AppliedBoundary::evaluate_loads(const State<Dim>& state, double t) {
       forces_[k] += Omega_[a] * body_force_(X_user_[a], t);
     }
   }
+  if (known_) {
+    known_->move_to(t);
+    for (size_t k = 0; k < loaded_nodes_.size(); ++k)
+      forces_[k] += Omega_[loaded_nodes_[k]] * known_->body_force(loaded_nodes_[k]);
+  }
   for (const PlacedCondition& placed : conditions_) {
     if (!placed.condition->loads()) continue;
     for (size_t k = 0; k < placed.patch->nodes.size(); ++k) {
       const std::int32_t a = placed.patch->nodes[k];
-      LoadedNode node{X_user_[a], placed.patch->area[k], Mat3::Identity()};
+      LoadedNode node{X_user_[a], placed.patch->area[k], Mat3::Identity(), Mat3::Zero()};
+      if (placed.condition->needs_P()) node.P = known_->stress(a);
       if (placed.condition->needs_H()) {
         algebra::Tensor<double> F = algebra::identity<double>();
         for (int ij = 0; ij < Dim * Dim; ++ij)

@@ -5,6 +5,7 @@
 
 #include "common/scheme/audit.hpp"
 #include "common/scheme/boundary/boundary_condition.hpp"
+#include "common/scheme/boundary/known_loads.hpp"
 #include "common/scheme/state.hpp"
 
 #include <array>
@@ -27,6 +28,9 @@ class AppliedBoundary {
                   std::vector<PlacedCondition> conditions,
                   VectorFunction body_force,
                   bool body_force_depends_on_time);
+
+  /// Adds the body force of a known motion, and its stress for conditions that need it.
+  void follow(std::shared_ptr<KnownLoads> known);
 
   bool has_constraints() const { return !constrained_.empty(); }
   bool has_loads() const { return !loaded_nodes_.empty(); }
@@ -77,6 +81,7 @@ class AppliedBoundary {
   std::vector<Vec3> target_;                  ///< [constrained_] m/s, as last applied
   std::vector<PlacedCondition> conditions_;
   VectorFunction body_force_;
+  std::shared_ptr<KnownLoads> known_;  ///< or null
   bool loads_depend_on_time_ = false;
   bool loads_are_current_ = false;
   std::vector<std::int32_t> loaded_nodes_;  ///< ascending
@@ -86,6 +91,7 @@ class AppliedBoundary {
   std::vector<Vec3> X_user_;                ///< [n_nodes] m, as the expressions see them
   std::vector<std::int32_t> slot_of_node_;  ///< [n_nodes] into loaded_nodes_, -1
 
+  void mark_loaded(const std::vector<char>& loaded);
   std::vector<Vec3> prescribed(double t) const;
   Vec3 rate(size_t k, double fraction) const;
   template <int Dim>

@@ -21,6 +21,7 @@ using ScalarFunction = std::function<double(const Vec3& X, double t)>;
 struct BoundaryValues {
   VectorFunction vector;  ///< traction [Pa] or velocity [m/s]
   ScalarFunction scalar;  ///< pressure [Pa]
+  bool known = false;     ///< traction from the stress of a known motion
   bool depends_on_time = false;
 };
 
@@ -36,6 +37,7 @@ struct LoadedNode {
   Vec3 X;     ///< m, reference position
   Vec3 area;  ///< m^2, its share of the patch, A_a N_a
   Mat3 H;     ///< cofactor, follower loads only
+  Mat3 P;     ///< Pa, stress of a known motion, its tractions only
 };
 
 class BoundaryCondition {
@@ -47,6 +49,7 @@ class BoundaryCondition {
   /// Whether force() may be non-zero.
   virtual bool loads() const { return false; }
   virtual bool needs_H() const { return false; }
+  virtual bool needs_P() const { return false; }
   virtual bool depends_on_time() const { return false; }
   /// Force on a node of the patch  [N]
   virtual Vec3 force(const LoadedNode& node, double t) const;

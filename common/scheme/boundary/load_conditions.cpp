@@ -1,4 +1,5 @@
-/// Forces on a patch: dead traction per reference area, follower pressure.
+/// Forces on a patch: dead traction per reference area, traction of a known motion, follower
+/// pressure.
 
 #include "common/scheme/boundary/load_conditions.hpp"
 
@@ -20,6 +21,15 @@ class Traction : public BoundaryCondition {
   BoundaryValues values_;
 };
 
+/// t_B = P N of a known motion.
+class KnownTraction : public BoundaryCondition {
+ public:
+  bool loads() const override { return true; }
+  bool needs_P() const override { return true; }
+  bool depends_on_time() const override { return true; }
+  Vec3 force(const LoadedNode& node, double) const override { return node.P * node.area; }
+};
+
 /// t_B = -p H N per reference area: a pressure on the deformed surface.
 class Pressure : public BoundaryCondition {
  public:
@@ -38,6 +48,7 @@ class Pressure : public BoundaryCondition {
 }  // namespace
 
 std::unique_ptr<BoundaryCondition> make_traction(const BoundaryValues& values) {
+  if (values.known) return std::make_unique<KnownTraction>();
   return std::make_unique<Traction>(values);
 }
 std::unique_ptr<BoundaryCondition> make_pressure(const BoundaryValues& values) {

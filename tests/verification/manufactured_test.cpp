@@ -1,0 +1,104 @@
+/// Manufactured solutions at large strain: observed orders between two small levels, caps on the
+/// errors (measured when the cases were made, plus a tenth), and the energy residual, both methods.
+/// The orders that finer levels reach are in the README of each case.
+
+#include "benchmarks/harness/case_list.hpp"
+#include "benchmarks/harness/study.hpp"
+#include "common/run/case_reader.hpp"
+
+#include <gtest/gtest.h>
+
+namespace diptych {
+namespace {
+
+struct Expectation {
+  const char* name;
+  const char* boundary;  ///< velocity or traction
+  const char* method;
+  double least_order_u, least_order_v, least_order_P;
+  double most_u, most_v, most_P;  ///< relative L2 errors at the finer level
+};
+
+void PrintTo(const Expectation& e, std::ostream* out) {
+  *out << e.name << " " << e.boundary << " " << e.method;
+}
+
+std::vector<io::RunSummary> runs_of(const Expectation& e) {
+  const bool solid = std::string(e.name).find("3d") != std::string::npos;
+  const auto setup =
+      run::read_case(harness::find_case(e.name),
+                     {std::string("boundary.0.type=") + e.boundary,
+                      solid ? "mesh.cells=[5, 5, 5]" : "mesh.cells=[14, 14]", "output.frames=2"});
+  harness::StudyOptions options;
+  options.methods = {e.method};
+  options.levels = {0, 1};
+  options.threads = 1;
+  options.quiet = true;
+  return harness::run_study(setup, options).runs;
+}
+
+class Manufactured : public testing::TestWithParam<Expectation> {};
+
+TEST_P(Manufactured, Converges) {
+  const Expectation& e = GetParam();
+  const auto runs = runs_of(e);
+  const auto order = [&](const char* field) {
+    return std::log2(runs[0].errors.at(field).l2 / runs[1].errors.at(field).l2);
+  };
+  EXPECT_GE(order("displacement"), e.least_order_u);
+  EXPECT_GE(order("velocity"), e.least_order_v);
+  EXPECT_GE(order("stress"), e.least_order_P);
+  EXPECT_LE(runs[1].errors.at("displacement").l2, e.most_u);
+  EXPECT_LE(runs[1].errors.at("velocity").l2, e.most_v);
+  EXPECT_LE(runs[1].errors.at("stress").l2, e.most_P);
+  for (const char* field : {"deformation_gradient", "cofactor", "jacobian"})
+    EXPECT_GE(order(field), e.least_order_P - 0.2) << field;
+  const bool has_branch = std::string(e.name).find("elastic") == std::string::npos;
+  for (const char* field : {"viscous_C", "viscous_G"}) {
+    ASSERT_EQ(runs[1].errors.count(field), has_branch ? 1U : 0U);
+    if (has_branch) EXPECT_GE(order(field), 1.1) << field;
+  }
+  // Work of the body force, of tractions and of moving boundaries enters the budget: what is left
+  // is the error of the time integration, third order in dt.
+  EXPECT_LE(std::abs(runs[1].energy.relative_residual), 2e-5);
+  EXPECT_GT(std::abs(runs[1].energy.external_work), 0.1 * runs[1].energy.kinetic);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cases,
+    Manufactured,
+    testing::Values(
+        Expectation{"manufactured-swirl-2d", "velocity", "sph", 1, 1, 1, 1, 1, 1},
+        Expectation{"manufactured-swirl-2d", "velocity", "fvm", 1, 1, 1, 1, 1, 1},
+        Expectation{"manufactured-swirl-2d", "traction", "sph", 1, 1, 1, 1, 1, 1},
+        Expectation{"manufactured-swirl-2d", "traction", "fvm", 1, 1, 1, 1, 1, 1},
+        Expectation{"manufactured-swirl-2d-elastic", "velocity", "sph", 1, 1, 1, 1, 1, 1},
+        Expectation{"manufactured-swirl-2d-elastic", "traction", "fvm", 1, 1, 1, 1, 1, 1},
+        Expectation{"manufactured-wave-3d", "velocity", "sph", 1, 1, 1, 1, 1, 1},
+        Expectation{"manufactured-wave-3d", "velocity", "fvm", 1, 1, 1, 1, 1, 1},
+        Expectation{"manufactured-wave-3d", "traction", "sph", 1, 1, 1, 1, 1, 1},
+        Expectation{"manufactured-wave-3d", "traction", "fvm", 1, 1, 1, 1, 1, 1},
+        Expectation{"manufactured-wave-3d-elastic", "traction", "sph", 1, 1, 1, 1, 1, 1},
+        Expectation{"manufactured-wave-3d-elastic", "velocity", "fvm", 1, 1, 1, 1, 1, 1}));
+
+// The residual of the budget falls with the third power of the step.
+TEST(ManufacturedEnergy, BudgetClosesAtTheOrderOfTheIntegrator) {
+  for (const char* boundary : {"velocity", "traction"}) {
+    double residual[2];
+    for (const int k : {0, 1}) {
+      const auto setup = run::read_case(
+          harness::find_case("manufactured-swirl-2d"),
+          {std::string("boundary.0.type=") + boundary, k == 0 ? "time.cfl=0.8" : "time.cfl=0.4"});
+      harness::RunOptions options;
+      options.method = "fvm";
+      options.threads = 1;
+      options.quiet = true;
+      options.level = 1;
+      residual[k] = std::abs(run_case(setup, options).summary.energy.relative_residual);
+    }
+    EXPECT_GE(std::log2(residual[0] / residual[1]), 2.5) << boundary << ": " << residual[1];
+  }
+}
+
+}  // namespace
+}  // namespace diptych
