@@ -176,18 +176,14 @@ BoundaryCase read_boundary(const SectionValues& section, bool has_motion) {
   boundary.where = section.where();
   boundary.groups = section.groups("group");
   boundary.type = section.menu_name("type");
+  const bool takes_vector = boundary.type == "traction" || boundary.type == "velocity";
   if (boundary.type == "pressure") {
     boundary.pressure = section.scalar_field("value");
-  } else if (section.is_word("value", "manufactured")) {
-    if (boundary.type != "traction" && boundary.type != "velocity") {
-      section.fail("value", fmt::format("= \"manufactured\" is for type = \"traction\" and "
-                                        "\"velocity\", not for \"{}\"",
-                                        boundary.type));
-    }
+  } else if (takes_vector && section.is_word("value", "manufactured")) {
     if (!has_motion)
       section.fail("value", "= \"manufactured\" needs a motion; give it in [manufactured]");
     boundary.manufactured = true;
-  } else if (boundary.type == "traction" || boundary.type == "velocity") {
+  } else if (takes_vector) {
     boundary.value = section.vector_field("value");
   } else {
     section.refuse("value",
