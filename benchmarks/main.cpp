@@ -2,10 +2,14 @@
 
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_list.hpp"
+#include "benchmarks/harness/material_report.hpp"
 #include "benchmarks/harness/run_table.hpp"
 #include "benchmarks/harness/study.hpp"
 #include "benchmarks/harness/tables.hpp"
 #include "common/base/error.hpp"
+#include "common/base/registry.hpp"
+#include "common/io/atomic_file.hpp"
+#include "common/io/run_record.hpp"
 #include "common/run/case_keys.hpp"
 #include "common/run/case_reader.hpp"
 
@@ -24,6 +28,8 @@ using namespace diptych;
 struct Arguments {
   std::string case_name, method = "both", directory, key;
   std::vector<std::string> overrides;
+  std::string path = "shear-oscillation", update = "gauss";
+  harness::MaterialPath material;
   int level = 0, levels = 3, threads = 0;
   bool quiet = false, no_fields = false;
 };
@@ -129,6 +135,31 @@ int check_verb(const Arguments& arguments) {
   return 0;
 }
 
+int material_verb(const Arguments& arguments) {
+  const run::Case setup = case_of(arguments);
+  harness::MaterialPath path = arguments.material;
+  harness::read_path_name(arguments.path, path);
+  path.update = base::Registry<harness::Update>("--update")
+                    .add("linear", harness::Update::linear)
+                    .add("gauss", harness::Update::gauss)
+                    .at(arguments.update);
+  const auto material = run::make_material_point(setup.material);
+  const auto points = harness::follow(*material, path);
+  print(harness::path_table(setup, path, points,
+                            harness::scan_hyperbolicity(*material, points, 200)));
+  const std::string folder = directory_of(arguments, setup);
+  io::make_directory(folder);
+  const auto write = [&](const std::string& ending, const std::string& text) {
+    const std::string file =
+        (std::filesystem::path(folder) / ("material-" + arguments.path + ending)).string();
+    io::write_file_atomically(file, text);
+    print("output: " + file + "\n");
+  };
+  write(".csv", harness::path_csv(points));
+  write(".svg", harness::path_svg(setup, path, points));
+  return 0;
+}
+
 int list_verb() {
   for (const auto& [name, title] : harness::shipped_cases()) {
     print(fmt::format("{:<32} {}\n", name, title));
@@ -155,6 +186,26 @@ void add_case_options(CLI::App* verb, Arguments& arguments, bool with_method) {
   verb->add_flag("--no-fields", arguments.no_fields, "write no field frames");
 }
 
+void add_material_options(CLI::App* verb, Arguments& arguments) {
+  harness::MaterialPath& path = arguments.material;
+  verb->add_option("case", arguments.case_name, "path of a case file, or a name of 'list'")
+      ->required();
+  verb->add_option("--path", arguments.path,
+                   "{shear, confined, uniaxial, creep}-{step, ramp, oscillation}: F12, F11, F11 "
+                   "with free sides, or P11 with free sides");
+  verb->add_option("--amplitude", path.amplitude,
+                   "strain, or Pa for creep, of step or oscillation");
+  verb->add_option("--rate", path.rate, "of a ramp, per second");
+  verb->add_option("--frequency", path.angular_frequency, "of an oscillation, rad/s");
+  verb->add_option("--end", path.end, "final time, s")->required();
+  verb->add_option("--steps", path.n_steps, "number of steps (default 1000)");
+  verb->add_option("--update", arguments.update, "of the branches: gauss (default) or linear");
+  verb->add_option("--set", arguments.overrides, "key=value, overrides the case file; repeatable")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  verb->add_option("--out", arguments.directory, "output folder (default results/CASE)");
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app{"Diptych: one large-strain solid-dynamics scene on SPH and finite volumes"};
   app.require_subcommand(1);
@@ -170,6 +221,9 @@ int dispatch(int argc, char** argv) {
   converge->add_option("--levels", arguments.levels, "number of levels, from --level on");
   auto* check = app.add_subcommand("check", "read a case, build its graphs and make one step");
   add_case_options(check, arguments, true);
+  auto* material = app.add_subcommand(
+      "material", "strain the case's material alone: stresses, loops, loss of hyperbolicity");
+  add_material_options(material, arguments);
   auto* list = app.add_subcommand("list", "shipped cases");
   auto* explain = app.add_subcommand("explain", "what a key of a case file means");
   explain->add_option("key", arguments.key, "such as mesh.cells; 'all' prints the reference page")
@@ -185,6 +239,7 @@ int dispatch(int argc, char** argv) {
   if (compare->parsed()) return compare_verb(arguments);
   if (converge->parsed()) return converge_verb(arguments);
   if (check->parsed()) return check_verb(arguments);
+  if (material->parsed()) return material_verb(arguments);
   if (list->parsed()) return list_verb();
   if (explain->parsed()) return explain_verb(arguments);
   return 0;

@@ -1,0 +1,56 @@
+#pragma once
+/// One point of a case's material, without a body: stress (9), energy (4)-(6), dissipation (12),
+/// internal variables (14) by the updates of the solver, acoustic tensor (physics note 2).
+/// Test: tests/verification/material_paths_test.cpp.
+
+#include "common/physics/maxwell_branch.hpp"
+#include "common/run/case.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace diptych::run {
+
+using algebra::Mat3;
+using PointBranch = physics::BranchState<double>;  ///< A = C_v^-1, S = G_v^-1
+
+struct PointState {
+  Mat3 F = Mat3::Identity();
+  std::vector<PointBranch> branches;
+};
+
+class MaterialPoint {
+ public:
+  virtual ~MaterialPoint() = default;
+  virtual Mat3 stress(const PointState& X) const = 0;         ///< first Piola-Kirchhoff, Pa
+  virtual double energy(const PointState& X) const = 0;       ///< Pa
+  virtual double dissipation(const PointState& X) const = 0;  ///< W/m^3
+  /// Of incremental waves in material direction N at frozen internal variables  [Pa]
+  virtual Mat3 acoustic_tensor(const PointState& X, const Vec3& N) const = 0;
+
+  const std::vector<physics::MaxwellBranch>& branches() const { return branches_; }
+  /// Branches at A = S = I.
+  PointState virgin(const Mat3& F) const;
+  /// A' and S' of (14) at this state  [1/s]
+  std::vector<PointBranch> branch_rates(const PointState& X) const;
+
+  /// Branches after dt while F goes from X.F to F_end: LIN of physics note 5.2.
+  std::vector<PointBranch> relaxed_linear(const PointState& X, const Mat3& F_end, double dt) const;
+  /// The same by GEXP of note 5.3, from the rates of F at both ends  [1/s].
+  std::vector<PointBranch> relaxed_gauss(const PointState& X,
+                                         const Mat3& rate_begin,
+                                         const Mat3& F_end,
+                                         const Mat3& rate_end,
+                                         double dt) const;
+
+ protected:
+  explicit MaterialPoint(std::vector<physics::MaxwellBranch> branches)
+      : branches_(std::move(branches)) {}
+
+ private:
+  std::vector<physics::MaxwellBranch> branches_;
+};
+
+std::unique_ptr<MaterialPoint> make_material_point(const MaterialCase& material);
+
+}  // namespace diptych::run
