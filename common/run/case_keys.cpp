@@ -194,8 +194,9 @@ constexpr std::array key_table{
            "\"relaxed\""),
 
     key("manufactured.displacement", vector_field, "m", "", "required in its section", any,
-        "Displacement u(X, t) of the motion x = X + u, smooth: + - * / ^, parameters, and sin, "
-        "cos, tan, their inverses, sinh, cosh, tanh, their inverses, exp, log, sqrt.",
+        "Displacement u(X, t) of the motion x = X + u, smooth: + - * / ^, parameters, "
+        "functions of type expression, and sin, cos, tan, their inverses, sinh, cosh, tanh, their "
+        "inverses, exp, log, sqrt.",
         "[\"0.1*sin(3*t)*sin(pi*x)*cos(pi*y)\", \"0\", \"0\"]"),
 
     key("boundary.group", groups, "-", "", required, any, "Mesh group, or a list of them.",

@@ -5,6 +5,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
+#include "common/run/expression_function.hpp"
 
 #include <algorithm>
 #include <array>
@@ -141,12 +142,17 @@ class SmoothParser {
       return tape_.add(Operator::variable, static_cast<int>(variable), -1, 0);
     if (word == "pi") return tape_.add(Operator::constant, -1, -1, pi);
     const auto parameter = vocabulary_.parameters.find(word);
-    if (parameter == vocabulary_.parameters.end()) {
-      refuse(begin,
-             fmt::format("'{}' has no derivatives; a motion may use x, y, z, t, pi and parameters",
-                         word));
+    if (parameter != vocabulary_.parameters.end())
+      return tape_.add(Operator::constant, -1, -1, parameter->second);
+    for (const auto& function : vocabulary_.time_functions) {
+      const auto* const named = dynamic_cast<const ExpressionFunction*>(function.get());
+      if (named != nullptr && named->names()[0] == word)
+        return tape_.append(named->expression().text(), vocabulary_, where_);
     }
-    return tape_.add(Operator::constant, -1, -1, parameter->second);
+    refuse(begin,
+           fmt::format("'{}' has no derivatives; a motion may use x, y, z, t, pi, parameters "
+                       "and functions of type \"expression\"",
+                       word));
   }
   int call(const std::string& word, size_t begin) {
     const auto* const found =

@@ -4,6 +4,7 @@
 
 #include "common/base/error.hpp"
 #include "common/run/case_reader.hpp"
+#include "common/run/expression_function.hpp"
 
 #include <gmock/gmock.h>
 
@@ -78,6 +79,19 @@ TEST(Tape, KeepsCommonPartsOnce) {
   tape.append("cos(pi*x)", vocabulary, {});
   tape.append("sin(w*t)", vocabulary, {});
   EXPECT_EQ(tape.size(), size);
+}
+
+TEST(Tape, PutsNamedExpressionsInTheirPlace) {
+  Vocabulary named = vocabulary;
+  const auto define = [&](const char* name, const char* text) {
+    named.time_functions.push_back(
+        std::make_shared<ExpressionFunction>(name, Expression(text, named, {})));
+  };
+  define("q", "sin(w*t) - x");
+  define("theta", "q*exp(y)");
+  Tape tape;
+  const int result = tape.append("2*theta^2/q", named, {});
+  EXPECT_EQ(result, tape.append("2*((sin(w*t) - x)*exp(y))^2/(sin(w*t) - x)", vocabulary, {}));
 }
 
 std::string refusal(const std::string& text) {
