@@ -2,13 +2,13 @@
 /// A mesh of the reference configuration: nodes, cells and named boundary faces. The same nodes
 /// serve both methods.
 
+#include "common/algebra/vectors.hpp"
+
 #include <array>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
-
-#include "common/algebra/vectors.hpp"
 
 namespace diptych::meshes {
 
@@ -37,12 +37,12 @@ struct BoundaryGroup {
 };
 
 struct Mesh {
-  int dimension = 3;                          ///< 2 or 3
-  std::vector<Vec3> nodes;                    ///< [n_nodes] m; z = 0 in 2-D
-  std::vector<CellType> cell_types;           ///< [n_cells]
-  std::vector<std::int64_t> cell_offsets;     ///< [n_cells + 1] into cell_nodes
-  std::vector<std::int32_t> cell_nodes;       ///< node indices, cell after cell
-  std::vector<BoundaryFace> boundary_faces;   ///< every face that belongs to one cell only
+  int dimension = 3;                         ///< 2 or 3
+  std::vector<Vec3> nodes;                   ///< [n_nodes] m; z = 0 in 2-D
+  std::vector<CellType> cell_types;          ///< [n_cells]
+  std::vector<std::int64_t> cell_offsets;    ///< [n_cells + 1] into cell_nodes
+  std::vector<std::int32_t> cell_nodes;      ///< node indices, cell after cell
+  std::vector<BoundaryFace> boundary_faces;  ///< every face that belongs to one cell only
   std::vector<BoundaryGroup> boundary_groups;
 
   std::int64_t n_nodes() const { return static_cast<std::int64_t>(nodes.size()); }

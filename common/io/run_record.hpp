@@ -40,7 +40,8 @@ struct RunSummary {
   double spacing = 0;  ///< m, Omega^(1/d) of the mean interior node
   double mean_neighbours = 0;
   double graph_closure = 0, graph_linear_exactness = 0;
-  std::map<std::string, ErrorNorms> errors;  ///< velocity, displacement, deformation_gradient, stress
+  std::map<std::string, ErrorNorms>
+      errors;  ///< velocity, displacement, deformation_gradient, stress
   EnergySummary energy;
   double linear_momentum_drift = 0, angular_momentum_drift = 0;
   double min_jacobian = 1;

@@ -3,6 +3,10 @@
 /// unless the user keeps another consistent system; each key's unit stands in the table of
 /// case_keys.cpp, from which `diptych explain` and the reference page are made.
 
+#include "common/algebra/vectors.hpp"
+#include "common/run/expressions.hpp"
+#include "common/run/manufactured/motion.hpp"
+
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -10,25 +14,21 @@
 #include <string>
 #include <vector>
 
-#include "common/algebra/vectors.hpp"
-#include "common/run/expressions.hpp"
-#include "common/run/manufactured/motion.hpp"
-
 namespace diptych::run {
 
 using algebra::Vec3;
 
 /// [mesh]: a box of the generator, a Gmsh .msh file, or a .geo file meshed by the gmsh program.
 struct MeshCase {
-  std::string generator = "box";            ///< "box" where no file is given
-  std::string file;                         ///< resolved path of a .msh or .geo file, or empty
-  std::string element = "hexahedron";       ///< hexahedron, tetrahedron, quadrilateral, triangle
-  Vec3 lower = Vec3::Zero();                ///< m
-  Vec3 upper = Vec3::Ones();                ///< m
-  std::array<int, 3> cells{4, 4, 4};        ///< at level 0; level L has cells * 2^L
-  double size = 0;                          ///< m, element size at level 0 for .geo files (h / 2^L)
-  double perturbation = 0;                  ///< interior nodes moved at random, fraction of spacing
-  std::uint64_t seed = 1;                   ///< of that random shift
+  std::string generator = "box";       ///< "box" where no file is given
+  std::string file;                    ///< resolved path of a .msh or .geo file, or empty
+  std::string element = "hexahedron";  ///< hexahedron, tetrahedron, quadrilateral, triangle
+  Vec3 lower = Vec3::Zero();           ///< m
+  Vec3 upper = Vec3::Ones();           ///< m
+  std::array<int, 3> cells{4, 4, 4};   ///< at level 0; level L has cells * 2^L
+  double size = 0;                     ///< m, element size at level 0 for .geo files (h / 2^L)
+  double perturbation = 0;             ///< interior nodes moved at random, fraction of spacing
+  std::uint64_t seed = 1;              ///< of that random shift
 };
 
 /// One Maxwell branch: xi^alpha = beta_C xi, zeta^alpha = beta_G zeta.
@@ -45,27 +45,27 @@ struct MaterialCase {
   double density = 0;                   ///< kg/m^3, > 0
   double shear_modulus = 0;             ///< Pa, mu > 0
   double lame = 0;                      ///< Pa, lambda
-  double zeta_ratio = 0;                ///< zeta / (xi + zeta) in [0, 1): 0 neo-Hookean, 0.5 xi = zeta
+  double zeta_ratio = 0;  ///< zeta / (xi + zeta) in [0, 1): 0 neo-Hookean, 0.5 xi = zeta
   std::vector<BranchCase> branches;
 };
 
 /// [[boundary]]
 struct BoundaryCase {
   std::vector<std::string> groups;  ///< mesh groups
-  std::string type;   ///< entry of the boundary menu: traction, pressure, fixed, velocity, symmetry,
-                      ///< skew-symmetry
-  VectorExpression value;  ///< traction (Pa, dead, per reference area) or velocity (m/s)
+  std::string type;  ///< entry of the boundary menu: traction, pressure, fixed, velocity, symmetry,
+                     ///< skew-symmetry
+  VectorExpression value;     ///< traction (Pa, dead, per reference area) or velocity (m/s)
   bool manufactured = false;  ///< traction or velocity of the manufactured motion instead
-  Expression pressure;     ///< Pa, follower pressure
-  SourcePlace where;       ///< of the table, for messages about groups that the mesh lacks
+  Expression pressure;        ///< Pa, follower pressure
+  SourcePlace where;          ///< of the table, for messages about groups that the mesh lacks
 };
 
 /// [initial]. With a manufactured motion displacement and velocity are its own.
 struct InitialCase {
-  VectorExpression displacement;          ///< m; F is its discrete gradient unless given below
-  VectorExpression velocity;              ///< m/s
+  VectorExpression displacement;  ///< m; F is its discrete gradient unless given below
+  VectorExpression velocity;      ///< m/s
   std::optional<TensorExpression> deformation_gradient;
-  std::shared_ptr<const Motion> motion;   ///< of [manufactured], or null
+  std::shared_ptr<const Motion> motion;  ///< of [manufactured], or null
   bool relaxed = false;  ///< internal variables: "virgin" (A = S = I) or "relaxed" (at equilibrium)
 };
 
@@ -73,24 +73,24 @@ struct InitialCase {
 struct TimeCase {
   double end = 0;                       ///< s, > 0
   std::string integrator = "leapfrog";  ///< entry of the integrator menu
-  double cfl = 0;                       ///< fraction of the graph bound; 0: default of the integrator
-  std::int64_t max_steps = 0;           ///< 0: none
+  double cfl = 0;              ///< fraction of the graph bound; 0: default of the integrator
+  std::int64_t max_steps = 0;  ///< 0: none
 };
 
 /// [output]
 struct OutputCase {
-  int frames = 10;                 ///< output instants after t = 0, evenly spaced, last at end
-  bool fields = true;              ///< write field files
+  int frames = 10;     ///< output instants after t = 0, evenly spaced, last at end
+  bool fields = true;  ///< write field files
 };
 
 /// [scheme]
 struct SchemeCase {
-  std::string unknowns = "FHJ";            ///< F, FJ or FHJ
-  std::string reconstruction = "linear";   ///< none or linear
-  std::string limiter = "none";            ///< entry of the limiter menu
-  std::string impedance = "isotropic";     ///< isotropic or exact
-  double dissipation = 1;                  ///< multiplies D_ab, >= 0
-  double face_correction = 0;              ///< kappa_f of physics note 3.8, 0: none
+  std::string unknowns = "FHJ";           ///< F, FJ or FHJ
+  std::string reconstruction = "linear";  ///< none or linear
+  std::string limiter = "none";           ///< entry of the limiter menu
+  std::string impedance = "isotropic";    ///< isotropic or exact
+  double dissipation = 1;                 ///< multiplies D_ab, >= 0
+  double face_correction = 0;             ///< kappa_f of physics note 3.8, 0: none
   bool angular_momentum_projection = false;
   bool energy_budget = true;
 };
@@ -98,13 +98,13 @@ struct SchemeCase {
 /// [sph]
 struct SphCase {
   std::string kernel = "cubic-spline";
-  double kappa = 1.2;              ///< h_a = kappa Omega_a^(1/d)
-  bool closure = true;             ///< minimum-norm gamma repair of physics note 3.3
+  double kappa = 1.2;   ///< h_a = kappa Omega_a^(1/d)
+  bool closure = true;  ///< minimum-norm gamma repair of physics note 3.3
 };
 
 /// [fvm]
 struct FvmCase {
-  std::string stencil = "edge";    ///< edge (nodal quadrature) or integral (2 int N_a grad N_b dV)
+  std::string stencil = "edge";  ///< edge (nodal quadrature) or integral (2 int N_a grad N_b dV)
 };
 
 /// [exact]: solution the run is measured against. Missing fields are derived from displacement.
@@ -116,17 +116,17 @@ struct ExactCase {
 };
 
 struct Case {
-  std::string name;         ///< folder or file name of the case
-  std::string file;         ///< path it was read from
-  std::string text;         ///< file as read, for the record
-  std::string hash;         ///< of text and overrides
+  std::string name;  ///< folder or file name of the case
+  std::string file;  ///< path it was read from
+  std::string text;  ///< file as read, for the record
+  std::string hash;  ///< of text and overrides
   std::string title;
   std::vector<std::string> overrides;  ///< "key=value" of --set
   MeshCase mesh;
   MaterialCase material;
   InitialCase initial;
   std::vector<BoundaryCase> boundaries;
-  VectorExpression body_force;  ///< N/m^3 per reference volume
+  VectorExpression body_force;           ///< N/m^3 per reference volume
   std::shared_ptr<const Motion> motion;  ///< of [manufactured], or null
   TimeCase time;
   OutputCase output;

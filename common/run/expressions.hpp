@@ -4,13 +4,13 @@
 /// name or syntax is an InputError with file, line, column and the nearest known name. A result
 /// that is not finite is an InputError too (muParser gives nan and inf silently).
 
+#include "common/algebra/vectors.hpp"
+
 #include <array>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include "common/algebra/vectors.hpp"
 
 namespace diptych::run {
 
@@ -49,7 +49,8 @@ struct Vocabulary {
 /// A number written as an expression of parameters only, as in end = "1.25*2*pi/omega".
 /// @param  where place of the first character of text
 /// @throws base::InputError on x, y, z, t, unknown names, wrong syntax, a result that is not finite
-double constant_value(const std::string& text, const std::map<std::string, double>& parameters,
+double constant_value(const std::string& text,
+                      const std::map<std::string, double>& parameters,
                       const SourcePlace& where);
 
 /// Names that parameters and time functions may not take: x, y, z, t, pi and the functions (sin,
@@ -96,7 +97,8 @@ struct TensorExpression {
   std::array<Expression, 9> component;  ///< row-major
   Mat3 operator()(const Vec3& X, double t) const {
     Mat3 T;
-    for (int i = 0; i < 9; ++i) T(i / 3, i % 3) = component[i](X, t);
+    for (int i = 0; i < 9; ++i)
+      T(i / 3, i % 3) = component[i](X, t);
     return T;
   }
 };

@@ -3,14 +3,14 @@
 /// each), one stream of memory per sweep with the neighbour indices beside the geometry. Padding
 /// pairs the node with itself, with zero area.
 ///
-/// Per pair in 3-D the strain-rate sweep streams 28 bytes and the momentum sweep 68. What only scales
-/// and directs the dissipation (S_ab and its length) is kept in single precision: S_ba = -S_ab holds
-/// exactly, and the jump that it multiplies is exact, so no identity is touched.
-
-#include <cstdint>
+/// Per pair in 3-D the strain-rate sweep streams 28 bytes and the momentum sweep 68. What only
+/// scales and directs the dissipation (S_ab and its length) is kept in single precision: S_ba =
+/// -S_ab holds exactly, and the jump that it multiplies is exact, so no identity is touched.
 
 #include "common/algebra/field.hpp"
 #include "common/scheme/pair_graph.hpp"
+
+#include <cstdint>
 
 namespace diptych::scheme {
 
@@ -34,7 +34,7 @@ struct ForcePairs {
 template <int Dim>
 struct SweepGraph {
   std::int64_t n_nodes = 0, n_blocks = 0, n_pairs = 0;
-  algebra::AlignedArray<std::int64_t> row;      ///< [n_blocks * 8 + 1] into chunks
+  algebra::AlignedArray<std::int64_t> row;  ///< [n_blocks * 8 + 1] into chunks
   algebra::AlignedArray<StrainPairs<Dim>> strain_pairs;
   algebra::AlignedArray<ForcePairs<Dim>> force_pairs;
   algebra::AlignedArray<double> inverse_Omega;  ///< [n_blocks * 8] 1/m^3, 0 in the padding
