@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <numeric>
+#include <unistd.h>
 
 namespace diptych::harness {
 
@@ -32,6 +33,15 @@ meshes::Mesh box_of(const run::MeshCase& box, int level) {
   return meshes::box(types.at(box.element), box.lower, box.upper, cells);
 }
 
+/// Removes a folder at the end of a scope; one that cannot be removed is left behind.
+struct Removal {
+  std::filesystem::path folder;
+  ~Removal() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder, ignored);
+  }
+};
+
 meshes::Mesh file_mesh(const run::Case& setup, int level, const std::string& work_directory) {
   const std::filesystem::path path = setup.mesh.file;
   if (!std::filesystem::exists(path)) {
@@ -39,8 +49,12 @@ meshes::Mesh file_mesh(const run::Case& setup, int level, const std::string& wor
         fmt::format("{}: mesh.file '{}' does not exist", setup.file, path.string()));
   }
   if (path.extension() == ".geo") {
+    // a folder of this process: another one may be meshing the same file at another level
+    const std::filesystem::path folder =
+        std::filesystem::path(work_directory) / fmt::format("diptych-mesh-{}", getpid());
+    const Removal removal{folder};
     return meshes::mesh_geo(path.string(), run::dimension_of(setup.mesh),
-                            std::ldexp(setup.mesh.size, -level), work_directory);
+                            std::ldexp(setup.mesh.size, -level), folder.string());
   }
   if (level != 0) {
     throw base::InputError(fmt::format(
