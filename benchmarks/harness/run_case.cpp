@@ -171,10 +171,18 @@ void describe_graph(const scheme::PairGraph& graph, io::RunSummary& s) {
   s.mean_neighbours = q.mean_neighbours;
   s.graph_closure = q.closure;
   s.graph_linear_exactness = q.linear_exactness;
-  double volume = 0;
-  for (const double Omega : graph.Omega)
-    volume += Omega;
-  s.spacing = std::pow(volume / static_cast<double>(graph.n_nodes()), 1.0 / graph.dimension);
+  // of the interior nodes: those on the boundary have only a part of their cell inside
+  double inside = 0, all = 0;
+  std::int64_t n = 0;
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+    all += graph.Omega[a];
+    if (!graph.boundary_area[a].isZero()) continue;
+    inside += graph.Omega[a];
+    ++n;
+  }
+  const double mean =
+      n > 0 ? inside / static_cast<double>(n) : all / static_cast<double>(graph.n_nodes());
+  s.spacing = std::pow(mean, 1.0 / graph.dimension);
 }
 
 /// Steps to the end; time in the loop without output is summed in s.loop_seconds.
