@@ -3,9 +3,11 @@
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/progress.hpp"
 #include "benchmarks/harness/provenance.hpp"
+#include "benchmarks/harness/quantities.hpp"
 #include "common/base/error.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/run/exact_errors.hpp"
+#include "common/run/probes.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -54,13 +56,14 @@ class Recorder {
  public:
   Recorder(const run::Case& setup,
            const RunOptions& options,
-           const run::Solver& solver,
+           run::Solver& solver,
            RunResult& result)
       : setup_(setup),
         options_(options),
         solver_(solver),
         result_(result),
         errors_(setup, result.graph, solver),
+        probes_(setup.probes, result.graph),
         initial_(solver.balance()),
         energy_(initial_) {
     if (!options.directory.empty() && options.fields && setup.output.fields) {
@@ -83,6 +86,7 @@ class Recorder {
     row.min_jacobian = balance.least_J;
     row.involution_H = balance.involution_H;
     row.involution_J = balance.involution_J;
+    if (!probes_.empty()) row.probes = probes_.values(solver_);
     result_.history.push_back(row);
     update_drifts(balance, audit);
     const bool last = solver_.time() >= setup_.time.end;
@@ -91,6 +95,12 @@ class Recorder {
     if (errors_.available()) errors_.measure(snapshot);
     if (writer_) write_fields(snapshot);
     result_.final_state = std::move(snapshot);
+  }
+
+  /// After every step.
+  void record_step(const run::StepReport& step) {
+    if (!probes_.has_stepped()) return;
+    result_.steps.push_back({step.time, step.step, probes_.stepped_values(solver_)});
   }
 
   double energy_residual() {
@@ -102,6 +112,7 @@ class Recorder {
     s.energy = result_.history.back().energy;
     s.linear_momentum_drift = linear_drift_;
     s.angular_momentum_drift = angular_drift_;
+    s.quantities = quantities_of(setup_.probes, result_);
   }
 
  private:
@@ -149,14 +160,19 @@ class Recorder {
                                             tensors("first_piola_stress [Pa]", s.P),
                                             std::move(J),
                                             std::move(pressure)};
-    writer_->write(s.time, fields);
+    std::vector<io::NamedValue> values;
+    const std::vector<double>& probes = result_.history.back().probes;
+    for (size_t k = 0; k < probes.size(); ++k)
+      values.push_back({setup_.probes[k].column(), probes[k]});
+    writer_->write(s.time, fields, values);
   }
 
   const run::Case& setup_;
   const RunOptions& options_;
-  const run::Solver& solver_;
+  run::Solver& solver_;
   RunResult& result_;
   run::ExactErrors errors_;
+  run::Probes probes_;
   scheme::Balance initial_;
   EnergyRecord energy_;
   std::unique_ptr<io::FieldWriter> writer_;
@@ -196,6 +212,7 @@ void advance(const run::Case& setup,
   run::StepReport report;
   report.step = 0;
   recorder.record(report);
+  recorder.record_step(report);
   s.dt_min = 1e300;
   s.min_jacobian = 1e300;
   for (int frame = 1; frame <= setup.output.frames; ++frame) {
@@ -210,6 +227,7 @@ void advance(const run::Case& setup,
       s.dt_min = std::min(s.dt_min, report.dt);
       s.dt_max = std::max(s.dt_max, report.dt);
       s.min_jacobian = std::min(s.min_jacobian, report.least_J);
+      recorder.record_step(report);
       if (progress.due(solver.time())) {
         progress.show(solver.time(), report.step, report.dt, recorder.energy_residual());
       }
@@ -225,11 +243,16 @@ void advance(const run::Case& setup,
   }
 }
 
-void write_record(const RunOptions& options, const RunResult& result) {
+void write_record(const run::Case& setup, const RunOptions& options, const RunResult& result) {
   if (options.directory.empty()) return;
   const std::filesystem::path directory = options.directory;
   io::write_file_atomically((directory / "history.csv").string(),
-                            io::history_csv(result.history, {}));
+                            io::history_csv(result.history, probe_columns(setup, false)));
+  const std::vector<std::string> stepped = probe_columns(setup, true);
+  if (!stepped.empty()) {
+    io::write_file_atomically((directory / "steps.csv").string(),
+                              io::steps_csv(result.steps, stepped));
+  }
   io::write_file_atomically((directory / "summary.json").string(), io::to_json(result.summary));
 }
 
@@ -295,7 +318,7 @@ RunResult run_case(const run::Case& setup, const RunOptions& options) {
     }
     s.state_hash = solver->state_hash(result.mesh.order);
     recorder.fill(s);
-    write_record(options, result);
+    write_record(setup, options, result);
   };
   try {
     advance(setup, options, *solver, recorder, s);

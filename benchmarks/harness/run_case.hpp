@@ -24,7 +24,8 @@ struct RunOptions {
 struct RunResult {
   io::RunSummary summary;
   std::vector<io::HistoryRow> history;
-  run::Snapshot final_state;  ///< in the numbering of `mesh`
+  std::vector<io::StepRow> steps;  ///< of the probes with every_step
+  run::Snapshot final_state;       ///< in the numbering of `mesh`
   CaseMesh mesh;
   scheme::PairGraph graph;
 };

@@ -1,5 +1,7 @@
 #include "benchmarks/harness/run_table.hpp"
 
+#include "benchmarks/harness/quantities.hpp"
+
 #include <fmt/format.h>
 
 namespace diptych::harness {
@@ -24,6 +26,8 @@ std::string run_table(const io::RunSummary& s) {
       "residual {:.1e}\n",
       s.energy.kinetic, s.energy.strain, s.energy.external_work, s.energy.viscous_dissipation,
       s.energy.numerical_dissipation, s.energy.relative_residual);
+  for (const io::QuantitySummary& quantity : s.quantities)
+    text += "  " + quantity_line(quantity) + "\n";
   text += fmt::format("  status {}, least J {:.6f}, state {}\n", s.status, s.min_jacobian,
                       s.state_hash);
   return text;

@@ -125,6 +125,17 @@ std::string comparison_table(const RunSummary& sph,
     text += comparison_line(name, scientific(a), scientific(b), ratio(a, b),
                             found == difference.end() ? "-" : scientific(found->second));
   }
+  for (size_t k = 0; k < std::min(sph.quantities.size(), fvm.quantities.size()); ++k) {
+    const io::QuantitySummary &a = sph.quantities[k], &b = fvm.quantities[k];
+    const auto line = [&](const std::string& what, double of_a, double of_b) {
+      text += comparison_line(what, fmt::format("{:.5g}", of_a), fmt::format("{:.5g}", of_b),
+                              ratio(of_a, of_b));
+    };
+    line(fmt::format("{} [{}], end", a.name, a.unit), a.final_value, b.final_value);
+    line("  least", a.least, b.least);
+    line("  greatest", a.greatest, b.greatest);
+    if (a.n_periods > 0 && b.n_periods > 0) line("  period [s]", a.period, b.period);
+  }
   text += comparison_line("rel. energy residual", scientific(sph.energy.relative_residual),
                           scientific(fvm.energy.relative_residual), "");
   return text;

@@ -181,7 +181,9 @@ FieldWriter::FieldWriter(std::string directory, const VisualMesh& mesh)
   file.publish();
 }
 
-void FieldWriter::write(double time, std::span<const NodeField> fields) {
+void FieldWriter::write(double time,
+                        std::span<const NodeField> fields,
+                        std::span<const NamedValue> values) {
   if (!std::isfinite(time) || (!times_.empty() && time <= times_.back())) {
     throw std::logic_error(fmt::format("frames must follow in time: {} after {}", time,
                                        times_.empty() ? 0.0 : times_.back()));
@@ -205,6 +207,10 @@ void FieldWriter::write(double time, std::span<const NodeField> fields) {
   }
   file.create_group(in_root("FieldData"));
   file.write(in_root("FieldData/time"), std::span<const double>(&time, 1));
+  for (const NamedValue& value : values) {
+    file.write(in_root("FieldData/" + stored_name(value.name)),
+               std::span<const double>(&value.value, 1));
+  }
   file.publish();
   times_.push_back(time);
   write_file_atomically((folder / series_file).string(), series_json(times_));

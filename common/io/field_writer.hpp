@@ -24,12 +24,21 @@ struct NodeField {
   std::vector<double> values;
 };
 
+/// A number of a frame, such as a probe: name with unit, value.
+struct NamedValue {
+  std::string name;
+  double value = 0;
+};
+
 class FieldWriter {
  public:
   /// Writes DIR/mesh.hdf. @throws base::EnvironmentError
   FieldWriter(std::string directory, const VisualMesh& mesh);
-  /// Writes DIR/frame_NNNN.hdf (fields as float32; field data "time") and refreshes run.hdf.series.
-  void write(double time, std::span<const NodeField> fields);
+  /// Writes DIR/frame_NNNN.hdf (fields as float32; field data "time" and the values) and refreshes
+  /// run.hdf.series.
+  void write(double time,
+             std::span<const NodeField> fields,
+             std::span<const NamedValue> values = {});
 
  private:
   std::string directory_;

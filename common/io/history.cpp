@@ -220,6 +220,23 @@ std::string history_csv(const std::vector<HistoryRow>& rows,
   return fmt::to_string(text);
 }
 
+std::string steps_csv(const std::vector<StepRow>& rows,
+                      const std::vector<std::string>& probe_names) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "time [s],step");
+  for (const std::string& name : probe_names)
+    fmt::format_to(out, ",{}", quoted(name));
+  text.push_back('\n');
+  for (const StepRow& row : rows) {
+    fmt::format_to(out, "{:.17g},{}", row.time, row.step);
+    for (const double value : row.probes)
+      fmt::format_to(out, ",{:.17g}", value);
+    text.push_back('\n');
+  }
+  return fmt::to_string(text);
+}
+
 std::vector<HistoryRow> history_from_csv(const std::string& text, const std::string& path) {
   CsvReader file(text, path);
   const std::vector<std::string> header = checked_header(file);

@@ -32,6 +32,20 @@ Json energy_json(const EnergySummary& energy) {
           {"relative_residual", energy.relative_residual}};
 }
 
+Json quantity_json(const QuantitySummary& quantity) {
+  Json json = {{"unit", quantity.unit},
+               {"final", quantity.final_value},
+               {"least", quantity.least},
+               {"greatest", quantity.greatest}};
+  if (quantity.n_periods == 0) return json;
+  json["oscillation"] = {{"periods", quantity.n_periods},
+                         {"period", quantity.period},
+                         {"mean", quantity.mean},
+                         {"amplitude", quantity.amplitude}};
+  if (quantity.decrement) json["oscillation"]["logarithmic_decrement"] = *quantity.decrement;
+  return json;
+}
+
 Json provenance_json(const Provenance& provenance) {
   return {{"version", provenance.version},   {"commit", provenance.commit},
           {"compiler", provenance.compiler}, {"flags", provenance.flags},
@@ -81,6 +95,7 @@ class Section {
     return value.get<std::string>();
   }
 
+  bool has(const std::string& key) const { return object_.contains(key); }
   Section section(const std::string& key) const { return {at(key), full(key), path_}; }
 
   std::vector<std::string> keys() const {
@@ -205,6 +220,30 @@ void read_size_and_cost(const Section& file, RunSummary& summary) {
   summary.mean_neighbours = file.number("mean_neighbours");
 }
 
+std::vector<QuantitySummary> read_quantities(const Section& section) {
+  std::vector<QuantitySummary> quantities;
+  for (const std::string& name : section.keys()) {
+    const Section entry = section.section(name);
+    QuantitySummary quantity;
+    quantity.name = name;
+    quantity.unit = entry.text("unit");
+    quantity.final_value = entry.number("final");
+    quantity.least = entry.number("least");
+    quantity.greatest = entry.number("greatest");
+    if (entry.has("oscillation")) {
+      const Section oscillation = entry.section("oscillation");
+      quantity.n_periods = oscillation.small_count("periods");
+      quantity.period = oscillation.number("period");
+      quantity.mean = oscillation.number("mean");
+      quantity.amplitude = oscillation.number("amplitude");
+      if (oscillation.has("logarithmic_decrement"))
+        quantity.decrement = oscillation.number("logarithmic_decrement");
+    }
+    quantities.push_back(std::move(quantity));
+  }
+  return quantities;
+}
+
 void read_quality(const Section& file, RunSummary& summary) {
   const Section graph = file.section("graph");
   summary.graph_closure = graph.number("closure");
@@ -219,6 +258,7 @@ void read_quality(const Section& file, RunSummary& summary) {
   summary.linear_momentum_drift = momentum.number("linear_drift");
   summary.angular_momentum_drift = momentum.number("angular_drift");
   summary.min_jacobian = file.number("min_jacobian");
+  summary.quantities = read_quantities(file.section("quantities"));
   summary.state_hash = file.text("state_hash");
 }
 
@@ -228,6 +268,9 @@ std::string to_json(const RunSummary& summary) {
   Json errors = Json::object();
   for (const auto& [field, norms] : summary.errors)
     errors[field] = norms_json(norms);
+  Json quantities = Json::object();
+  for (const QuantitySummary& quantity : summary.quantities)
+    quantities[quantity.name] = quantity_json(quantity);
   const Json file = {
       {"method", summary.method},
       {"case", summary.case_name},
@@ -261,6 +304,7 @@ std::string to_json(const RunSummary& summary) {
        {{"linear_drift", summary.linear_momentum_drift},
         {"angular_drift", summary.angular_momentum_drift}}},
       {"min_jacobian", summary.min_jacobian},
+      {"quantities", quantities},
       {"state_hash", summary.state_hash},
       {"provenance", provenance_json(summary.provenance)},
   };

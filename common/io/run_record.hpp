@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,18 @@ struct EnergySummary {
 
 struct Provenance {
   std::string version, commit, compiler, flags, cpu, instruction_set, date, case_hash;
+};
+
+/// A quantity of interest over a run. Extremes are those of the recorded instants.
+struct QuantitySummary {
+  std::string name, unit;
+  double final_value = 0, least = 0, greatest = 0;
+  // where it was to be read as an oscillation
+  int n_periods = 0;                ///< 0: no whole one
+  double period = 0;                ///< s, mean
+  double mean = 0;                  ///< over whole periods
+  double amplitude = 0;             ///< of the first period
+  std::optional<double> decrement;  ///< logarithmic, a period; from two periods on
 };
 
 struct RunSummary {
@@ -45,6 +58,7 @@ struct RunSummary {
   EnergySummary energy;
   double linear_momentum_drift = 0, angular_momentum_drift = 0;
   double min_jacobian = 1;
+  std::vector<QuantitySummary> quantities;  ///< [[probe]] of the case, in its order
   std::string state_hash;
   Provenance provenance;
 };
@@ -79,6 +93,15 @@ struct HistoryRow {
 std::string history_csv(const std::vector<HistoryRow>& rows,
                         const std::vector<std::string>& probe_names);
 std::vector<HistoryRow> history_from_csv(const std::string& text, const std::string& path);
+
+/// steps.csv: the probes that are evaluated after every step; rows of time, number and values.
+struct StepRow {
+  double time = 0;
+  std::int64_t step = 0;
+  std::vector<double> probes;
+};
+std::string steps_csv(const std::vector<StepRow>& rows,
+                      const std::vector<std::string>& probe_names);
 
 /// Names of the probe columns, in the order of HistoryRow::probes.
 std::vector<std::string> probe_names_from_csv(const std::string& text, const std::string& path);

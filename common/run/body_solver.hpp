@@ -83,6 +83,16 @@ class BodySolver : public Solver {
   }
   const scheme::Audit& audit() const override { return audit_; }
   Snapshot snapshot() const override { return snapshot_of(model_, state_, time_); }
+  Snapshot snapshot(std::span<const std::int32_t> nodes) const override {
+    return snapshot_of(model_, state_, time_, nodes);
+  }
+  algebra::Vec3 reaction(const std::vector<std::int32_t>& nodes) override {
+    if (!setup_.integrator.is_leapfrog()) {  // whose forces are those of the end of the step
+      sum_forces(false);
+      boundary_.add_loads(state_, time_);
+    }
+    return boundary_.reaction(state_, model_.rho_R, nodes);
+  }
   std::string state_hash(const std::vector<std::int32_t>& order) const override {
     return hash_of(state_, order, time_);
   }
@@ -196,9 +206,9 @@ class BodySolver : public Solver {
       });
       stage_time = time_ + stages[i].time * dt;
       for_blocks([&](auto begin, auto end) { scheme::publish_velocity(state_, begin, end); });
-      add_impulse(last ? boundary_.constrain(state_, model_.rho_R, stage_time)
-                       : boundary_.constrain_stage(state_, model_.rho_R, stages[i].alpha,
-                                                   stages[i].beta, fraction));
+      add_action(last ? boundary_.constrain(state_, model_.rho_R, stage_time)
+                      : boundary_.constrain_stage(state_, model_.rho_R, stages[i].alpha,
+                                                  stages[i].beta, fraction));
       fraction = stages[i].time;
       const Rule rule = model_.branches.empty()                      ? Rule::frozen
                         : last && setup_.integrator.gauss_relaxation ? Rule::gauss
@@ -242,11 +252,12 @@ class BodySolver : public Solver {
   /// Prescribed velocities at time t, then the velocities as neighbours read them.
   void constrain(double t) {
     for_blocks([&](auto begin, auto end) { scheme::publish_velocity(state_, begin, end); });
-    add_impulse(boundary_.constrain(state_, model_.rho_R, t));
+    add_action(boundary_.constrain(state_, model_.rho_R, t));
   }
-  void add_impulse(const scheme::Impulse& impulse) {
-    audit_.impulse.linear += impulse.linear;
-    audit_.impulse.angular += impulse.angular;
+  void add_action(const scheme::ConstraintAction& action) {
+    audit_.impulse.linear += action.impulse.linear;
+    audit_.impulse.angular += action.impulse.angular;
+    audit_.external_work += action.work;
   }
 
   /// @return least J  @throws base::BreakdownError with the first bad node

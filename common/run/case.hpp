@@ -6,6 +6,7 @@
 #include "common/algebra/vectors.hpp"
 #include "common/run/expressions.hpp"
 #include "common/run/manufactured/motion.hpp"
+#include "common/run/probe_fields.hpp"
 
 #include <array>
 #include <cstdint>
@@ -54,10 +55,12 @@ struct BoundaryCase {
   std::vector<std::string> groups;  ///< mesh groups
   std::string type;  ///< entry of the boundary menu: traction, pressure, fixed, velocity, symmetry,
                      ///< skew-symmetry
-  VectorExpression value;     ///< traction (Pa, dead, per reference area) or velocity (m/s)
-  bool manufactured = false;  ///< traction or velocity of the manufactured motion instead
-  Expression pressure;        ///< Pa, follower pressure
-  SourcePlace where;          ///< of the table, for messages about groups that the mesh lacks
+  VectorExpression value;      ///< traction (Pa, dead, per reference area) or velocity (m/s)
+  bool manufactured = false;   ///< traction or velocity of the manufactured motion instead
+  Expression pressure;         ///< Pa, follower pressure
+  Vec3 point = Vec3::Zero();   ///< m, of a rigid wall
+  Vec3 normal = Vec3::Zero();  ///< of a rigid wall, towards the body
+  SourcePlace where;           ///< of the table, for messages about groups that the mesh lacks
 };
 
 /// [initial]. With a manufactured motion displacement and velocity are its own.
@@ -81,6 +84,22 @@ struct TimeCase {
 struct OutputCase {
   int frames = 10;     ///< output instants after t = 0, evenly spaced, last at end
   bool fields = true;  ///< write field files
+};
+
+/// [[probe]]
+struct ProbeCase {
+  std::string name, unit;
+  std::string kind;                     ///< point, mean, integral, least, greatest, reaction
+  Expression quantity;                  ///< of the fields of `fields` and of place and time
+  std::shared_ptr<ProbeFields> fields;  ///< what the expression reads
+  Vec3 at = Vec3::Zero();               ///< m
+  std::vector<std::string> groups;      ///< empty: the body
+  Vec3 direction = Vec3::Zero();        ///< of a reaction
+  bool every_step = false;
+  bool oscillation = false;  ///< read period and decrement
+  SourcePlace where;
+
+  std::string column() const { return name + " [" + unit + "]"; }
 };
 
 /// [scheme]
@@ -130,6 +149,7 @@ struct Case {
   std::shared_ptr<const Motion> motion;  ///< of [manufactured], or null
   TimeCase time;
   OutputCase output;
+  std::vector<ProbeCase> probes;
   SchemeCase scheme;
   SphCase sph;
   FvmCase fvm;

@@ -76,6 +76,9 @@ constexpr std::array section_table{
     Section{"load", false, "Loads on the whole body."},
     Section{"time", false, "How long and how."},
     Section{"output", false, "What is written."},
+    Section{"probe", true,
+            "A quantity of interest: a column of history.csv, an entry of summary.json, a value in "
+            "each field file."},
     Section{"scheme", false, "The scheme that both methods share."},
     Section{"sph", false, "What only SPH needs."},
     Section{"fvm", false, "What only the finite volumes need."},
@@ -204,7 +207,12 @@ constexpr std::array key_table{
     choice("boundary.type", "", required, menus::boundaries,
            "traction (dead, per undeformed area), pressure (follows the surface), fixed, "
            "velocity, symmetry (normal velocity zero, tangentially free), skew-symmetry "
-           "(tangential velocity zero, normally free).", "\"traction\""),
+           "(tangential velocity zero, normally free), rigid-wall (frictionless contact with a fixed "
+           "rigid plane in space, which the group may touch and leave).", "\"traction\""),
+    key("boundary.point", KeyType::vector, "m", "", "with rigid-wall", any,
+        "A point of the rigid plane.", "[0, 0, -4e-3]"),
+    key("boundary.normal", KeyType::vector, "-", "", "with rigid-wall", any,
+        "Normal of the rigid plane, towards the body; any length but 0.", "[0, 0, 1]"),
     key("boundary.value", vector_field, "Pa, m/s", "",
         "with traction, velocity; pressure: a scalar", any,
         "Traction or velocity vector, or pressure; \"manufactured\": traction or velocity of the "
@@ -227,6 +235,33 @@ constexpr std::array key_table{
         "Instants of output after t = 0, evenly spaced, the last at the end.", "50"),
     key("output.fields", flag, "-", "true", "", any, "Write the fields, not only the history.",
         "false"),
+
+    key("probe.name", text, "-", "", required, any,
+        "What the quantity is called; its column is \"name [unit]\".", "\"tip deflection\""),
+    key("probe.unit", text, "-", "", required, any, "Unit of the quantity; \"-\" for none.",
+        "\"m\""),
+    choice("probe.kind", "\"point\"", "", menus::probe_kinds,
+           "point (value at the node nearest to `at`), mean (over the area of the groups, or over "
+           "the volume of the body), integral (the same, not divided), least, greatest (over the "
+           "nodes of the groups or of the body), reaction (force that supports and walls exert on "
+           "the nodes of the groups).", "\"mean\""),
+    key("probe.quantity", scalar_field, "that of probe.unit", "", "required but with reaction", any,
+        "Expression of the fields at a node: displacement ux, uy, uz, velocity vx, vy, vz, "
+        "deformation gradient Fxx ... Fzz, first Piola-Kirchhoff stress Pxx ... Pzz, Cauchy stress "
+        "sxx, syy, szz, sxy, syz, sxz, von Mises stress mises, pressure p, Jacobian J; of the "
+        "reference position x, y, z, the time t and parameters.", "\"ux\""),
+    key("probe.at", KeyType::vector, "m", "", "with point", any,
+        "Reference position in the body; the nearest node is taken.",
+        "[0, 0, 6]"),
+    key("probe.group", groups, "-", "", "with reaction; optional with mean ... greatest", any,
+        "Mesh group, or a list of them.", "\"x_max\""),
+    key("probe.direction", KeyType::vector, "-", "", "with reaction", any,
+        "The component of the reaction along this vector; any length but 0.", "[0, 0, 1]"),
+    key("probe.every_step", flag, "-", "false", "", any,
+        "Also evaluate it after every step, for steps.csv.", "true"),
+    key("probe.oscillation", flag, "-", "false", "", any,
+        "Read period, logarithmic decrement and mean of an oscillation from its values.",
+        "true"),
 
     choice("scheme.unknowns", "\"FHJ\"", "", menus::unknowns,
            "Strain measures with evolution equations of their own; the others follow from F.",

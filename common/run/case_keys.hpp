@@ -19,8 +19,10 @@ inline constexpr std::array<Name, 4> elements{"hexahedron", "tetrahedron", "quad
                                               "triangle"};
 inline constexpr std::array<Name, 4> models{"mooney-rivlin", "neo-hookean", "neo-hookean-isochoric",
                                             "neo-hookean-isochoric-j2"};
-inline constexpr std::array<Name, 6> boundaries{"traction", "pressure", "fixed",
-                                                "velocity", "symmetry", "skew-symmetry"};
+inline constexpr std::array<Name, 7> boundaries{
+    "traction", "pressure", "fixed", "velocity", "symmetry", "skew-symmetry", "rigid-wall"};
+inline constexpr std::array<Name, 6> probe_kinds{"point", "mean",     "integral",
+                                                 "least", "greatest", "reaction"};
 inline constexpr std::array<Name, 2> internals{"virgin", "relaxed"};
 inline constexpr std::array<Name, 3> integrators{"leapfrog", "ssp-rk2", "ssp-rk3"};
 inline constexpr std::array<Name, 3> unknowns{"F", "FJ", "FHJ"};

@@ -6,6 +6,7 @@
 #include "common/run/case_functions.hpp"
 #include "common/run/case_keys.hpp"
 #include "common/run/case_material.hpp"
+#include "common/run/case_probes.hpp"
 #include "common/run/case_values.hpp"
 
 #include <algorithm>
@@ -185,9 +186,18 @@ BoundaryCase read_boundary(const SectionValues& section, bool has_motion) {
     boundary.manufactured = true;
   } else if (takes_vector) {
     boundary.value = section.vector_field("value");
+  } else if (boundary.type == "rigid-wall") {
+    section.refuse("value", "has no effect on type = \"rigid-wall\"; remove it");
+    boundary.point = section.required_vector("point");
+    boundary.normal = section.direction("normal");
   } else {
     section.refuse("value",
                    fmt::format("has no effect on type = \"{}\"; remove it", boundary.type));
+  }
+  if (boundary.type != "rigid-wall") {
+    for (const char* name : {"point", "normal"})
+      section.refuse(
+          name, fmt::format("has no effect on type = \"{}\"; it is for rigid-wall", boundary.type));
   }
   return boundary;
 }
@@ -199,8 +209,11 @@ bool holds_all(const BoundaryCase& b) {
   return b.type == "fixed" || b.type == "velocity";
 }
 
-/// Whether both may act on one group: two different loads, or a load and a symmetry.
+/// Whether both may act on one group: two different loads, or a load and a symmetry; a wall with
+/// anything but another wall and what holds all.
 bool agree(const BoundaryCase& a, const BoundaryCase& b) {
+  if (a.type == "rigid-wall" || b.type == "rigid-wall")
+    return a.type != b.type && !holds_all(a) && !holds_all(b);
   if (is_load(a) && is_load(b)) return a.type != b.type;
   return is_load(a) != is_load(b) && !holds_all(a) && !holds_all(b);
 }
@@ -315,6 +328,8 @@ void read_sections(Sections& sections, const fs::path& folder, Case& c) {
   c.time = read_time(sections.section("time"));
   c.output.frames = static_cast<int>(sections.section("output").integer("frames"));
   c.output.fields = sections.section("output").flag("fields");
+  c.probes =
+      read_probes(sections.entries(sections.table("probe"), "probe"), sections.vocabulary);
   c.scheme = read_scheme(sections.section("scheme"));
   c.sph.kernel = sections.section("sph").menu_name("kernel");
   c.sph.kappa = sections.section("sph").number("kappa");

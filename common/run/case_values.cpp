@@ -289,6 +289,17 @@ Vec3 SectionValues::vector(const std::string& name, const Vec3& standard, double
   return result;
 }
 
+Vec3 SectionValues::required_vector(const std::string& name) const {
+  required(name);
+  return vector(name, Vec3::Zero(), 0);
+}
+
+Vec3 SectionValues::direction(const std::string& name) const {
+  const Vec3 value = required_vector(name);
+  if (!(value.norm() > 0)) fail(name, "is no direction; give a vector that is not 0");
+  return value.normalized();
+}
+
 std::vector<std::int64_t> SectionValues::counts(const std::string& name) const {
   std::vector<std::int64_t> result;
   for (const Value& entry : entries(required(name), name, dimension_))
@@ -296,15 +307,22 @@ std::vector<std::int64_t> SectionValues::counts(const std::string& name) const {
   return result;
 }
 
-Expression SectionValues::field_of(const Value& value, const std::string& name) const {
-  if (value.kind == Value::Kind::text) return {value.text, vocabulary_, value.text_where};
+Expression SectionValues::field_of(const Value& value,
+                                   const std::string& name,
+                                   const Vocabulary& vocabulary) const {
+  if (value.kind == Value::Kind::text) return {value.text, vocabulary, value.text_where};
   return Expression(number_of(value, name));
 }
 
 Expression SectionValues::scalar_field(const std::string& name) const {
+  return scalar_field(name, vocabulary_);
+}
+
+Expression SectionValues::scalar_field(const std::string& name,
+                                       const Vocabulary& vocabulary) const {
   const Value& value = required(name);
   if (value.kind == Value::Kind::list) fail(name, "is a list; here it takes one expression");
-  return field_of(value, name);
+  return field_of(value, name, vocabulary);
 }
 
 VectorExpression SectionValues::vector_field(const std::string& name) const {
@@ -312,7 +330,7 @@ VectorExpression SectionValues::vector_field(const std::string& name) const {
   const std::vector<Value>& list = entries(required(name), name, dimension_);
   VectorExpression field;
   for (size_t i = 0; i < list.size(); ++i)
-    field.component[i] = field_of(list[i], name);
+    field.component[i] = field_of(list[i], name, vocabulary_);
   return field;
 }
 
@@ -348,7 +366,8 @@ std::optional<TensorExpression> SectionValues::tensor_field_if(const std::string
   for (int i = 0; i < n; ++i) {
     const std::vector<Value>& row = entries(rows[static_cast<size_t>(i)], name, n);
     for (int j = 0; j < n; ++j)
-      field.component[static_cast<size_t>(3 * i + j)] = field_of(row[static_cast<size_t>(j)], name);
+      field.component[static_cast<size_t>(3 * i + j)] =
+          field_of(row[static_cast<size_t>(j)], name, vocabulary_);
   }
   if (plane && dimension_ == 2) {
     const auto& f = field.component;

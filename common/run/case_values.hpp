@@ -53,8 +53,12 @@ class SectionValues {
   std::vector<double> numbers(const std::string& name) const;
   /// d numbers; the third is `third` in 2-D.
   Vec3 vector(const std::string& name, const Vec3& standard, double third) const;
+  Vec3 required_vector(const std::string& name) const;  ///< 0 as the third in 2-D
+  Vec3 direction(const std::string& name) const;        ///< the same as a unit vector, not 0
   std::vector<std::int64_t> counts(const std::string& name) const;  ///< d of them
   Expression scalar_field(const std::string& name) const;
+  /// With more names than those of the case.
+  Expression scalar_field(const std::string& name, const Vocabulary& vocabulary) const;
   VectorExpression vector_field(const std::string& name) const;  ///< zero where missing
   /// The entries of vector_field as they were written.
   std::vector<ExpressionText> vector_texts(const std::string& name) const;
@@ -75,7 +79,9 @@ class SectionValues {
   [[noreturn]] void wrong_type(const Value& value, const std::string& name) const;
   double number_of(const Value& value, const std::string& name) const;
   std::int64_t integer_of(const Value& value, const std::string& name) const;
-  Expression field_of(const Value& value, const std::string& name) const;
+  Expression field_of(const Value& value,
+                      const std::string& name,
+                      const Vocabulary& vocabulary) const;
   const std::vector<Value>& entries(const Value& value, const std::string& name, int n) const;
 
   const Value& document_;

@@ -52,6 +52,8 @@ scheme::AppliedBoundary boundary_of(const Case& setup, const scheme::PairGraph& 
     scheme::BoundaryValues values;
     values.vector = boundary.value;
     values.scalar = boundary.pressure;
+    values.point = boundary.point;
+    values.normal = boundary.normal;
     values.depends_on_time =
         boundary.value.depends_on_time() || boundary.pressure.depends_on_time();
     if (boundary.manufactured) follow_motion(setup.motion, values);

@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,10 @@ class Solver {
   virtual scheme::Balance balance() const = 0;
   virtual const scheme::Audit& audit() const = 0;
   virtual Snapshot snapshot() const = 0;
+  /// Fields of these nodes only, in this order.
+  virtual Snapshot snapshot(std::span<const std::int32_t> nodes) const = 0;
+  /// Force of supports and walls on these nodes (ascending) at the time of the state  [N]
+  virtual algebra::Vec3 reaction(const std::vector<std::int32_t>& nodes) = 0;
   /// XXH3 (128 bits) of the unknowns and the time; `order[a]` is the user's number of node a.
   virtual std::string state_hash(const std::vector<std::int32_t>& order) const = 0;
   virtual int unknowns_per_node() const = 0;

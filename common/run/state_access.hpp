@@ -6,6 +6,8 @@
 #include "common/scheme/state.hpp"
 
 #include <cmath>
+#include <numeric>
+
 namespace diptych::run {
 
 /// Reference positions about the centre of volume.
@@ -78,10 +80,11 @@ physics::BranchState<double> branch_at(const scheme::State<Dim>& state, std::int
 template <int Dim, class Material>
 Snapshot snapshot_of(const scheme::Model<Material>& model,
                      const scheme::State<Dim>& state,
-                     double time) {
+                     double time,
+                     std::span<const std::int32_t> nodes) {
   Snapshot s;
   s.time = time;
-  const std::int64_t n = state.n_nodes;
+  const size_t n = nodes.size();
   s.u.assign(n, algebra::Vec3::Zero());
   s.v.assign(n, algebra::Vec3::Zero());
   s.F.resize(n);
@@ -90,25 +93,36 @@ Snapshot snapshot_of(const scheme::Model<Material>& model,
   s.J.resize(n);
   s.A.assign(state.n_branches, std::vector<Mat3>(n));
   s.S.assign(state.S.empty() ? 0 : state.n_branches, std::vector<Mat3>(n));
-  for (std::int64_t a = 0; a < n; ++a) {
+  for (size_t k = 0; k < n; ++k) {
+    const std::int32_t a = nodes[k];
     for (int i = 0; i < Dim; ++i) {
-      s.u[a][i] = state.u.at(a, i);
-      s.v[a][i] = state.v.at(a, i);
+      s.u[k][i] = state.u.at(a, i);
+      s.v[k][i] = state.v.at(a, i);
     }
     const auto X = deformation_at(state, a);
     auto response = model.material.response(X);
-    for (int k = 0; k < state.n_branches; ++k) {
-      const auto branch = branch_at(state, a, k);
-      physics::add_branch_response<Material::has_H>(model.branches[k], branch, X, response);
-      s.A[k][a] = algebra::to_eigen(branch.A);
-      if (!s.S.empty()) s.S[k][a] = algebra::to_eigen(branch.S);
+    for (int r = 0; r < state.n_branches; ++r) {
+      const auto branch = branch_at(state, a, r);
+      physics::add_branch_response<Material::has_H>(model.branches[r], branch, X, response);
+      s.A[r][k] = algebra::to_eigen(branch.A);
+      if (!s.S.empty()) s.S[r][k] = algebra::to_eigen(branch.S);
     }
-    s.F[a] = algebra::to_eigen(X.F);
-    s.H[a] = algebra::to_eigen(X.H);
-    s.J[a] = X.J;
-    s.P[a] = algebra::to_eigen(physics::piola_stress<Material::has_H>(response, X));
+    s.F[k] = algebra::to_eigen(X.F);
+    s.H[k] = algebra::to_eigen(X.H);
+    s.J[k] = X.J;
+    s.P[k] = algebra::to_eigen(physics::piola_stress<Material::has_H>(response, X));
   }
   return s;
+}
+
+/// Of all nodes.
+template <int Dim, class Material>
+Snapshot snapshot_of(const scheme::Model<Material>& model,
+                     const scheme::State<Dim>& state,
+                     double time) {
+  std::vector<std::int32_t> nodes(state.n_nodes);
+  std::iota(nodes.begin(), nodes.end(), 0);
+  return snapshot_of(model, state, time, std::span<const std::int32_t>(nodes));
 }
 
 }  // namespace diptych::run

@@ -16,6 +16,12 @@ struct Impulse {
   Vec3 angular = Vec3::Zero();
 };
 
+/// What constraints did to a state when they were applied.
+struct ConstraintAction {
+  Impulse impulse;
+  double work = 0;  ///< J, of impacts: the kinetic energy that they took, negative
+};
+
 /// Rates of the loads at one instant.
 struct LoadRates {
   double power = 0;            ///< W

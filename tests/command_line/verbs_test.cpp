@@ -1,6 +1,7 @@
 /// The verbs, through the program: what they print and what they leave.
 
 #include "common/io/field_writer.hpp"
+#include "common/io/hdf5_file.hpp"
 #include "common/io/run_record.hpp"
 #include "tests/command_line/program.hpp"
 
@@ -40,6 +41,30 @@ TEST(Verbs, RunLeavesSummaryHistoryAndFields) {
     EXPECT_EQ(u.n_components, 3);
     EXPECT_EQ(u.values.size(), 3u * 729);
   }
+}
+
+TEST(Verbs, ProbesAreInHistorySummaryStepsAndFrames) {
+  const Folder folder;
+  const auto outcome = diptych(folder,
+                               "run vibrating-bar --method fvm --quiet --threads 1 --out out --set "
+                               "probe.0.every_step=true --set output.fields=true --set "
+                               "output.frames=50");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr("end displacement: "), HasSubstr("; period 0.193")));
+  const auto directory = folder.path() / "out" / "fvm";
+  const std::string history = text_of(directory / "history.csv");
+  EXPECT_EQ(io::probe_names_from_csv(history, "history.csv"),
+            std::vector<std::string>{"end displacement [m]"});
+  const double last = io::history_from_csv(history, "history.csv").back().probes.at(0);
+  const auto summary = io::summary_from_json(text_of(directory / "summary.json"), "summary.json");
+  ASSERT_EQ(summary.quantities.size(), 1u);
+  EXPECT_EQ(summary.quantities[0].final_value, last);
+  EXPECT_NEAR(summary.quantities[0].period, 0.193064, 3e-4);  // 7e-4 measured at this level
+  EXPECT_THAT(text_of(directory / "steps.csv"),
+              testing::StartsWith("time [s],step,end displacement [m]\n0,0,0\n"));
+  const auto frame = io::Hdf5File::open_for_reading((directory / "frame_0050.hdf").string());
+  EXPECT_EQ(frame.read_doubles("/VTKHDF/FieldData/end displacement [m]"),
+            std::vector<double>{last});
 }
 
 TEST(Verbs, SameCaseSameHashForOneAndTwoThreads) {

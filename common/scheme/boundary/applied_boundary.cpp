@@ -101,6 +101,7 @@ AppliedBoundary::AppliedBoundary(const PairGraph& graph,
         {node, graph.Omega[node], graph.X[node], projector.keep(), projector.velocity()});
     has_velocities_ |= static_cast<bool>(projector.velocity());
   }
+  place_walls(graph);
   std::vector<char> loaded(graph.X.size(), body_force_ ? 1 : 0);
   for (const PlacedCondition& placed : conditions_) {
     if (!placed.condition->loads()) continue;
@@ -109,6 +110,20 @@ AppliedBoundary::AppliedBoundary(const PairGraph& graph,
       loaded[node] = 1;
   }
   mark_loaded(loaded);
+}
+
+/// Walls push nodes only along the directions that the other conditions leave free.
+void AppliedBoundary::place_walls(const PairGraph& graph) {
+  for (const PlacedCondition& placed : conditions_) {
+    const std::optional<RigidWall> wall = placed.condition->wall();
+    if (!wall) continue;
+    for (const std::int32_t node : placed.patch->nodes) {
+      const auto held = std::find_if(constrained_.begin(), constrained_.end(),
+                                     [&](const ConstrainedNode& c) { return c.node == node; });
+      const Mat3 keep = held == constrained_.end() ? Mat3(Mat3::Identity()) : held->keep;
+      walls_.add(*wall, {node, graph.Omega[node], graph.X[node], X_[node], keep});
+    }
+  }
 }
 
 void AppliedBoundary::mark_loaded(const std::vector<char>& loaded) {
@@ -141,8 +156,10 @@ std::vector<Vec3> AppliedBoundary::prescribed(double t) const {
 }
 
 void AppliedBoundary::begin_step(double t, double dt) {
-  if (!has_velocities_) return;
   const bool goes_on = t == step_begin_ + step_ && !in_step_[4].empty();
+  step_begin_ = t;
+  step_ = dt;
+  if (!has_velocities_) return;
   if (goes_on) {
     std::swap(in_step_[0], in_step_[4]);
   } else {
@@ -150,8 +167,6 @@ void AppliedBoundary::begin_step(double t, double dt) {
   }
   for (int k = 1; k <= 4; ++k)
     in_step_[k] = prescribed(t + 0.25 * k * dt);
-  step_begin_ = t;
-  step_ = dt;
 }
 
 /// Rate of prescribed velocity k by the fourth-order differences of its five values.
@@ -166,22 +181,30 @@ Vec3 AppliedBoundary::rate(size_t k, double fraction) const {
 }
 
 template <int Dim>
-Impulse AppliedBoundary::constrain(State<Dim>& state, double rho_R, double t) {
+ConstraintAction AppliedBoundary::constrain(State<Dim>& state, double rho_R, double t) {
+  const bool at_end = t == step_begin_ + step_, in_middle = t == step_begin_ + 0.5 * step_;
   if (has_velocities_) {
-    const bool at_end = t == step_begin_ + step_, in_middle = t == step_begin_ + 0.5 * step_;
     target_ = step_ > 0 && at_end      ? in_step_[4]
               : step_ > 0 && in_middle ? in_step_[2]
                                        : prescribed(t);
   }
-  return overwrite(state, rho_R);
+  ConstraintAction action{overwrite(state, rho_R), 0};
+  if (in_middle && !at_end) {
+    walls_.hold(state, rho_R, action);
+  } else {
+    walls_.settle(state, rho_R, step_, action);
+  }
+  return action;
 }
 
 template <int Dim>
-Impulse AppliedBoundary::constrain_stage(
+ConstraintAction AppliedBoundary::constrain_stage(
     State<Dim>& state, double rho_R, double alpha, double beta, double fraction) {
   for (size_t k = 0; has_velocities_ && k < target_.size(); ++k)
     target_[k] = alpha * in_step_[0][k] + beta * (target_[k] + step_ * rate(k, fraction));
-  return overwrite(state, rho_R);
+  ConstraintAction action{overwrite(state, rho_R), 0};
+  walls_.hold(state, rho_R, action);
+  return action;
 }
 
 template <int Dim>
@@ -285,12 +308,30 @@ double AppliedBoundary::power_of_constraints(const State<Dim>& state,
   return power;
 }
 
+template <int Dim>
+Vec3 AppliedBoundary::reaction(const State<Dim>& state,
+                               double rho_R,
+                               const std::vector<std::int32_t>& nodes) const {
+  Vec3 sum = walls_.force(state, nodes);
+  for (size_t k = 0; k < constrained_.size(); ++k) {
+    const ConstrainedNode& c = constrained_[k];
+    if (!std::binary_search(nodes.begin(), nodes.end(), c.node)) continue;
+    Vec3 force = -vector_at<Dim>(state.T, c.node);
+    if (c.velocity && step_ > 0) force += rho_R * c.Omega * rate(k, 1);
+    sum += force - c.keep * force;
+  }
+  return sum;
+}
+
 #define DIPTYCH_INSTANTIATE(Dim)                                                                  \
-  template Impulse AppliedBoundary::constrain(State<Dim>&, double, double);                       \
-  template Impulse AppliedBoundary::constrain_stage(State<Dim>&, double, double, double, double); \
+  template ConstraintAction AppliedBoundary::constrain(State<Dim>&, double, double);              \
+  template ConstraintAction AppliedBoundary::constrain_stage(State<Dim>&, double, double, double, \
+                                                             double);                             \
   template LoadRates AppliedBoundary::add_loads(State<Dim>&, double);                             \
   template double AppliedBoundary::power_of_loads(const State<Dim>&) const;                       \
-  template double AppliedBoundary::power_of_constraints(const State<Dim>&, double, double) const;
+  template double AppliedBoundary::power_of_constraints(const State<Dim>&, double, double) const; \
+  template Vec3 AppliedBoundary::reaction(const State<Dim>&, double,                              \
+                                          const std::vector<std::int32_t>&) const;
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)
 #undef DIPTYCH_INSTANTIATE

@@ -6,6 +6,7 @@
 #include "common/scheme/audit.hpp"
 #include "common/scheme/boundary/boundary_condition.hpp"
 #include "common/scheme/boundary/known_loads.hpp"
+#include "common/scheme/boundary/rigid_wall.hpp"
 #include "common/scheme/state.hpp"
 
 #include <array>
@@ -32,7 +33,7 @@ class AppliedBoundary {
   /// Adds the body force of a known motion, and its stress for conditions that need it.
   void follow(std::shared_ptr<KnownLoads> known);
 
-  bool has_constraints() const { return !constrained_.empty(); }
+  bool has_constraints() const { return !constrained_.empty() || !walls_.empty(); }
   bool has_loads() const { return !loaded_nodes_.empty(); }
 
   /// Prescribed velocities of the step from t to t + dt: five instants, a quarter of it apart.
@@ -41,15 +42,17 @@ class AppliedBoundary {
 
   /// Overwrites the prescribed velocity components by their values at time t: the end or the middle
   /// of the step, or the start of the run.
-  /// @return impulse of the constraint forces: sum rho Omega (v after - v before), and its moment
+  /// At the end of a step rigid walls also let go and catch nodes.
+  /// @return impulse of the constraint forces: sum rho Omega (v after - v before), its moment, and
+  ///         the work of impacts
   template <int Dim>
-  Impulse constrain(State<Dim>& state, double rho_R, double t);
+  ConstraintAction constrain(State<Dim>& state, double rho_R, double t);
 
   /// Overwrites them by what the stage alpha v^n + beta (v + dt v') makes of the rate at the
   /// beginning of the stage (fraction of the step). The exact values at the time of the stage would
   /// differ from what the free nodes have then by O(dt^2), and so strain the body beside them.
   template <int Dim>
-  Impulse constrain_stage(
+  ConstraintAction constrain_stage(
       State<Dim>& state, double rho_R, double alpha, double beta, double fraction);
 
   /// Adds the loads at time t to state.T. @return their power and their force and torque
@@ -66,6 +69,13 @@ class AppliedBoundary {
   template <int Dim>
   double power_of_constraints(const State<Dim>& state, double rho_R, double fraction) const;
 
+  /// Force of the constraints on these nodes (ascending), from the force field (loads included):
+  /// what keeps their velocities as prescribed, and what walls exert  [N]
+  template <int Dim>
+  Vec3 reaction(const State<Dim>& state,
+                double rho_R,
+                const std::vector<std::int32_t>& nodes) const;
+
  private:
   struct ConstrainedNode {
     std::int32_t node = 0;
@@ -79,6 +89,7 @@ class AppliedBoundary {
   double step_begin_ = 0, step_ = 0;          ///< s
   std::array<std::vector<Vec3>, 5> in_step_;  ///< [constrained_] m/s, at quarters of the step
   std::vector<Vec3> target_;                  ///< [constrained_] m/s, as last applied
+  WallContacts walls_;
   std::vector<PlacedCondition> conditions_;
   VectorFunction body_force_;
   std::shared_ptr<KnownLoads> known_;  ///< or null
@@ -91,6 +102,7 @@ class AppliedBoundary {
   std::vector<Vec3> X_user_;                ///< [n_nodes] m, as the expressions see them
   std::vector<std::int32_t> slot_of_node_;  ///< [n_nodes] into loaded_nodes_, -1
 
+  void place_walls(const PairGraph& graph);
   void mark_loaded(const std::vector<char>& loaded);
   std::vector<Vec3> prescribed(double t) const;
   Vec3 rate(size_t k, double fraction) const;

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,11 @@ using ScalarFunction = std::function<double(const Vec3& X, double t)>;
 
 /// What the user gave for a condition; unused members are empty.
 struct BoundaryValues {
-  VectorFunction vector;  ///< traction [Pa] or velocity [m/s]
-  ScalarFunction scalar;  ///< pressure [Pa]
-  bool known = false;     ///< traction from the stress of a known motion
+  VectorFunction vector;       ///< traction [Pa] or velocity [m/s]
+  ScalarFunction scalar;       ///< pressure [Pa]
+  Vec3 point = Vec3::Zero();   ///< m, of a rigid wall
+  Vec3 normal = Vec3::Zero();  ///< of a rigid wall, towards the body; any length
+  bool known = false;          ///< traction from the stress of a known motion
   bool depends_on_time = false;
 };
 
@@ -30,6 +33,12 @@ struct NodeConstraint {
   std::int32_t node = 0;
   std::vector<Vec3> directions;  ///< unit vectors, need not be orthogonal
   VectorFunction velocity;       ///< empty: zero
+};
+
+/// A fixed rigid plane in space; the body is on the side that the normal points to.
+struct RigidWall {
+  Vec3 point;   ///< m
+  Vec3 normal;  ///< unit vector
 };
 
 /// Deformation of a loaded node.
@@ -46,6 +55,8 @@ class BoundaryCondition {
   /// Constraints on the patch's nodes; none by default.
   virtual std::vector<NodeConstraint> constraints(const PairGraph& graph,
                                                   const BoundaryPatch& patch) const;
+  /// The wall that the patch's nodes may touch; none by default.
+  virtual std::optional<RigidWall> wall() const { return std::nullopt; }
   /// Whether force() may be non-zero.
   virtual bool loads() const { return false; }
   virtual bool needs_H() const { return false; }
@@ -57,7 +68,7 @@ class BoundaryCondition {
 
 using BoundaryMaker = std::unique_ptr<BoundaryCondition> (*)(const BoundaryValues& values);
 
-/// fixed, velocity, symmetry, skew-symmetry, traction, pressure
+/// fixed, velocity, symmetry, skew-symmetry, rigid-wall, traction, pressure
 const base::Registry<BoundaryMaker>& boundary_menu();
 
 /// Unit normal of a node's share of a patch; components below 1e-12 are rounding and become 0.

@@ -1,4 +1,5 @@
 #include "common/scheme/boundary/load_conditions.hpp"
+#include "common/scheme/boundary/rigid_wall.hpp"
 #include "common/scheme/boundary/velocity_conditions.hpp"
 
 namespace diptych::scheme {
@@ -9,6 +10,7 @@ const base::Registry<BoundaryMaker>& boundary_menu() {
                                .add("velocity", make_velocity)
                                .add("symmetry", make_symmetry)
                                .add("skew-symmetry", make_skew_symmetry)
+                               .add("rigid-wall", make_rigid_wall)
                                .add("traction", make_traction)
                                .add("pressure", make_pressure);
   return menu;

@@ -1,0 +1,99 @@
+#include "common/run/oscillation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace diptych::run {
+
+namespace {
+
+using Samples = std::span<const double>;
+
+/// An upward crossing of a level, between samples i and i + 1.
+struct Crossing {
+  size_t i = 0;
+  double time = 0;  ///< s
+};
+
+/// @param band  the signal must have been below level - band before and come above level + band
+std::vector<Crossing> upward_crossings(Samples times, Samples values, double level, double band) {
+  std::vector<Crossing> crossings;
+  bool was_below = false;
+  Crossing last;
+  for (size_t i = 0; i + 1 < values.size(); ++i) {
+    if (values[i] < level - band) was_below = true;
+    if (values[i] < level && values[i + 1] >= level) {
+      const double share = (level - values[i]) / (values[i + 1] - values[i]);
+      last = {i, times[i] + share * (times[i + 1] - times[i])};
+    }
+    if (was_below && values[i + 1] > level + band) {
+      crossings.push_back(last);
+      was_below = false;
+    }
+  }
+  return crossings;
+}
+
+/// Mean of the piecewise linear signal from one crossing to another, which are at `level`.
+double mean_between(
+    Samples times, Samples values, const Crossing& a, const Crossing& b, double level) {
+  double integral = 0, t = a.time, value = level;
+  for (size_t i = a.i + 1; i <= b.i; ++i) {
+    integral += 0.5 * (value + values[i]) * (times[i] - t);
+    t = times[i];
+    value = values[i];
+  }
+  integral += 0.5 * (value + level) * (b.time - t);
+  return integral / (b.time - a.time);
+}
+
+/// Extreme of sign * value over samples first ... last, by a parabola through the largest three.
+double extreme(Samples times, Samples values, size_t first, size_t last, double sign) {
+  size_t i = first;
+  for (size_t k = first; k <= last; ++k) {
+    if (sign * values[k] > sign * values[i]) i = k;
+  }
+  if (i == 0 || i + 1 == values.size()) return values[i];
+  const double s = times[i] - times[i - 1], r = times[i + 1] - times[i];
+  const double slope_s = (values[i] - values[i - 1]) / s, slope_r = (values[i + 1] - values[i]) / r;
+  const double curvature = (slope_r - slope_s) / (s + r);
+  if (sign * curvature >= 0) return values[i];
+  const double slope = (slope_s * r + slope_r * s) / (s + r);
+  return values[i] - 0.25 * slope * slope / curvature;
+}
+
+}  // namespace
+
+std::optional<Oscillation> oscillation_of(Samples times, Samples values) {
+  if (values.size() < 3) return std::nullopt;
+  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  const double band = 0.1 * (*greatest - *least);
+  double level = 0.5 * (*least + *greatest);
+  std::vector<Crossing> crossings;
+  for (int pass = 0; pass < 5; ++pass) {
+    auto found = upward_crossings(times, values, level, band);
+    if (found.size() < 2) break;
+    crossings = std::move(found);
+    level = mean_between(times, values, crossings.front(), crossings.back(), level);
+  }
+  if (crossings.size() < 2) return std::nullopt;
+  Oscillation result;
+  result.n_periods = static_cast<int>(crossings.size()) - 1;
+  result.period = (crossings.back().time - crossings.front().time) / result.n_periods;
+  result.mean = level;
+  std::vector<double> amplitudes;
+  for (size_t k = 0; k + 1 < crossings.size(); ++k) {
+    const size_t first = crossings[k].i, last = crossings[k + 1].i;
+    amplitudes.push_back(
+        0.5 * (extreme(times, values, first, last, 1) - extreme(times, values, first, last, -1)));
+  }
+  result.amplitude = amplitudes.front();
+  if (amplitudes.size() > 1 && amplitudes.front() > 0 && amplitudes.back() > 0) {
+    result.decrement = std::log(amplitudes.front() / amplitudes.back()) /
+                       static_cast<double>(amplitudes.size() - 1);
+  }
+  return result;
+}
+
+}  // namespace diptych::run

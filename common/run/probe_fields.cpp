@@ -1,0 +1,67 @@
+#include "common/run/probe_fields.hpp"
+
+#include "common/base/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace diptych::run {
+
+std::vector<std::string> ProbeFields::names() const {
+  std::vector<std::string> names;
+  const std::string axes = "xyz";
+  for (const char field : {'u', 'v'}) {
+    for (const char i : axes)
+      names.push_back({field, i});
+  }
+  for (const char field : {'F', 'P'}) {
+    for (const char i : axes) {
+      for (const char j : axes)
+        names.push_back({field, i, j});
+    }
+  }
+  for (const char* name : {"sxx", "syy", "szz", "sxy", "syz", "sxz", "mises", "p", "J"})
+    names.emplace_back(name);
+  return names;
+}
+
+std::vector<double> ProbeFields::values(double) const {
+  std::vector<double> values;
+  for (const Vec3* vector : {&node_.u, &node_.v}) {
+    for (int i = 0; i < 3; ++i)
+      values.push_back((*vector)[i]);
+  }
+  for (const Mat3* tensor : {&node_.F, &node_.P}) {
+    for (int k = 0; k < 9; ++k)
+      values.push_back((*tensor)(k / 3, k % 3));
+  }
+  const Mat3 sigma = node_.P * node_.F.transpose() / node_.J;
+  const double p = -sigma.trace() / 3;
+  const Mat3 deviator = sigma + p * Mat3::Identity();
+  for (const double s :
+       {sigma(0, 0), sigma(1, 1), sigma(2, 2), sigma(0, 1), sigma(1, 2), sigma(0, 2)})
+    values.push_back(s);
+  values.push_back(std::sqrt(1.5) * deviator.norm());
+  values.push_back(p);
+  values.push_back(node_.J);
+  return values;
+}
+
+void ProbeFields::check_names(const Vocabulary& vocabulary, const SourcePlace& where) const {
+  const std::vector<std::string> fields = names();
+  const auto check = [&](const std::string& name) {
+    if (std::find(fields.begin(), fields.end(), name) == fields.end()) return;
+    throw base::InputError(fmt::format(
+        "{}'{}' is a field in the quantities of probes; rename the parameter or function '{}'",
+        prefix(where), name, name));
+  };
+  for (const auto& [name, value] : vocabulary.parameters)
+    check(name);
+  for (const auto& function : vocabulary.time_functions) {
+    for (const std::string& name : function->names())
+      check(name);
+  }
+}
+
+}  // namespace diptych::run

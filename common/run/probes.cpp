@@ -1,0 +1,128 @@
+#include "common/run/probes.hpp"
+
+#include "common/base/error.hpp"
+#include "common/base/text.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+#include <map>
+#include <numeric>
+
+namespace diptych::run {
+
+namespace {
+
+const scheme::BoundaryPatch& patch_of(const scheme::PairGraph& graph,
+                                      const std::string& name,
+                                      const SourcePlace& where) {
+  std::vector<std::string> names;
+  for (const auto& patch : graph.patches) {
+    if (patch.name == name) return patch;
+    names.push_back(patch.name);
+  }
+  throw base::InputError(fmt::format("{}the mesh has no boundary group '{}'{}", prefix(where), name,
+                                     base::suggestion(name, names)));
+}
+
+std::int32_t nearest_node(const ProbeCase& probe, const scheme::PairGraph& graph) {
+  std::int64_t nearest = 0;
+  for (std::int64_t a = 1; a < graph.n_nodes(); ++a) {
+    if ((graph.X[a] - probe.at).norm() < (graph.X[nearest] - probe.at).norm()) nearest = a;
+  }
+  const double distance = (graph.X[nearest] - probe.at).norm();
+  // Omega of a corner is a part of a cell: its edge is up to 2^d times as large
+  const double spacing = 2 * std::pow(graph.Omega[nearest], 1.0 / graph.dimension);
+  if (distance > spacing) {
+    throw base::InputError(fmt::format(
+        "{}probe '{}' is {:.3g} m away from the nearest node, at ({:g}, {:g}, {:g}); its point "
+        "must be in the body",
+        prefix(probe.where), probe.name, distance, graph.X[nearest][0], graph.X[nearest][1],
+        graph.X[nearest][2]));
+  }
+  return static_cast<std::int32_t>(nearest);
+}
+
+NodeValues node_of(const Snapshot& s, size_t k) {
+  return {s.u[k], s.v[k], s.F[k], s.P[k], s.J[k]};
+}
+
+}  // namespace
+
+Probes::PlacedProbe Probes::placed(const ProbeCase& probe, const scheme::PairGraph& graph) {
+  PlacedProbe result{probe, {}, {}};
+  if (probe.kind == "point") {
+    result.nodes = {nearest_node(probe, graph)};
+    result.weights = {1};
+    return result;
+  }
+  if (probe.groups.empty()) {
+    result.nodes.resize(graph.X.size());
+    std::iota(result.nodes.begin(), result.nodes.end(), 0);
+    result.weights = graph.Omega;
+    return result;
+  }
+  std::map<std::int32_t, double> area;
+  for (const std::string& group : probe.groups) {
+    const scheme::BoundaryPatch& patch = patch_of(graph, group, probe.where);
+    for (size_t k = 0; k < patch.nodes.size(); ++k)
+      area[patch.nodes[k]] += patch.area[k].norm();
+  }
+  for (const auto& [node, weight] : area) {
+    result.nodes.push_back(node);
+    result.weights.push_back(weight);
+  }
+  return result;
+}
+
+Probes::Probes(const std::vector<ProbeCase>& probes, const scheme::PairGraph& graph) {
+  if (probes.empty()) return;
+  X_ = graph.X;
+  for (const ProbeCase& probe : probes) {
+    const PlacedProbe where = placed(probe, graph);
+    all_.add(where);
+    if (probe.every_step) stepped_.add(where);
+  }
+}
+
+void Probes::Selection::add(const PlacedProbe& placed) {
+  probes.push_back(placed);
+  if (placed.probe.kind == "reaction") return;
+  std::vector<std::int32_t> merged;
+  std::set_union(nodes.begin(), nodes.end(), placed.nodes.begin(), placed.nodes.end(),
+                 std::back_inserter(merged));
+  nodes = std::move(merged);
+}
+
+std::vector<double> Probes::evaluate(const Selection& selection, Solver& solver) const {
+  const Snapshot snapshot = solver.snapshot(std::span<const std::int32_t>(selection.nodes));
+  std::vector<double> results;
+  for (const PlacedProbe& placed : selection.probes) {
+    if (placed.probe.kind == "reaction") {
+      results.push_back(solver.reaction(placed.nodes).dot(placed.probe.direction));
+      continue;
+    }
+    std::vector<double> values;
+    auto next = selection.nodes.begin();
+    for (const std::int32_t node : placed.nodes) {
+      next = std::lower_bound(next, selection.nodes.end(), node);
+      placed.probe.fields->set(
+          node_of(snapshot, static_cast<size_t>(next - selection.nodes.begin())));
+      values.push_back(placed.probe.quantity(X_[static_cast<size_t>(node)], snapshot.time));
+    }
+    results.push_back(reduced(placed.probe.kind, values, placed.weights));
+  }
+  return results;
+}
+
+double Probes::reduced(const std::string& kind,
+                       const std::vector<double>& values,
+                       const std::vector<double>& weights) {
+  if (kind == "least") return *std::min_element(values.begin(), values.end());
+  if (kind == "greatest") return *std::max_element(values.begin(), values.end());
+  const double integral = std::inner_product(values.begin(), values.end(), weights.begin(), 0.0);
+  if (kind == "integral") return integral;
+  return integral / std::accumulate(weights.begin(), weights.end(), 0.0);
+}
+
+}  // namespace diptych::run

@@ -1,0 +1,46 @@
+#pragma once
+/// Quantities of interest of a run ([[probe]] of the case file): where they look and what they are
+/// at the solver's time. Only the nodes that the probes need are evaluated.
+/// Test: tests/common/run/probes_test.cpp
+
+#include "common/run/case.hpp"
+#include "common/run/solver.hpp"
+
+namespace diptych::run {
+
+class Probes {
+ public:
+  /// @throws base::InputError on a group that the graph lacks, a point outside
+  Probes(const std::vector<ProbeCase>& probes, const scheme::PairGraph& graph);
+
+  bool empty() const { return all_.probes.empty(); }
+  bool has_stepped() const { return !stepped_.probes.empty(); }
+
+  /// Of all probes, in the order of the case.
+  std::vector<double> values(Solver& solver) const { return evaluate(all_, solver); }
+  /// Of those with every_step.
+  std::vector<double> stepped_values(Solver& solver) const { return evaluate(stepped_, solver); }
+
+ private:
+  struct PlacedProbe {
+    ProbeCase probe;
+    std::vector<std::int32_t> nodes;  ///< ascending
+    std::vector<double> weights;      ///< [nodes] m^2 or m^3
+  };
+  struct Selection {
+    std::vector<PlacedProbe> probes;
+    std::vector<std::int32_t> nodes;  ///< ascending, all that the probes read
+    void add(const PlacedProbe& placed);
+  };
+  Selection all_, stepped_;
+  std::vector<Vec3> X_;  ///< [n_nodes] m
+
+  std::vector<double> evaluate(const Selection& selection, Solver& solver) const;
+  /// point, mean, integral, least or greatest of values with weights.
+  static double reduced(const std::string& kind,
+                        const std::vector<double>& values,
+                        const std::vector<double>& weights);
+  static PlacedProbe placed(const ProbeCase& probe, const scheme::PairGraph& graph);
+};
+
+}  // namespace diptych::run

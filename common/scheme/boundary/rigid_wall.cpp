@@ -1,0 +1,113 @@
+#include "common/scheme/boundary/rigid_wall.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace diptych::scheme {
+
+namespace {
+
+class Wall : public BoundaryCondition {
+ public:
+  explicit Wall(const BoundaryValues& values) : wall_{values.point, values.normal.normalized()} {}
+  std::optional<RigidWall> wall() const override { return wall_; }
+
+ private:
+  RigidWall wall_;
+};
+
+template <int Dim>
+Vec3 vector_at(const algebra::BlockField& field, std::int64_t node) {
+  Vec3 r = Vec3::Zero();
+  for (int i = 0; i < Dim; ++i)
+    r[i] = field.at(node, i);
+  return r;
+}
+
+}  // namespace
+
+std::unique_ptr<BoundaryCondition> make_rigid_wall(const BoundaryValues& values) {
+  return std::make_unique<Wall>(values);
+}
+
+void WallContacts::add(const RigidWall& wall, const WallCandidate& candidate) {
+  const Vec3 free = candidate.keep * wall.normal;
+  const double share = free.dot(wall.normal);  // cos^2 of the angle to the free directions
+  if (share < 1e-12) return;
+  for (const WallNode& w : nodes_) {
+    if (w.body.node != candidate.node) continue;
+    if (w.wall.point == wall.point && w.wall.normal == wall.normal) return;  // groups share a node
+    const Vec3& X = candidate.X;
+    throw base::InputError(fmt::format(
+        "two rigid walls act on the node at ({:g}, {:g}, {:g}); let the groups of walls share no "
+        "node",
+        X[0], X[1], X[2]));
+  }
+  nodes_.push_back({candidate, wall, free / share, false});
+}
+
+/// Sets v_n = 0 by an impulse along the free direction. @return change of the kinetic energy  [J]
+template <int Dim>
+double WallContacts::stop(const WallNode& w,
+                          State<Dim>& state,
+                          double rho_R,
+                          ConstraintAction& action) {
+  const std::int32_t a = w.body.node;
+  const Vec3 v = vector_at<Dim>(state.v, a);
+  const Vec3 change = -v.dot(w.wall.normal) * w.push;
+  for (int i = 0; i < Dim; ++i) {
+    state.v.at(a, i) = v[i] + change[i];
+    state.velocity[a * velocity_stride<Dim> + i] = v[i] + change[i];
+  }
+  const Vec3 impulse = rho_R * w.body.Omega * change;
+  const Vec3 x = w.body.X_centred + vector_at<Dim>(state.u, a);
+  action.impulse.linear += impulse;
+  action.impulse.angular += x.cross(impulse);
+  return impulse.dot(v + 0.5 * change);
+}
+
+template <int Dim>
+void WallContacts::hold(State<Dim>& state, double rho_R, ConstraintAction& action) const {
+  for (const WallNode& w : nodes_) {
+    if (w.closed) stop(w, state, rho_R, action);
+  }
+}
+
+template <int Dim>
+void WallContacts::settle(State<Dim>& state, double rho_R, double dt, ConstraintAction& action) {
+  for (WallNode& w : nodes_) {
+    const double v_n = vector_at<Dim>(state.v, w.body.node).dot(w.wall.normal);
+    if (w.closed) {
+      // began the step with v_n = 0, so the sign of v_n is that of the force
+      w.closed = v_n <= 0;
+      if (w.closed) stop(w, state, rho_R, action);
+      continue;
+    }
+    const Vec3 x = w.body.X + vector_at<Dim>(state.u, w.body.node);
+    const double gap = (x - w.wall.point).dot(w.wall.normal);
+    if (v_n < 0 && gap + 0.5 * v_n * dt <= 0) {
+      w.closed = true;
+      action.work += stop(w, state, rho_R, action);
+    }
+  }
+}
+
+template <int Dim>
+Vec3 WallContacts::force(const State<Dim>& state, const std::vector<std::int32_t>& nodes) const {
+  Vec3 sum = Vec3::Zero();
+  for (const WallNode& w : nodes_) {
+    if (!w.closed || !std::binary_search(nodes.begin(), nodes.end(), w.body.node)) continue;
+    sum -= vector_at<Dim>(state.T, w.body.node).dot(w.push) * w.wall.normal;
+  }
+  return sum;
+}
+
+#define DIPTYCH_INSTANTIATE(Dim)                                                      \
+  template void WallContacts::hold(State<Dim>&, double, ConstraintAction&) const;     \
+  template void WallContacts::settle(State<Dim>&, double, double, ConstraintAction&); \
+  template Vec3 WallContacts::force(const State<Dim>&, const std::vector<std::int32_t>&) const;
+DIPTYCH_INSTANTIATE(2)
+DIPTYCH_INSTANTIATE(3)
+#undef DIPTYCH_INSTANTIATE
+
+}  // namespace diptych::scheme

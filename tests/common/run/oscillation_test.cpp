@@ -1,0 +1,66 @@
+/// Period, decrement and mean of sampled oscillations against what they were made of.
+
+#include "common/run/oscillation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace diptych::run {
+namespace {
+
+struct Signal {
+  std::vector<double> times, values;
+  Signal(double end, int n, const std::function<double(double)>& f) {
+    for (int i = 0; i <= n; ++i) {
+      times.push_back(end * i / n);
+      values.push_back(f(times.back()));
+    }
+  }
+  std::optional<Oscillation> oscillation() const { return oscillation_of(times, values); }
+};
+
+constexpr double period = 0.65, omega = 2 * 3.14159265358979 / period;
+
+TEST(Oscillation, OfAShiftedCosineIsFoundToTheErrorOfTheSampling) {
+  const auto found =
+      Signal(3, 300, [](double t) { return 1.4 * (1 - std::cos(omega * t)); }).oscillation();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->n_periods, 4);  // upward at 1/4, 5/4 ... 17/4 of a period
+  // linear interpolation at crossings: (omega dt)^2/8 of dt at most
+  EXPECT_NEAR(found->period, period, 2e-4 * period);
+  EXPECT_NEAR(found->mean, 1.4, 1e-3);
+  EXPECT_NEAR(found->amplitude, 1.4, 1e-3);
+  ASSERT_TRUE(found->decrement);
+  EXPECT_NEAR(*found->decrement, 0, 1e-3);
+}
+
+TEST(Oscillation, OfADampedSineHasItsDecrement) {
+  const double delta = 0.2;
+  const auto found = Signal(4, 1000, [&](double t) {
+                       return std::exp(-delta * t / period) * std::sin(omega * t);
+                     }).oscillation();
+  ASSERT_TRUE(found && found->decrement);
+  EXPECT_NEAR(*found->decrement, delta, 2e-3);
+  EXPECT_NEAR(found->period, period, 2e-3 * period);
+}
+
+TEST(Oscillation, RipplesAreNoPeriods) {
+  const auto found = Signal(3, 3000, [](double t) {
+                       return std::sin(omega * t) + 0.05 * std::sin(23 * omega * t);
+                     }).oscillation();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->n_periods, 3);
+  EXPECT_NEAR(found->period, period, 0.01 * period);
+}
+
+TEST(Oscillation, IsAbsentWithoutAWholePeriod) {
+  EXPECT_FALSE(Signal(0.6, 100, [](double t) { return std::sin(omega * t); }).oscillation());
+  EXPECT_FALSE(Signal(1, 100, [](double) { return 2.0; }).oscillation());
+  EXPECT_FALSE(oscillation_of({}, {}));
+}
+
+}  // namespace
+}  // namespace diptych::run
