@@ -328,8 +328,7 @@ void read_sections(Sections& sections, const fs::path& folder, Case& c) {
   c.time = read_time(sections.section("time"));
   c.output.frames = static_cast<int>(sections.section("output").integer("frames"));
   c.output.fields = sections.section("output").flag("fields");
-  c.probes =
-      read_probes(sections.entries(sections.table("probe"), "probe"), sections.vocabulary);
+  c.probes = read_probes(sections.entries(sections.table("probe"), "probe"), sections.vocabulary);
   c.scheme = read_scheme(sections.section("scheme"));
   c.sph.kernel = sections.section("sph").menu_name("kernel");
   c.sph.kappa = sections.section("sph").number("kappa");

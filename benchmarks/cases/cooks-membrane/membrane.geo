@@ -1,0 +1,20 @@
+// Cook's tapered panel: (0,0) (48,44) (48,60) (0,44) mm; quadrilaterals, as many along as across.
+DefineConstant[ h = 5.5e-3 ];
+mm = 1e-3;
+n = Max(2, Round(44*mm/h)) + 1;
+Point(1) = {0, 0, 0};
+Point(2) = {48*mm, 44*mm, 0};
+Point(3) = {48*mm, 60*mm, 0};
+Point(4) = {0, 44*mm, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Transfinite Curve{1, 2, 3, 4} = n;
+Transfinite Surface{1};
+Recombine Surface{1};
+Physical Curve("left") = {4};
+Physical Curve("right") = {2};
+Physical Surface("body") = {1};

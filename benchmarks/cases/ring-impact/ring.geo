@@ -1,0 +1,32 @@
+// Half of a ring, x >= 0, about the origin; radii 30 and 40 mm; quadrilaterals.
+DefineConstant[ h = 2.5e-3 ];
+r = 30e-3;
+R = 40e-3;
+n_wall = Max(2, Round((R - r)/h)) + 1;      // nodes through the wall
+n_arc = Max(4, Round(Pi*(R + r)/4/h)) + 1;  // nodes along a quarter
+Point(1) = {0, 0, 0};
+Point(2) = {0, -R, 0};
+Point(3) = {0, -r, 0};
+Point(4) = {R, 0, 0};
+Point(5) = {r, 0, 0};
+Point(6) = {0, R, 0};
+Point(7) = {0, r, 0};
+Circle(1) = {2, 1, 4};
+Circle(2) = {4, 1, 6};
+Circle(3) = {3, 1, 5};
+Circle(4) = {5, 1, 7};
+Line(5) = {2, 3};
+Line(6) = {4, 5};
+Line(7) = {6, 7};
+Curve Loop(1) = {1, 6, -3, -5};
+Curve Loop(2) = {2, 7, -4, -6};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Transfinite Curve{1, 2, 3, 4} = n_arc;
+Transfinite Curve{5, 6, 7} = n_wall;
+Transfinite Surface{1, 2};
+Recombine Surface{1, 2};
+Physical Curve("outside") = {1, 2};
+Physical Curve("inside") = {3, 4};
+Physical Curve("axis") = {5, 7};
+Physical Surface("body") = {1, 2};
