@@ -127,6 +127,19 @@ const BadCase of_idle_keys[] = {
      after("[[boundary]]\ngroup = ['a', 'b']\ntype = 'fixed'\n[[boundary]]\ngroup = 'b'\n"
            "type = 'symmetry'\n"),
      "13:1: ", "already of type fixed (line 10)"},
+    {"wall_point", after("[[boundary]]\ngroup = 'a'\ntype = 'rigid-wall'\nnormal = [0, 0, 1]\n"),
+     "10:1: ", "boundary.0.point is missing"},
+    {"wall_normal",
+     after("[[boundary]]\ngroup = 'a'\ntype = 'rigid-wall'\npoint = [0, 0, 0]\n"
+           "normal = [0, 0, 0]\n"),
+     "14:10: ", "is no direction"},
+    {"point_of_fixed", after("[[boundary]]\ngroup = 'a'\ntype = 'fixed'\npoint = [0, 0, 0]\n"),
+     "13:9: ", "it is for rigid-wall"},
+    {"two_walls",
+     after("[[boundary]]\ngroup = 'a'\ntype = 'rigid-wall'\npoint = [0, 0, 0]\n"
+           "normal = [0, 0, 1]\n[[boundary]]\ngroup = 'a'\ntype = 'rigid-wall'\n"
+           "point = [0, 0, 1]\nnormal = [0, 0, -1]\n"),
+     "15:1: ", "already of type rigid-wall"},
     {"expression", after("[initial]\nvelocity = [0, '10*zz', 0]\n"),
      "11:20: ", "unknown name 'zz'; did you mean"},
     {"tensor_rows", after("[exact]\nstress = [[1, 0, 0], [0, 1, 0]]\n"),

@@ -1,0 +1,88 @@
+/// Cases of the literature whose answer is known from other codes or from a law of conservation.
+/// Bounds are measured errors with a margin; runs are deterministic.
+
+#include "benchmarks/harness/case_list.hpp"
+#include "benchmarks/harness/run_case.hpp"
+#include "common/base/error.hpp"
+#include "common/run/case_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace diptych::harness {
+namespace {
+
+class Literature : public testing::TestWithParam<const char*> {
+ protected:
+  RunResult run(const std::string& name,
+                int level,
+                const std::vector<std::string>& overrides = {}) const {
+    RunOptions options;
+    options.method = GetParam();
+    options.level = level;
+    options.threads = 1;
+    options.quiet = true;
+    return run_case(run::read_case(find_case(name), overrides), options);
+  }
+  static bool is_sph() { return std::string(GetParam()) == "sph"; }
+};
+INSTANTIATE_TEST_SUITE_P(Both, Literature, testing::Values("sph", "fvm"));
+
+const io::QuantitySummary& quantity(const RunResult& result, const std::string& name) {
+  for (const io::QuantitySummary& q : result.summary.quantities) {
+    if (q.name == name) return q;
+  }
+  throw std::logic_error("no quantity " + name);
+}
+
+TEST_P(Literature, CooksMembraneRelaxesToTheStaticSolution) {
+  constexpr double reference = 14.731;  // mm, 16 x 16 quadratic elements
+  const auto error = [&](int level) {
+    const RunResult result = run("cooks-membrane", level, {"time.end=0.08"});
+    EXPECT_NEAR(quantity(result, "reaction").final_value, -1000, 2) << "it still moves";
+    return quantity(result, "tip deflection").final_value / reference - 1;
+  };
+  try {
+    const double coarse = error(0), fine = error(1);
+    EXPECT_LE(std::abs(fine), is_sph() ? 0.027 : 0.009);  // 0.0244, -0.0075
+    EXPECT_LE(std::abs(fine), 0.5 * std::abs(coarse));
+    EXPECT_GT(coarse * fine, 0) << "the methods come from above (SPH) and below (FVM)";
+  } catch (const base::EnvironmentError& missing) {
+    GTEST_SKIP() << missing.what();  // no gmsh program
+  }
+}
+
+TEST_P(Literature, CantileverSwingsAboutAsFarAndFastAsInOtherCodes) {
+  // reference 2.8 m and 0.65 s; 3.04 m, 0.710 s (SPH), 2.45 m, 0.586 s (FVM) with 2 x 2 x 20 cells
+  const io::QuantitySummary tip =
+      quantity(run("cantilever-vibration", 0, {"probe.0.every_step=true"}), "tip displacement");
+  EXPECT_NEAR(tip.greatest, 2.8, 0.13 * 2.8);
+  EXPECT_NEAR(tip.period, 0.65, 0.1 * 0.65);
+  EXPECT_GE(tip.least, 0);
+}
+
+TEST_P(Literature, BarReboundsAsTheImpulseOfTheWallSays) {
+  const RunResult result = run("bar-rebound", 0);
+  EXPECT_LE(result.summary.linear_momentum_drift, 1e-12);
+  EXPECT_LE(result.summary.energy.external_work, 0) << "the wall gave energy";
+  // 119.5 (SPH) and 120.5 m/s (FVM); 122.3 and 123.2 with half the spacing
+  EXPECT_NEAR(quantity(result, "mean velocity").final_value, 120, 2);
+  EXPECT_GE(quantity(result, "wall force").least, 0);
+}
+
+TEST_P(Literature, PunchKeepsTheVolume) {
+  const RunResult result = run("punch", 0);
+  EXPECT_GE(quantity(result, "least J").least, 0.9);
+  EXPECT_LE(quantity(result, "greatest J").greatest, 1.08);
+  EXPECT_LE(quantity(result, "corner under the punch").least, -0.2) << "it was not punched";
+}
+
+TEST_P(Literature, TwistingColumnStandsFourHundredRadiansPerSecond) {
+  const RunResult result = run("twisting-column-400", 0);
+  EXPECT_EQ(result.summary.status, "done");
+  EXPECT_GT(result.summary.min_jacobian, 0.5);
+}
+
+}  // namespace
+}  // namespace diptych::harness
