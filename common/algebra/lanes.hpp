@@ -85,6 +85,10 @@ DIPTYCH_INLINE Lanes inverse_or_zero(Lanes a) {
   const Lanes one = Lanes{} + 1.0;
   return a != 0 ? one / (a != 0 ? a : one) : Lanes{};
 }
+/// a/b, or 0 where b = 0; no overflow of 1/b where b is tiny.
+DIPTYCH_INLINE Lanes ratio_or_zero(Lanes a, Lanes b) {
+  return b != 0 ? a / (b != 0 ? b : Lanes{} + 1.0) : Lanes{};
+}
 using HalfLanes = double __attribute__((vector_size(4 * sizeof(double))));
 using QuarterLanes = double __attribute__((vector_size(2 * sizeof(double))));
 

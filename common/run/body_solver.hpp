@@ -9,6 +9,7 @@
 #include "common/scheme/boundary/applied_boundary.hpp"
 #include "common/scheme/momentum.hpp"
 #include "common/scheme/strain_rates.hpp"
+#include "common/scheme/time_step.hpp"
 #include "common/scheme/update.hpp"
 #include "common/time/integrator.hpp"
 
@@ -21,7 +22,7 @@ struct SolverSetup {
   double face_correction = 0;  ///< kappa_f
   scheme::Unknowns unknowns = scheme::Unknowns::FHJ;
   time::Integrator integrator;
-  double cfl = 0;
+  scheme::TimeStepRule time_step;
   bool angular_momentum_projection = false;
   bool energy_budget = true;
   InitialCase initial;
@@ -52,7 +53,9 @@ class BodySolver : public Solver {
         viscous_power_(parallel::n_chunks_of(pairs_.n_blocks)),
         least_J_(viscous_power_.size()),
         numerical_power_(viscous_power_.size()),
-        largest_rate_(viscous_power_.size()) {
+        largest_rate_(viscous_power_.size()),
+        geometric_rate_(scheme::geometric_rate(graph)),
+        undeformed_speed_(scheme::undeformed_speed(model_)) {
     if (setup_.face_correction != 0) state_.allow_face_correction();
     set_initial_state(graph_, setup_.initial, setup_.face_correction, state_);
     boundary_.constrain(state_, model_.rho_R, 0);
@@ -145,23 +148,35 @@ class BodySolver : public Solver {
     }
   }
 
-  /// Internal forces (18a) with D_ab; with_bound: also the largest stable step of this state.
-  void sum_forces(bool with_bound) {
+  /// Internal forces (18a) with D_ab; with_step: also the largest stable step of this state.
+  void sum_forces(bool with_step) {
+    const bool pair_by_pair = setup_.time_step.speeds == scheme::Speeds::exact;
     const scheme::MomentumSweep<Dim> sweep{pairs_,
                                            state_,
                                            model_.rho_R,
                                            setup_.dissipation_factor,
-                                           with_bound,
+                                           with_step && pair_by_pair,
                                            numerical_power_.data(),
                                            largest_rate_.data()};
     parallel::for_chunks(pairs_.n_blocks, [&](auto begin, auto end, auto chunk) {
       momentum_(sweep, begin, end, chunk);
+      if (setup_.time_step.speeds == scheme::Speeds::bound && with_step) {
+        largest_rate_[chunk] =
+            geometric_rate_ * scheme::largest_speed(state_, model_.rho_R, begin, end);
+      }
     });
-    if (!with_bound) return;
+    if (with_step) stable_dt_ = setup_.time_step.limit() / rate();
+  }
+
+  /// See scheme/time_step.hpp  [1/s]
+  double rate() const {
+    if (setup_.time_step.speeds == scheme::Speeds::linearised) {
+      return geometric_rate_ * undeformed_speed_;
+    }
     double rate = 0;
     for (const double r : largest_rate_)
       rate = r >= rate || std::isnan(r) ? r : rate;
-    stable_dt_ = setup_.cfl / (rate * scheme::frequency_factor(setup_.face_correction));
+    return rate;
   }
 
   /// The step to make now: stable, and the time left divided evenly.
@@ -288,6 +303,7 @@ class BodySolver : public Solver {
   scheme::LoadRates load_rates_;
   scheme::Audit audit_;
   algebra::Vec3 initial_angular_momentum_ = algebra::Vec3::Zero();
+  double geometric_rate_, undeformed_speed_;
   double time_ = 0, stable_dt_ = 0, first_dt_ = 0;
   std::int64_t step_ = 0;
 };

@@ -76,8 +76,9 @@ struct InitialCase {
 struct TimeCase {
   double end = 0;                       ///< s, > 0
   std::string integrator = "leapfrog";  ///< entry of the integrator menu
-  double cfl = 0;              ///< fraction of the graph bound; 0: default of the integrator
-  std::int64_t max_steps = 0;  ///< 0: none
+  double cfl = 0;                ///< fraction of the graph bound; 0: default of the integrator
+  std::string speeds = "exact";  ///< of the time step: exact, bound or linearised
+  std::int64_t max_steps = 0;    ///< 0: none
 };
 
 /// [output]

@@ -228,6 +228,11 @@ constexpr std::array key_table{
            "\"ssp-rk3\""),
     key("time.cfl", number, "-", "", "optional; the integrator has its own",
         Range{0, 10, false, true}, "Time step as a fraction of the bound of the graph.", "0.5"),
+    choice("time.speeds", "\"exact\"", "", menus::speeds,
+           "Wave speeds of the time step: of the current state pair by pair, the largest of the "
+           "current state for all pairs (a little smaller step), or of the undeformed body (a stiffening "
+           "body can then exceed the stable step).",
+           "\"bound\""),
     key("time.max_steps", integer, "-", "0", "", at_least(0),
         "The run stops after so many steps; 0 sets no limit.", "1000"),
 
@@ -269,7 +274,9 @@ constexpr std::array key_table{
     choice("scheme.reconstruction", "\"linear\"", "", menus::reconstructions,
            "Reconstruction of the states on both sides of a pair.", "\"none\""),
     choice("scheme.limiter", "\"none\"", "", menus::limiters,
-           "Limiter of the linear reconstruction.", "\"sign-preserving\""),
+           "Limiter of the linear reconstruction. At fronts: venkatakrishnan, with "
+           "scheme.face_correction = \"1/6\".",
+           "\"venkatakrishnan\""),
     choice("scheme.impedance", "\"isotropic\"", "", menus::impedances,
            "Impedance of the dissipation: of the two wave speeds, or the exact matrix.",
            "\"exact\""),

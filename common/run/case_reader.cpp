@@ -267,6 +267,7 @@ TimeCase read_time(const SectionValues& section) {
   TimeCase time;
   time.end = section.number("end");
   time.integrator = section.menu_name("integrator");
+  time.speeds = section.menu_name("speeds");
   time.cfl = section.has("cfl") ? section.number("cfl") : 0;
   time.max_steps = section.integer("max_steps");
   return time;

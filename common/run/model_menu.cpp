@@ -66,6 +66,20 @@ scheme::AppliedBoundary boundary_of(const Case& setup, const scheme::PairGraph& 
   return {graph, std::move(conditions), body_force, setup.body_force.depends_on_time()};
 }
 
+scheme::TimeStepRule time_step_of(const Case& setup, const SolverSetup& s) {
+  using scheme::Speeds;
+  const auto speeds = base::Registry<Speeds>("time.speeds")
+                          .add("exact", Speeds::exact)
+                          .add("bound", Speeds::bound)
+                          .add("linearised", Speeds::linearised);
+  const double cfl = setup.time.cfl > 0 ? setup.time.cfl : s.integrator.default_cfl;
+  return {.speeds = speeds.at(setup.time.speeds),
+          .cfl = cfl,
+          .damping_cfl = s.integrator.damping_cfl * cfl / s.integrator.default_cfl,
+          .frequency_factor = scheme::frequency_factor(s.face_correction),
+          .strength = s.dissipation_factor * scheme::strength_of(s.dissipation.limiter)};
+}
+
 SolverSetup solver_setup_of(const Case& setup, const scheme::AppliedBoundary& boundary) {
   using namespace scheme;
   const auto unknowns = base::Registry<Unknowns>("scheme.unknowns")
@@ -77,6 +91,8 @@ SolverSetup solver_setup_of(const Case& setup, const scheme::AppliedBoundary& bo
                                   .add("linear", Reconstruction::linear);
   const auto limiter = base::Registry<PairLimiter>("scheme.limiter")
                            .add("none", PairLimiter::none)
+                           .add("barth-jespersen", PairLimiter::barth_jespersen)
+                           .add("venkatakrishnan", PairLimiter::venkatakrishnan)
                            .add("sign-preserving", PairLimiter::sign_preserving);
   const auto impedance = base::Registry<Impedance>("scheme.impedance")
                              .add("isotropic", Impedance::isotropic)
@@ -88,7 +104,7 @@ SolverSetup solver_setup_of(const Case& setup, const scheme::AppliedBoundary& bo
   s.face_correction = setup.scheme.face_correction;
   s.unknowns = unknowns.at(setup.scheme.unknowns);
   s.integrator = time::integrator_menu().at(setup.time.integrator);
-  s.cfl = setup.time.cfl > 0 ? setup.time.cfl : s.integrator.default_cfl;
+  s.time_step = time_step_of(setup, s);
   s.angular_momentum_projection = setup.scheme.angular_momentum_projection;
   if (s.angular_momentum_projection && boundary.has_constraints()) {
     throw base::InputError(

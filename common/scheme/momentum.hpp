@@ -41,7 +41,7 @@ using MomentumFunction = void (*)(const MomentumSweep<Dim>& sweep,
 template <int Dim>
 MomentumFunction<Dim> momentum_function(const DissipationKind& kind, bool has_H);
 
-// What follows is for the files that compile sweeps (momentum_2d.cpp, momentum_3d.cpp).
+// What follows is for the files that compile sweeps (sweeps/momentum_*.cpp).
 
 /// Sums of a node over its row.
 template <int Dim>
@@ -80,6 +80,36 @@ DIPTYCH_INLINE void mean_state(const double* own,
   r.W_FJ = mean(Record::W_FJ);
 }
 
+/// L X_ab of both nodes, or only their sum where the limiter needs no more.
+template <int Dim>
+struct Slopes {
+  Vector<Lanes> sum{}, a{}, b{};
+};
+
+/// v_b^rec - v_a^rec, limited.  @param h  along the normal of the pair in space
+template <int Dim, PairLimiter limiter>
+DIPTYCH_INLINE Vector<Lanes> reconstructed_jump(const Vector<Lanes>& plain,
+                                                const Slopes<Dim>& slopes,
+                                                const Vector<Lanes>& h) {
+  Vector<Lanes> jump{};
+  for (int i = 0; i < Dim; ++i)
+    jump[i] = plain[i] - 0.5 * slopes.sum[i];
+  if constexpr (limiter == PairLimiter::none) return jump;
+  Lanes h_h{};
+  for (int i = 0; i < Dim; ++i)
+    h_h += h[i] * h[i];
+  const Lanes inverse = algebra::inverse_or_zero(algebra::square_root(h_h));
+  Vector<Lanes> n{};
+  for (int i = 0; i < Dim; ++i)
+    n[i] = h[i] * inverse;
+  if constexpr (limiter == PairLimiter::sign_preserving) limit_sign_preserving<Dim>(jump, plain, n);
+  if constexpr (limiter == PairLimiter::barth_jespersen)
+    return slope_limited_jump<BarthJespersen, Dim>(plain, slopes.a, slopes.b, n);
+  if constexpr (limiter == PairLimiter::venkatakrishnan)
+    return slope_limited_jump<Venkatakrishnan, Dim>(plain, slopes.a, slopes.b, n);
+  return jump;
+}
+
 /// Adds eight pairs to the sums of their node a.
 template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
 DIPTYCH_INLINE void add_pairs(const MomentumSweep<Dim>& sweep,
@@ -96,7 +126,8 @@ DIPTYCH_INLINE void add_pairs(const MomentumSweep<Dim>& sweep,
   constexpr bool exact = kind.impedance == Impedance::exact;
   Lanes r[Record::stride(exact)];
   gather<isa, exact ? Record::n_exact : Record::n_isotropic>(neighbour, r);
-  Vector<Lanes> C_ba{}, S{}, plain{}, jump{}, h{};
+  Vector<Lanes> C_ba{}, S{}, plain{}, h{};
+  Slopes<Dim> slopes;
 #pragma GCC unroll 3
   for (int i = 0; i < Dim; ++i) {
     C_ba[i] = algebra::load(pairs.C_ba[i]);
@@ -105,31 +136,27 @@ DIPTYCH_INLINE void add_pairs(const MomentumSweep<Dim>& sweep,
   }
 #pragma GCC unroll 3
   for (int i = 0; i < Dim; ++i) {
-    Lanes PC{}, LX{};
+    Lanes PC{};
 #pragma GCC unroll 3
     for (int j = 0; j < Dim; ++j) {
       const int ij = i * Dim + j;
       PC += r[Record::P + ij] * C_ba[j];
       h[i] += (r[Record::H + ij] + own[Record::H + ij]) * S[j];
       if constexpr (kind.reconstruction == Reconstruction::linear) {
-        LX += (r[Record::L + ij] + own[Record::L + ij]) * algebra::load(pairs.X_ab[j]);
+        const Lanes X = algebra::load(pairs.X_ab[j]);
+        if constexpr (limits_slopes(kind.limiter)) {
+          slopes.a[i] += own[Record::L + ij] * X;
+          slopes.b[i] += r[Record::L + ij] * X;
+        } else {
+          slopes.sum[i] += (r[Record::L + ij] + own[Record::L + ij]) * X;
+        }
       }
     }
     sums.force[i] -= PC;
-    jump[i] = plain[i] - 0.5 * LX;
   }
   const Lanes area = algebra::load(pairs.area);
   const Lanes z_p = r[Record::z_p];
-  if constexpr (kind.limiter == PairLimiter::sign_preserving) {
-    Lanes h_h{};
-    for (int i = 0; i < Dim; ++i)
-      h_h += h[i] * h[i];
-    const Lanes inverse = algebra::inverse_or_zero(algebra::square_root(h_h));
-    Vector<Lanes> n{};
-    for (int i = 0; i < Dim; ++i)
-      n[i] = h[i] * inverse;
-    limit_sign_preserving<Dim>(jump, plain, n);
-  }
+  const Vector<Lanes> jump = reconstructed_jump<Dim, kind.limiter>(plain, slopes, h);
   Vector<Lanes> D{};
   if constexpr (kind.impedance == Impedance::isotropic) {
     D = isotropic_impedance_times<Dim>(0.5 * (z_p + own[Record::z_p]),
@@ -241,29 +268,30 @@ MomentumFunction<Dim> momentum_sweep() {
   }
 }
 
-/// The menu of compiled sweeps of one dimension.
-template <int Dim>
-MomentumFunction<Dim> momentum_function_of(const DissipationKind& kind, bool has_H) {
-  using enum Impedance;
-  constexpr DissipationKind plain{Reconstruction::none, PairLimiter::none, isotropic};
-  constexpr DissipationKind linear{Reconstruction::linear, PairLimiter::none, isotropic};
-  constexpr DissipationKind limited{Reconstruction::linear, PairLimiter::sign_preserving,
-                                    isotropic};
-  constexpr DissipationKind plain_x{Reconstruction::none, PairLimiter::none, exact};
-  constexpr DissipationKind linear_x{Reconstruction::linear, PairLimiter::none, exact};
-  constexpr DissipationKind limited_x{Reconstruction::linear, PairLimiter::sign_preserving, exact};
-  const bool is_limited = kind.limiter == PairLimiter::sign_preserving;
-  if (kind.impedance == isotropic) {
-    if (kind.reconstruction == Reconstruction::none) return momentum_sweep<Dim, plain, true>();
-    return is_limited ? momentum_sweep<Dim, limited, true>() : momentum_sweep<Dim, linear, true>();
+/// Sweeps of linear reconstruction with one impedance, by limiter.
+template <int Dim, Impedance impedance, bool has_H>
+MomentumFunction<Dim> limited_sweep(PairLimiter limiter) {
+  using enum PairLimiter;
+  constexpr auto linear = Reconstruction::linear;
+  switch (limiter) {
+    case sign_preserving:
+      return momentum_sweep<Dim, {linear, sign_preserving, impedance}, has_H>();
+    case barth_jespersen:
+      return momentum_sweep<Dim, {linear, barth_jespersen, impedance}, has_H>();
+    case venkatakrishnan:
+      return momentum_sweep<Dim, {linear, venkatakrishnan, impedance}, has_H>();
+    default:
+      return momentum_sweep<Dim, {linear, none, impedance}, has_H>();
   }
-  if (kind.reconstruction == Reconstruction::none) {
-    return has_H ? momentum_sweep<Dim, plain_x, true>() : momentum_sweep<Dim, plain_x, false>();
-  }
-  if (is_limited) {
-    return has_H ? momentum_sweep<Dim, limited_x, true>() : momentum_sweep<Dim, limited_x, false>();
-  }
-  return has_H ? momentum_sweep<Dim, linear_x, true>() : momentum_sweep<Dim, linear_x, false>();
+}
+
+/// The menu of compiled sweeps of one dimension and impedance, by reconstruction and limiter.
+/// Compiled in a file of its own for each.
+template <int Dim, Impedance impedance, bool has_H>
+MomentumFunction<Dim> momentum_sweep_of(const DissipationKind& kind) {
+  constexpr DissipationKind plain{Reconstruction::none, PairLimiter::none, impedance};
+  if (kind.reconstruction == Reconstruction::none) return momentum_sweep<Dim, plain, has_H>();
+  return limited_sweep<Dim, impedance, has_H>(kind.limiter);
 }
 
 }  // namespace diptych::scheme

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <gmock/gmock.h>
+#include <ostream>
 
 namespace diptych {
 namespace {
@@ -64,6 +65,11 @@ std::vector<Bad> bad_cases() {
       {"NegativeEnd", with("end = 1e-3", "end = -1"), {"end"}},
       {"NotToml", with("[material]", "[material"), {"case.toml:7"}},
   };
+}
+
+/// For messages of the test programs.
+void PrintTo(const Bad& bad, std::ostream* out) {
+  *out << bad.name;
 }
 
 std::string name_of(const testing::TestParamInfo<Bad>& bad) {

@@ -130,6 +130,12 @@ constexpr DissipationKind exact{scheme::Reconstruction::linear, scheme::PairLimi
 constexpr DissipationKind limited{scheme::Reconstruction::linear,
                                   scheme::PairLimiter::sign_preserving,
                                   scheme::Impedance::isotropic};
+constexpr DissipationKind barth_jespersen{scheme::Reconstruction::linear,
+                                          scheme::PairLimiter::barth_jespersen,
+                                          scheme::Impedance::isotropic};
+constexpr DissipationKind venkatakrishnan{scheme::Reconstruction::linear,
+                                          scheme::PairLimiter::venkatakrishnan,
+                                          scheme::Impedance::isotropic};
 constexpr DissipationKind plain{scheme::Reconstruction::none, scheme::PairLimiter::none,
                                 scheme::Impedance::isotropic};
 
@@ -164,15 +170,18 @@ TEST_P(Sweeps, PowerOfForcesIsStressPowerPlusDissipation) {
               rounding * (std::abs(stress_power) + std::abs(numerical)) * 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Both,
-                         Sweeps,
-                         testing::Combine(testing::Values("sph", "fvm"),
-                                          testing::Values(isotropic, exact, limited, plain)));
+INSTANTIATE_TEST_SUITE_P(
+    Both,
+    Sweeps,
+    testing::Combine(
+        testing::Values("sph", "fvm"),
+        testing::Values(isotropic, exact, limited, barth_jespersen, venkatakrishnan, plain)));
 
 class Methods : public testing::TestWithParam<const char*> {};
 
 TEST_P(Methods, AffineVelocityDissipatesNothing) {
-  for (const DissipationKind& kind : {isotropic, exact, limited}) {
+  for (const DissipationKind& kind :
+       {isotropic, exact, limited, barth_jespersen, venkatakrishnan}) {
     RandomBody affine(GetParam(), kind, true), rough(GetParam(), plain, true);
     affine.evaluate();
     rough.evaluate();
@@ -182,7 +191,7 @@ TEST_P(Methods, AffineVelocityDissipatesNothing) {
 }
 
 TEST_P(Methods, DissipationOfPlainOrLimitedJumpsIsPositiveForEveryNode) {
-  for (const DissipationKind& kind : {plain, limited}) {
+  for (const DissipationKind& kind : {plain, limited, barth_jespersen, venkatakrishnan}) {
     RandomBody body(GetParam(), kind);
     body.evaluate();
     for (const double power : body.numerical)

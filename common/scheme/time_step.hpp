@@ -1,0 +1,69 @@
+#pragma once
+/// Largest stable time step (physics note 2.1), from the graph and the wave speeds:
+///   dt = cfl / rate,  rate = max_a sum_b |C_ab| c_ab / (2 Omega_a),  c_ab = max(c_p,a, c_p,b),
+/// the Gershgorin bound of the dissipation operator, h/c on a line of nodes. Two things shorten it:
+/// the face correction raises the largest frequency (frequency_factor), and D_ab above its plain
+/// strength, by scheme.dissipation or by a slope limiter at work, the fastest damping.
+/// Relaxation does not enter (physics note 5). Tests: tests/common/scheme/time_step_test.cpp
+
+#include "common/physics/maxwell_branch.hpp"
+#include "common/physics/wave_speeds.hpp"
+#include "common/scheme/model.hpp"
+#include "common/scheme/pair_graph.hpp"
+#include "common/scheme/state.hpp"
+
+namespace diptych::scheme {
+
+/// Which speeds the rate is made of.
+enum class Speeds {
+  exact,      ///< of the current state with all branches, pair by pair
+  bound,      ///< the largest of the current state for all pairs: never a larger step than exact
+  linearised  ///< of the undeformed, virgin body: unsafe where the body stiffens
+};
+
+struct TimeStepRule {
+  Speeds speeds = Speeds::exact;
+  double cfl = 1;               ///< for waves
+  double damping_cfl = 1;       ///< for the dissipation, over its strength
+  double frequency_factor = 1;  ///< of the face correction
+  double strength = 1;          ///< largest D_ab over its plain form
+
+  /// Allowed dt times rate.
+  double limit() const {
+    const double waves = cfl / frequency_factor;
+    return strength > 0 ? algebra::smaller(waves, damping_cfl / strength) : waves;
+  }
+};
+
+/// max_a sum_b |C_ab| / (2 Omega_a)  [1/m]: rate per unit of speed.
+double geometric_rate(const PairGraph& graph);
+
+/// Largest c_p of the nodes of blocks [begin, end), from their records  [m/s].
+template <int Dim>
+double largest_speed(const State<Dim>& state, double rho_R, std::int64_t begin, std::int64_t end) {
+  const std::int64_t last =
+      end * algebra::n_lanes < state.n_nodes ? end * algebra::n_lanes : state.n_nodes;
+  double largest = 0;
+  for (std::int64_t a = begin * algebra::n_lanes; a < last; ++a) {
+    const double z_p = state.records[a * state.record_stride + NodeRecord<Dim>::z_p];
+    largest = z_p > largest || z_p != z_p ? z_p : largest;
+  }
+  return largest / rho_R;
+}
+
+/// c_p of the undeformed, virgin body with all branches  [m/s].
+template <class Material>
+double undeformed_speed(const Model<Material>& model) {
+  physics::Deformation<double> X;
+  X.F = X.H = algebra::identity<double>();
+  X.J = 1;
+  const physics::BranchState<double> virgin{algebra::symmetric_identity<double>(),
+                                            algebra::symmetric_identity<double>()};
+  physics::Response<double> response = model.material.response(X);
+  for (const physics::MaxwellBranch& branch : model.branches) {
+    physics::add_branch_response<Material::has_H>(branch, virgin, X, response);
+  }
+  return physics::speed_bounds(response, X, model.rho_R, Material::has_H).c_p;
+}
+
+}  // namespace diptych::scheme
