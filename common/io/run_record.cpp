@@ -218,6 +218,9 @@ void read_quality(const Section& file, RunSummary& summary) {
   const Section momentum = file.section("momentum");
   summary.linear_momentum_drift = momentum.number("linear_drift");
   summary.angular_momentum_drift = momentum.number("angular_drift");
+  const Section involution = file.section("involution");
+  summary.involution_H = involution.number("H");
+  summary.involution_J = involution.number("J");
   summary.min_jacobian = file.number("min_jacobian");
   summary.state_hash = file.text("state_hash");
 }
@@ -260,6 +263,7 @@ std::string to_json(const RunSummary& summary) {
       {"momentum",
        {{"linear_drift", summary.linear_momentum_drift},
         {"angular_drift", summary.angular_momentum_drift}}},
+      {"involution", {{"H", summary.involution_H}, {"J", summary.involution_J}}},
       {"min_jacobian", summary.min_jacobian},
       {"state_hash", summary.state_hash},
       {"provenance", provenance_json(summary.provenance)},

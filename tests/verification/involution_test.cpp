@@ -78,7 +78,7 @@ TEST_P(Involutions, UnknownsGiveOneAnswerUpToTheDrift) {
   }
 }
 
-TEST_P(Involutions, DriftIsInTheHistory) {
+TEST_P(Involutions, DriftIsInHistoryAndSummary) {
   harness::RunOptions options;
   options.method = GetParam();
   options.threads = 1;
@@ -91,6 +91,8 @@ TEST_P(Involutions, DriftIsInTheHistory) {
   EXPECT_GT(result.history.back().involution_H, 1e-9);
   EXPECT_LT(result.history.back().involution_H, 1e-2);
   EXPECT_GT(result.history.back().involution_J, 1e-9);
+  EXPECT_GE(result.summary.involution_H, result.history.back().involution_H);
+  EXPECT_GE(result.summary.involution_J, result.history.back().involution_J);
 }
 
 }  // namespace
