@@ -113,20 +113,25 @@ class Recorder {
     s.linear_momentum_drift = linear_drift_;
     s.angular_momentum_drift = angular_drift_;
     s.quantities = quantities_of(setup_.probes, result_);
+    for (const io::HistoryRow& row : result_.history) {
+      s.involution_H = std::max(s.involution_H, row.involution_H);
+      s.involution_J = std::max(s.involution_J, row.involution_J);
+    }
   }
 
  private:
-  /// Change of momentum beyond the impulse of loads and constraints, relative to sum |p|.
+  /// Largest change of momentum beyond the impulse of loads and constraints, relative to sum |p|.
   void update_drifts(const scheme::Balance& now, const scheme::Audit& audit) {
     momentum_scale_ = std::max(momentum_scale_, now.momentum_scale);
     angular_scale_ = std::max(angular_scale_, now.angular_scale);
     const auto drift = [](const algebra::Vec3& p, double scale) {
       return scale > 0 ? p.norm() / scale : 0;
     };
-    linear_drift_ = drift(now.linear_momentum - initial_.linear_momentum - audit.impulse.linear,
-                          momentum_scale_);
-    angular_drift_ = drift(now.angular_momentum - initial_.angular_momentum - audit.impulse.angular,
-                           angular_scale_);
+    const algebra::Vec3 p = now.linear_momentum - initial_.linear_momentum - audit.impulse.linear;
+    const algebra::Vec3 L =
+        now.angular_momentum - initial_.angular_momentum - audit.impulse.angular;
+    linear_drift_ = std::max(linear_drift_, drift(p, momentum_scale_));
+    angular_drift_ = std::max(angular_drift_, drift(L, angular_scale_));
   }
 
   void write_fields(const run::Snapshot& s) {

@@ -257,6 +257,9 @@ void read_quality(const Section& file, RunSummary& summary) {
   const Section momentum = file.section("momentum");
   summary.linear_momentum_drift = momentum.number("linear_drift");
   summary.angular_momentum_drift = momentum.number("angular_drift");
+  const Section involution = file.section("involution");
+  summary.involution_H = involution.number("H");
+  summary.involution_J = involution.number("J");
   summary.min_jacobian = file.number("min_jacobian");
   summary.quantities = read_quantities(file.section("quantities"));
   summary.state_hash = file.text("state_hash");
@@ -303,6 +306,7 @@ std::string to_json(const RunSummary& summary) {
       {"momentum",
        {{"linear_drift", summary.linear_momentum_drift},
         {"angular_drift", summary.angular_momentum_drift}}},
+      {"involution", {{"H", summary.involution_H}, {"J", summary.involution_J}}},
       {"min_jacobian", summary.min_jacobian},
       {"quantities", quantities},
       {"state_hash", summary.state_hash},

@@ -56,7 +56,8 @@ struct RunSummary {
   std::map<std::string, ErrorNorms>
       errors;  ///< velocity, displacement, deformation_gradient, stress
   EnergySummary energy;
-  double linear_momentum_drift = 0, angular_momentum_drift = 0;
+  double linear_momentum_drift = 0, angular_momentum_drift = 0;  ///< largest over the output times
+  double involution_H = 0, involution_J = 0;  ///< largest |H - cof F|, |J - det F| over them
   double min_jacobian = 1;
   std::vector<QuantitySummary> quantities;  ///< [[probe]] of the case, in its order
   std::string state_hash;
@@ -64,8 +65,8 @@ struct RunSummary {
 };
 
 /// JSON text with the key names of the contract: method, case, level, ..., dt{min,max},
-/// errors{field{l1,l2,linf}}, energy{...}, momentum{linear_drift,angular_drift}, min_jacobian,
-/// state_hash, provenance{...}.
+/// errors{field{l1,l2,linf}}, energy{...}, momentum{linear_drift,angular_drift}, involution{H,J},
+/// min_jacobian, state_hash, provenance{...}.
 std::string to_json(const RunSummary& summary);
 
 /// @throws base::InputError on malformed text, a missing key, NaN

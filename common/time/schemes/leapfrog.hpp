@@ -1,7 +1,9 @@
 #pragma once
 /// Leapfrog in its kick-drift-kick form (velocity Verlet): v^{n+1/2} = v^n + dt/2 a^n;
 /// F, u by v^{n+1/2}; a^{n+1} = a(F^{n+1}, v^{n+1/2}); v^{n+1} = v^{n+1/2} + dt/2 a^{n+1}.
-/// One evaluation per step, second order; the dissipation lags by half a step.
+/// One evaluation per step, second order without D_ab. D_ab is taken at v^{n+1/2}: it lags by half
+/// a step, an error of first order in dt times the numerical damping, on the shear wave at the
+/// default step 2 % of the error in space and less, for every relaxation time.
 
 #include "common/time/integrator.hpp"
 

@@ -37,6 +37,7 @@ RunSummary full_summary() {
   s.energy = {1.5, 2.5, 3.5, 4.5, -5.5, 6.5e-5};
   s.linear_momentum_drift = 7e-16, s.angular_momentum_drift = 8e-9, s.min_jacobian = 0.93;
   s.quantities = {{"tip", "m", 1.25, -0.5, 2.5}, {"swing", "mm", 1, -2, 3, 4, 0.65, 0.1, 2, 0.2}};
+  s.involution_H = 9e-7, s.involution_J = 1e-6;
   s.state_hash = "a1b2";
   s.provenance = {"0.1.0", "c0ffee", "GCC 12.2", "-O3", "some cpu", "avx2", "2026-01-02", "d00d"};
   return s;
@@ -90,6 +91,8 @@ TEST(RunRecord, HasTheKeysOfTheContract) {
                               "/energy/relative_residual",
                               "/momentum/linear_drift",
                               "/momentum/angular_drift",
+                              "/involution/H",
+                              "/involution/J",
                               "/min_jacobian",
                               "/state_hash",
                               "/provenance/version",

@@ -1,0 +1,123 @@
+/// The energy budget over time: what is left of K + W - work + dissipations is the error of the
+/// integrator alone, whatever the boundary does, and falls at its order.
+
+#include "tests/verification/case_scene.hpp"
+
+#include <gtest/gtest.h>
+
+namespace diptych {
+namespace {
+
+using tests::Scene;
+using tests::text_of;
+
+const std::string block = R"toml(
+[mesh]
+element = "hexahedron"
+lower = [0, 0, 0]
+upper = [1, 1, 1]
+cells = [4, 3, 3]
+[material]
+model = "mooney-rivlin"
+density = 1100
+youngs_modulus = 17e6
+poissons_ratio = 0.3
+zeta_ratio = 0.5
+[[material.branch]]
+beta_C = 0.5
+tau_C = 2e-3
+beta_G = 0.5
+tau_G = 1e-3
+[initial]
+velocity = ["10*x*y", "-8*y*x", "6*z*x*(1 - z)"]
+[time]
+end = 1
+)toml";
+
+const std::string body_force = R"toml(
+[load]
+body_force = ["1e6*cos(300*t)", "2e6*y", "0"]
+)toml";
+const std::string moving = R"toml(
+[[boundary]]
+group = "x_min"
+type = "velocity"
+value = ["3*sin(400*t)", "0", "2*t*400*y"]
+)toml";
+const std::string traction = R"toml(
+[[boundary]]
+group = "x_max"
+type = "traction"
+value = ["2e5*sin(500*t)", "-3e5*y", "1e5"]
+)toml";
+const std::string rolling = R"toml(
+[[boundary]]
+group = "y_min"
+type = "symmetry"
+)toml";
+const std::string pressure = R"toml(
+[[boundary]]
+group = "y_max"
+type = "pressure"
+value = "3e5*(1 + x)*cos(200*t)"
+)toml";
+const std::string skew = R"toml(
+[[boundary]]
+group = "z_min"
+type = "skew-symmetry"
+)toml";
+const std::string fixed = R"toml(
+[[boundary]]
+group = "z_max"
+type = "fixed"
+)toml";
+
+class EnergyBudget : public testing::TestWithParam<std::tuple<const char*, const char*>> {
+ protected:
+  /// Relative to the energy at the start, after n equal steps.
+  double residual(int n, const std::string& text, const std::string& integrator, int factor) const {
+    parallel::set_threads(1);
+    const auto& [method, correction] = GetParam();
+    Scene scene = tests::scene_of(method, text,
+                                  {tests::any_step, text_of("time.integrator", integrator),
+                                   "scheme.dissipation=" + std::to_string(factor),
+                                   std::string("scheme.face_correction=") + correction});
+    const scheme::Balance start = scene.solver->balance();
+    tests::make_steps(*scene.solver, 4e-3, n);
+    const scheme::Balance now = scene.solver->balance();
+    const scheme::Audit& audit = scene.solver->audit();
+    return std::abs(now.kinetic + now.strain - start.kinetic - start.strain - audit.external_work +
+                    audit.numerical_dissipation + audit.viscous_dissipation) /
+           start.kinetic;
+  }
+  void expect_order(const std::string& text,
+                    const std::string& integrator,
+                    int factor,
+                    double order) const {
+    const double coarse = residual(80, text, integrator, factor);
+    const double fine = residual(160, text, integrator, factor);
+    EXPECT_GE(std::log2(coarse / fine), order)
+        << integrator << ": " << coarse << ' ' << fine << text;
+    EXPECT_LE(fine, 1e-2) << integrator;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All,
+                         EnergyBudget,
+                         testing::Combine(testing::Values("sph", "fvm"),
+                                          testing::Values("0", "\"1/6\"")));
+
+TEST_P(EnergyBudget, OfRungeKuttaClosesAtItsOrderUnderAllConditionsAtOnce) {
+  const std::string all =
+      block + body_force + moving + traction + rolling + pressure + skew + fixed;
+  expect_order(all, "ssp-rk2", 1, 1.8);
+  expect_order(all, "ssp-rk3", 1, 2.7);
+}
+
+// Without D_ab, which lags by half a step.
+TEST_P(EnergyBudget, OfLeapfrogClosesAtOrderTwoUnderEachCondition) {
+  for (const std::string& condition : {body_force, traction, rolling, pressure, skew, fixed})
+    expect_order(block + condition, "leapfrog", 0, 1.9);
+}
+
+}  // namespace
+}  // namespace diptych
