@@ -23,6 +23,8 @@ struct EnergySummary {
 
 struct Provenance {
   std::string version, commit, compiler, flags, cpu, instruction_set, date, case_hash;
+  std::string program;     ///< hash of the executable that ran
+  std::string input_hash;  ///< of case, overrides, mesh file and measures
 };
 
 struct RunSummary {
@@ -41,7 +43,8 @@ struct RunSummary {
   double mean_neighbours = 0;
   double graph_closure = 0, graph_linear_exactness = 0;
   std::map<std::string, ErrorNorms>
-      errors;  ///< velocity, displacement, deformation_gradient, stress
+      errors;                              ///< velocity, displacement, deformation_gradient, stress
+  std::map<std::string, double> measures;  ///< asked for by who started the run, at its end
   EnergySummary energy;
   double linear_momentum_drift = 0, angular_momentum_drift = 0;
   double min_jacobian = 1;
@@ -82,5 +85,16 @@ std::vector<HistoryRow> history_from_csv(const std::string& text, const std::str
 
 /// Names of the probe columns, in the order of HistoryRow::probes.
 std::vector<std::string> probe_names_from_csv(const std::string& text, const std::string& path);
+
+/// A column of history.csv: "kinetic energy [J]" has the name "kinetic energy" and the unit "J".
+struct HistoryColumn {
+  std::string name, unit;  ///< unit "-" where there is none
+  std::vector<double> values;
+};
+
+/// Every column of the file, whatever their names.
+/// @throws base::InputError on malformed text and on what is no finite number
+std::vector<HistoryColumn> history_columns_from_csv(const std::string& text,
+                                                    const std::string& path);
 
 }  // namespace diptych::io
