@@ -13,7 +13,7 @@ namespace {
 
 /// The node whose fields the expressions see; there is one, as there is one state at a time.
 struct CurrentNode {
-  const run::Snapshot* state = nullptr;
+  const NodeStates* nodes = nullptr;
   size_t a = 0;
 };
 
@@ -36,6 +36,8 @@ class NodeFields : public run::TimeFunction {
         all.push_back(fmt::format("{}{}{}", tensor, k / 3 + 1, k % 3 + 1));
     }
     all.push_back("J");
+    for (const std::string& field : error_fields())
+      all.push_back("error_" + field);
     return all;
   }
   std::vector<double> values(double t) const override {
@@ -44,9 +46,9 @@ class NodeFields : public run::TimeFunction {
   bool depends_on_position() const override { return true; }
   std::vector<double> values_at(const algebra::Vec3& /*X*/, double /*t*/) const override {
     const CurrentNode& node = current_node();
-    std::vector<double> all(25, 0.0);
-    if (node.state == nullptr) return all;  // while an expression is compiled
-    const run::Snapshot& s = *node.state;
+    std::vector<double> all(25 + error_fields().size(), 0.0);
+    if (node.nodes == nullptr) return all;  // while an expression is compiled
+    const run::Snapshot& s = node.nodes->state;
     for (int i = 0; i < 3; ++i) {
       all[i] = s.u[node.a][i];
       all[3 + i] = s.v[node.a][i];
@@ -56,19 +58,24 @@ class NodeFields : public run::TimeFunction {
       all[15 + k] = s.P[node.a](k / 3, k % 3);
     }
     all[24] = s.J[node.a];
+    for (size_t k = 0; k < error_fields().size(); ++k) {
+      const auto found = node.nodes->errors.find(error_fields()[k]);
+      all[25 + k] = found == node.nodes->errors.end() ? std::numeric_limits<double>::quiet_NaN()
+                                                      : found->second[node.a];
+    }
     return all;
   }
 };
 
-double reduced(const NodeMeasure& measure,
-               const scheme::PairGraph& graph,
-               const run::Snapshot& state) {
+double reduced(const NodeMeasure& measure, const NodeStates& nodes) {
+  const scheme::PairGraph& graph = nodes.graph;
+  const double t = nodes.state.time;
   double sum = 0, volume = 0;
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (size_t a = 0; a < graph.X.size(); ++a) {
-    current_node() = {&state, a};
-    if (measure.where(graph.X[a], state.time) == 0) continue;
-    const double value = measure.value(graph.X[a], state.time);
+    current_node() = {&nodes, a};
+    if (measure.where(graph.X[a], t) == 0) continue;
+    const double value = measure.value(graph.X[a], t);
     sum += graph.Omega[a] * value;
     volume += graph.Omega[a];
     least = std::min(least, value);
@@ -95,13 +102,19 @@ const std::vector<std::string>& reductions() {
   return all;
 }
 
+const std::vector<std::string>& error_fields() {
+  static const std::vector<std::string> all{"velocity",  "displacement", "deformation_gradient",
+                                            "cofactor",  "jacobian",     "stress",
+                                            "viscous_C", "viscous_G"};
+  return all;
+}
+
 std::map<std::string, double> measured(const std::vector<NodeMeasure>& measures,
-                                       const scheme::PairGraph& graph,
-                                       const run::Snapshot& state) {
+                                       const NodeStates& nodes) {
   std::map<std::string, double> values;
-  if (state.u.empty()) return values;
+  if (nodes.state.u.empty()) return values;
   for (const NodeMeasure& measure : measures)
-    values[measure.name] = reduced(measure, graph, state);
+    values[measure.name] = reduced(measure, nodes);
   return values;
 }
 

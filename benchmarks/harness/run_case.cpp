@@ -94,6 +94,8 @@ class Recorder {
     result_.final_state = std::move(snapshot);
   }
 
+  const std::map<std::string, std::vector<double>>& errors() const { return errors_.nodal(); }
+
   double energy_residual() {
     return energy_.at(solver_.balance(), solver_.audit()).relative_residual;
   }
@@ -308,7 +310,8 @@ RunResult run_case(const run::Case& setup, const RunOptions& options) {
     s.state_hash = solver->state_hash(result.mesh.order);
     recorder.fill(s);
     if (s.status == "done")
-      s.measures = measured(options.measures, result.graph, result.final_state);
+      s.measures =
+          measured(options.measures, {result.graph, result.final_state, recorder.errors()});
     write_record(options, result);
   };
   try {

@@ -135,6 +135,11 @@ size_t n_met(const VerificationResult& result) {
                                            [](const auto& verdict) { return verdict.met; }));
 }
 
+std::string bounds_met(const VerificationResult& result) {
+  return result.verdicts.empty() ? "none asked"
+                                 : fmt::format("{} of {}", n_met(result), result.verdicts.size());
+}
+
 std::string table_section(const VerificationResult& result) {
   const VerificationTable& table = result.table;
   std::string text = fmt::format("## {}\n\n{}\n\n", table.title, table.text);
@@ -153,8 +158,7 @@ std::string overview(const std::vector<VerificationResult>& results) {
       for (const auto& row : sequence.rows)
         seconds += row.summary.wall_seconds * result.table.repeat;
     }
-    lines.push_back({result.table.title, "`" + result.table.name + ".toml`",
-                     fmt::format("{} of {}", n_met(result), result.verdicts.size()),
+    lines.push_back({result.table.title, "`" + result.table.name + ".toml`", bounds_met(result),
                      duration_text(seconds)});
   }
   return markdown_table(lines, 2);
@@ -185,8 +189,7 @@ std::string verification_page(const std::vector<VerificationResult>& results,
 }
 
 std::string verification_lines(const VerificationResult& result) {
-  std::string text = fmt::format("{}: {} of {} bounds met\n", result.table.title, n_met(result),
-                                 result.verdicts.size());
+  std::string text = fmt::format("{}: bounds met: {}\n", result.table.title, bounds_met(result));
   for (const auto& verdict : result.verdicts) {
     if (!verdict.met)
       text += fmt::format("  NOT met: {}, {} ({}): {}, asked {}\n", verdict.column, verdict.run,

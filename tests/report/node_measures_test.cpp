@@ -28,10 +28,11 @@ class NodeMeasures : public testing::Test {
     const run::Vocabulary names = node_vocabulary({{"two", 2}});
     const NodeMeasure measure{"m", reduce, run::Expression(value, names, {}),
                               run::Expression(where, names, {}), ""};
-    return measured({measure}, graph, state).at("m");
+    return measured({measure}, {graph, state, errors}).at("m");
   }
   scheme::PairGraph graph;
   run::Snapshot state;
+  std::map<std::string, std::vector<double>> errors{{"velocity", {1, 2, 3}}};
 };
 
 TEST_F(NodeMeasures, ReduceFieldsOverAPartOfTheBody) {
@@ -40,10 +41,12 @@ TEST_F(NodeMeasures, ReduceFieldsOverAPartOfTheBody) {
   EXPECT_DOUBLE_EQ(of("mean", "v2", "x > two*t - 0.5"), 4.0 / 3);
   EXPECT_DOUBLE_EQ(of("min", "P12 + P33/4"), -1.5);
   EXPECT_DOUBLE_EQ(of("max", "F11 + J"), 2);
+  EXPECT_DOUBLE_EQ(of("integral", "error_velocity^2"), 1 + 2 * 4 + 9);
 }
 
 TEST_F(NodeMeasures, RefuseAnEmptyPartAndGiveNothingWithoutAState) {
   EXPECT_THROW(of("mean", "u1", "x > 9"), base::InputError);
+  EXPECT_THROW(of("mean", "error_stress"), base::InputError) << "there is no such error";
   state = {};
   EXPECT_THROW(of("mean", "u1"), std::out_of_range) << "no value of that name";
 }
