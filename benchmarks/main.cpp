@@ -2,10 +2,12 @@
 
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_list.hpp"
+#include "benchmarks/harness/convergence.hpp"
 #include "benchmarks/harness/material_report.hpp"
 #include "benchmarks/harness/run_table.hpp"
 #include "benchmarks/harness/study.hpp"
 #include "benchmarks/harness/tables.hpp"
+#include "benchmarks/harness/verification.hpp"
 #include "common/base/error.hpp"
 #include "common/base/registry.hpp"
 #include "common/io/atomic_file.hpp"
@@ -33,7 +35,10 @@ struct Arguments {
   std::string path = "shear-oscillation", update = "gauss";
   harness::MaterialPath material;
   int level = 0, levels = 3, threads = 0;
-  bool quiet = false, no_fields = false;
+  bool quiet = false, no_fields = false, fresh = false;
+  std::vector<std::string> quantities, tables;
+  std::string page;
+  bool check = false, quick = false;
 };
 
 void print(const std::string& text) {
@@ -101,24 +106,89 @@ int compare_verb(Arguments arguments) {
   return exit_code_of_study();
 }
 
+/// What is written and printed of the levels that are finished.
+void show_convergence(const run::Case& setup,
+                      const Arguments& arguments,
+                      const harness::Study& study,
+                      const std::string& directory) {
+  std::vector<harness::LevelRecord> records;
+  for (size_t i = 0; i < study.runs.size(); ++i) {
+    const std::string file = (std::filesystem::path(study.directories[i]) / "history.csv").string();
+    records.push_back({study.runs[i], io::history_columns_from_csv(io::read_file(file), file)});
+  }
+  const auto convergence = harness::convergence_of(records, arguments.quantities);
+  for (const auto& method : convergence) {
+    print(harness::convergence_table(method.levels) + "\n");
+    const std::string table = harness::quantity_table(method);
+    if (!table.empty()) print(table + "\n");
+  }
+  if (convergence.empty()) return;
+  const auto write = [&](const char* name, const std::string& text) {
+    const std::string file = (std::filesystem::path(directory) / name).string();
+    io::write_file_atomically(file, text);
+    print(fmt::format("output: {}\n", file));
+  };
+  write("convergence.csv", harness::convergence_csv(convergence));
+  write("convergence.tex", harness::convergence_tex(convergence));
+  if (study.differences.empty() && study.runs.size() > 1 && arguments.method == "both") {
+    print(
+        "difference of the methods: not in this report, as a run of the finest level was taken "
+        "over;\n  'diptych compare' or --fresh gives it\n");
+  }
+  write_report(setup, study, directory);
+}
+
 int converge_verb(const Arguments& arguments) {
   if (arguments.levels < 2) throw base::InputError("--levels must be 2 or more");
   const run::Case setup = case_of(arguments);
   auto options = study_options(arguments, setup);
   options.fields = false;
+  options.resume = !arguments.fresh;
   options.levels.clear();
   for (int k = 0; k < arguments.levels; ++k)
     options.levels.push_back(arguments.level + k);
   const harness::Study study = harness::run_study(setup, options);
-  for (const std::string& method : options.methods) {
-    std::vector<io::RunSummary> levels;
-    for (const auto& run : study.runs) {
-      if (run.method == method) levels.push_back(run);
-    }
-    if (!levels.empty()) print(harness::convergence_table(levels) + "\n");
-  }
-  if (!study.runs.empty()) write_report(setup, study, options.directory);
+  for (const std::string& directory : study.taken_over)
+    print(fmt::format("taken over, not run again: {}\n", directory));
+  if (!study.taken_over.empty()) print("\n");
+  show_convergence(setup, arguments, study, options.directory);
   return exit_code_of_study();
+}
+
+int verify_verb(const Arguments& arguments) {
+  std::vector<std::string> names = arguments.tables;
+  if (names.empty()) names = harness::shipped_verification_tables();
+  std::vector<harness::VerificationTable> tables;  // all are read before the first is run
+  for (const std::string& name : names)
+    tables.push_back(harness::read_verification_table(harness::find_verification_table(name)));
+  harness::VerificationOptions options;
+  options.directory = arguments.directory.empty() ? "results/verification" : arguments.directory;
+  options.threads = arguments.threads;
+  options.fresh = arguments.fresh;
+  options.quick = arguments.quick;
+  options.quiet = arguments.quiet;
+  std::vector<harness::VerificationResult> results;
+  bool all_met = true;
+  for (const auto& table : tables) {
+    const auto result = harness::verify(table, options);
+    if (!result) {
+      std::fputs("diptych: interrupted; the same command goes on from here\n", stderr);
+      return static_cast<int>(base::ExitCode::interrupted);
+    }
+    print(harness::verification_lines(*result));
+    for (const auto& verdict : result->verdicts)
+      all_met = all_met && verdict.met;
+    results.push_back(*result);
+  }
+  const std::string page =
+      arguments.page.empty()
+          ? (std::filesystem::path(options.directory) / "VERIFICATION.md").string()
+          : arguments.page;
+  io::write_file_atomically(
+      page, harness::verification_page(results, "benchmarks/verify", options.quick));
+  print(fmt::format("\noutput: {}\n", page));
+  if (arguments.check && !all_met) throw base::BoundError("a bound was not met; see above");
+  return 0;
 }
 
 int check_verb(const Arguments& arguments) {
@@ -221,6 +291,24 @@ int dispatch(int argc, char** argv) {
   auto* converge = app.add_subcommand("converge", "run levels, print errors and observed orders");
   add_case_options(converge, arguments, true);
   converge->add_option("--levels", arguments.levels, "number of levels, from --level on");
+  converge->add_flag("--fresh", arguments.fresh, "run finished levels again too");
+  converge
+      ->add_option("--quantity", arguments.quantities,
+                   "column of history.csv to extrapolate, or 'all'; repeatable (default: energies, "
+                   "least J, probes)")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  auto* verify = app.add_subcommand("verify", "run the verification tables, say which bounds hold");
+  verify->add_option("table", arguments.tables,
+                     "names or files of tables (default: all of benchmarks/verification)");
+  verify->add_option("--out", arguments.directory,
+                     "folder of the runs (default results/verification)");
+  verify->add_option("--page", arguments.page, "the page to write (default OUT/VERIFICATION.md)");
+  verify->add_option("--threads", arguments.threads, "0: all processors");
+  verify->add_flag("--check", arguments.check, "exit code 5 where a bound is not met");
+  verify->add_flag("--fresh", arguments.fresh, "run finished runs again too");
+  verify->add_flag("--quick", arguments.quick, "without the finest level of each sequence");
+  verify->add_flag("--quiet", arguments.quiet, "no progress");
   auto* check = app.add_subcommand("check", "read a case, build its graphs and make one step");
   add_case_options(check, arguments, true);
   auto* material = app.add_subcommand(
@@ -240,6 +328,7 @@ int dispatch(int argc, char** argv) {
   if (run->parsed()) return run_verb(arguments);
   if (compare->parsed()) return compare_verb(arguments);
   if (converge->parsed()) return converge_verb(arguments);
+  if (verify->parsed()) return verify_verb(arguments);
   if (check->parsed()) return check_verb(arguments);
   if (material->parsed()) return material_verb(arguments);
   if (list->parsed()) return list_verb();

@@ -1,5 +1,8 @@
 #include "benchmarks/harness/provenance.hpp"
 
+#include "common/io/run_record.hpp"
+#include "common/run/case_reader.hpp"
+
 #include <ctime>
 #include <fstream>
 #include <string>
@@ -45,7 +48,13 @@ io::Provenance provenance(const std::string& case_hash) {
   std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
   p.date = date;
   p.case_hash = case_hash;
+  p.program = program_hash();
   return p;
+}
+
+const std::string& program_hash() {
+  static const std::string hash = run::case_hash(io::read_file("/proc/self/exe"), {});
+  return hash;
 }
 
 std::int64_t peak_rss_bytes() {

@@ -4,6 +4,7 @@
 #include "benchmarks/harness/progress.hpp"
 #include "benchmarks/harness/provenance.hpp"
 #include "benchmarks/harness/quantities.hpp"
+#include "benchmarks/harness/resumption.hpp"
 #include "common/base/error.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/run/exact_errors.hpp"
@@ -102,6 +103,7 @@ class Recorder {
     if (!probes_.has_stepped()) return;
     result_.steps.push_back({step.time, step.step, probes_.stepped_values(solver_)});
   }
+  const std::map<std::string, std::vector<double>>& errors() const { return errors_.nodal(); }
 
   double energy_residual() {
     return energy_.at(solver_.balance(), solver_.audit()).relative_residual;
@@ -248,6 +250,15 @@ void advance(const run::Case& setup,
   }
 }
 
+/// Leaves word that a run is under way here: until it is over, no one takes what lies in its folder
+/// for a result.
+void announce(const RunOptions& options, io::RunSummary summary) {
+  if (options.directory.empty()) return;
+  summary.status = "running";
+  io::write_file_atomically((std::filesystem::path(options.directory) / "summary.json").string(),
+                            io::to_json(summary));
+}
+
 void write_record(const run::Case& setup, const RunOptions& options, const RunResult& result) {
   if (options.directory.empty()) return;
   const std::filesystem::path directory = options.directory;
@@ -309,8 +320,10 @@ RunResult run_case(const run::Case& setup, const RunOptions& options) {
   s.integrator = setup.time.integrator;
   s.unknowns_per_node = solver->unknowns_per_node();
   s.provenance = provenance(setup.hash);
+  s.provenance.input_hash = input_hash(setup, options.measures);
   describe_graph(result.graph, s);
   Recorder recorder(setup, options, *solver, result);
+  announce(options, s);
   s.setup_seconds = seconds_since(start);
   const auto finish = [&] {
     s.stages = s.steps * solver->evaluations_per_step();
@@ -323,6 +336,9 @@ RunResult run_case(const run::Case& setup, const RunOptions& options) {
     }
     s.state_hash = solver->state_hash(result.mesh.order);
     recorder.fill(s);
+    if (s.status == "done")
+      s.measures =
+          measured(options.measures, {result.graph, result.final_state, recorder.errors()});
     write_record(setup, options, result);
   };
   try {

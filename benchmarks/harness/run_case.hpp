@@ -2,6 +2,7 @@
 /// One run of one method on one level of a case: mesh, graph, solver, output, summary.
 
 #include "benchmarks/harness/case_mesh.hpp"
+#include "benchmarks/harness/node_measures.hpp"
 #include "common/io/run_record.hpp"
 #include "common/run/case.hpp"
 #include "common/run/solver.hpp"
@@ -15,10 +16,11 @@ namespace diptych::harness {
 struct RunOptions {
   std::string method = "fvm";
   int level = 0;
-  int threads = 0;        ///< 0: all processors
-  std::string directory;  ///< of this run; empty: nothing is written
-  bool fields = true;     ///< write field frames (besides output.fields of the case)
-  bool quiet = false;     ///< no progress
+  int threads = 0;                    ///< 0: all processors
+  std::string directory;              ///< of this run; empty: nothing is written
+  bool fields = true;                 ///< write field frames (besides output.fields of the case)
+  bool quiet = false;                 ///< no progress
+  std::vector<NodeMeasure> measures;  ///< of the final state, for summary.json
 };
 
 struct RunResult {

@@ -1,5 +1,6 @@
 #include "benchmarks/harness/study.hpp"
 
+#include "benchmarks/harness/resumption.hpp"
 #include "common/base/text.hpp"
 #include "common/run/exact_errors.hpp"
 
@@ -47,11 +48,20 @@ Study run_study(const run::Case& setup, const StudyOptions& options) {
       run_options.directory = run_directory(options, level, method);
       run_options.fields = options.fields;
       run_options.quiet = options.quiet;
+      const auto finished = options.resume ? finished_run(setup, run_options) : std::nullopt;
+      study.directories.push_back(run_options.directory);
+      if (finished) {
+        study.runs.push_back(finished->summary);
+        study.histories[method] = finished->history;
+        study.taken_over.push_back(run_options.directory);
+        continue;
+      }
       results.push_back(run_case(setup, run_options));
       study.runs.push_back(results.back().summary);
       study.histories[method] = results.back().history;
       if (interrupt_requested()) return study;
     }
+    study.differences.clear();  // of the finest level only, and only where both were run now
     if (results.size() == 2) study.differences = differences_of(results[0], results[1]);
   }
   return study;

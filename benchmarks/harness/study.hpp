@@ -17,11 +17,14 @@ struct StudyOptions {
   std::string directory;  ///< runs go to DIR/<method> (one level) or DIR/level_<L>/<method>
   bool fields = true;
   bool quiet = false;
+  bool resume = false;  ///< runs that the same program has finished there are taken over
 };
 
 struct Study {
   std::vector<io::RunSummary> runs;  ///< level by level, methods in the order of the options
   std::map<std::string, std::vector<io::HistoryRow>> histories;  ///< method: finest level
+  std::vector<std::string> directories;                          ///< of each run
+  std::vector<std::string> taken_over;                           ///< directories of such runs
   std::map<std::string, double> differences;  ///< field: relative L2 at the nodes, finest level
 };
 

@@ -249,6 +249,27 @@ std::vector<HistoryRow> history_from_csv(const std::string& text, const std::str
   return rows;
 }
 
+std::vector<HistoryColumn> history_columns_from_csv(const std::string& text,
+                                                    const std::string& path) {
+  CsvReader file(text, path);
+  const std::vector<std::string> header = checked_header(file);
+  std::vector<HistoryColumn> columns;
+  for (const std::string& title : header) {
+    const size_t bracket = title.rfind(" [");
+    const bool has_unit = bracket != std::string::npos && title.back() == ']';
+    columns.push_back({title.substr(0, has_unit ? bracket : title.npos),
+                       has_unit ? title.substr(bracket + 2, title.size() - bracket - 3) : "-",
+                       {}});
+  }
+  while (!file.at_end()) {
+    const std::vector<std::string> cells = file.record();
+    RowReader reader(file, header, cells);
+    for (HistoryColumn& column : columns)
+      column.values.push_back(reader.number());
+  }
+  return columns;
+}
+
 std::vector<std::string> probe_names_from_csv(const std::string& text, const std::string& path) {
   CsvReader file(text, path);
   std::vector<std::string> header = checked_header(file);

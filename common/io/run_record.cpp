@@ -50,7 +50,8 @@ Json provenance_json(const Provenance& provenance) {
   return {{"version", provenance.version},   {"commit", provenance.commit},
           {"compiler", provenance.compiler}, {"flags", provenance.flags},
           {"cpu", provenance.cpu},           {"instruction_set", provenance.instruction_set},
-          {"date", provenance.date},         {"case_hash", provenance.case_hash}};
+          {"date", provenance.date},         {"case_hash", provenance.case_hash},
+          {"program", provenance.program},   {"input_hash", provenance.input_hash}};
 }
 
 /// An object of the file under its dotted name, so that each complaint can say where it is.
@@ -198,6 +199,8 @@ Provenance read_provenance(const Section& section) {
   provenance.instruction_set = section.text("instruction_set");
   provenance.date = section.text("date");
   provenance.case_hash = section.text("case_hash");
+  provenance.program = section.text("program");
+  provenance.input_hash = section.text("input_hash");
   return provenance;
 }
 
@@ -253,6 +256,9 @@ void read_quality(const Section& file, RunSummary& summary) {
     const Section norms = errors.section(field);
     summary.errors[field] = {norms.number("l1"), norms.number("l2"), norms.number("linf")};
   }
+  const Section measures = file.section("measures");
+  for (const std::string& name : measures.keys())
+    summary.measures[name] = measures.number(name.c_str());
   summary.energy = read_energy(file.section("energy"));
   const Section momentum = file.section("momentum");
   summary.linear_momentum_drift = momentum.number("linear_drift");
@@ -274,6 +280,9 @@ std::string to_json(const RunSummary& summary) {
   Json quantities = Json::object();
   for (const QuantitySummary& quantity : summary.quantities)
     quantities[quantity.name] = quantity_json(quantity);
+  Json measures = Json::object();
+  for (const auto& [name, value] : summary.measures)
+    measures[name] = value;
   const Json file = {
       {"method", summary.method},
       {"case", summary.case_name},
@@ -302,6 +311,7 @@ std::string to_json(const RunSummary& summary) {
       {"graph",
        {{"closure", summary.graph_closure}, {"linear_exactness", summary.graph_linear_exactness}}},
       {"errors", errors},
+      {"measures", measures},
       {"energy", energy_json(summary.energy)},
       {"momentum",
        {{"linear_drift", summary.linear_momentum_drift},

@@ -24,6 +24,8 @@ struct EnergySummary {
 
 struct Provenance {
   std::string version, commit, compiler, flags, cpu, instruction_set, date, case_hash;
+  std::string program;     ///< hash of the executable that ran
+  std::string input_hash;  ///< of case, overrides, mesh file and measures
 };
 
 /// A quantity of interest over a run. Extremes are those of the recorded instants.
@@ -54,7 +56,8 @@ struct RunSummary {
   double mean_neighbours = 0;
   double graph_closure = 0, graph_linear_exactness = 0;
   std::map<std::string, ErrorNorms>
-      errors;  ///< velocity, displacement, deformation_gradient, stress
+      errors;                              ///< velocity, displacement, deformation_gradient, stress
+  std::map<std::string, double> measures;  ///< asked for by who started the run, at its end
   EnergySummary energy;
   double linear_momentum_drift = 0, angular_momentum_drift = 0;  ///< largest over the output times
   double involution_H = 0, involution_J = 0;  ///< largest |H - cof F|, |J - det F| over them
@@ -106,5 +109,16 @@ std::string steps_csv(const std::vector<StepRow>& rows,
 
 /// Names of the probe columns, in the order of HistoryRow::probes.
 std::vector<std::string> probe_names_from_csv(const std::string& text, const std::string& path);
+
+/// A column of history.csv: "kinetic energy [J]" has the name "kinetic energy" and the unit "J".
+struct HistoryColumn {
+  std::string name, unit;  ///< unit "-" where there is none
+  std::vector<double> values;
+};
+
+/// Every column of the file, whatever their names.
+/// @throws base::InputError on malformed text and on what is no finite number
+std::vector<HistoryColumn> history_columns_from_csv(const std::string& text,
+                                                    const std::string& path);
 
 }  // namespace diptych::io

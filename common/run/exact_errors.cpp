@@ -49,6 +49,8 @@ void ExactErrors::measure_field(const std::string& name,
                                 const Field& rest) {
   if (exact.empty() || exact[0].empty() || fields.empty()) return;
   Norms& norms = norms_[name];
+  std::vector<double>& nodal = nodal_[name];
+  nodal.assign(graph_.X.size(), 0.0);
   io::ErrorNorms e, f;
   for (std::int64_t a = 0; a < graph_.n_nodes(); ++a) {
     double d = 0, v = 0;
@@ -56,6 +58,7 @@ void ExactErrors::measure_field(const std::string& name,
       d = std::hypot(d, size_of(Field(fields[part][a] - exact[part][a])));
       v = std::hypot(v, size_of(Field(exact[part][a] - rest)));
     }
+    nodal[a] = d;
     const double Omega = graph_.Omega[a];
     e.l1 += Omega * d;
     e.l2 += Omega * d * d;

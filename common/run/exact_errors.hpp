@@ -26,6 +26,8 @@ class ExactErrors {
   void measure(const Snapshot& snapshot);
   /// Norms of the last snapshot by field name, relative to the scales seen so far.
   std::map<std::string, io::ErrorNorms> relative() const;
+  /// Size of the error at each node in the last snapshot by field name, absolute.
+  const std::map<std::string, std::vector<double>>& nodal() const { return nodal_; }
 
  private:
   struct Norms {
@@ -43,6 +45,7 @@ class ExactErrors {
   const scheme::PairGraph& graph_;
   const Solver& solver_;
   std::map<std::string, Norms> norms_;
+  std::map<std::string, std::vector<double>> nodal_;
 };
 
 /// L2 norm over nodes of the difference of two fields relative to the larger of their own norms.

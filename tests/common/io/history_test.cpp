@@ -48,6 +48,17 @@ TEST(History, IsReadBackBitForBit) {
   EXPECT_EQ(probe_names_from_csv(text, "history.csv"), names);
 }
 
+TEST(History, IsReadAsColumnsOfAnyName) {
+  const auto columns = history_columns_from_csv(history_csv(rows(), names), "history.csv");
+  ASSERT_EQ(columns.size(), 20u);
+  EXPECT_EQ(columns[0].name, "time");
+  EXPECT_EQ(columns[0].unit, "s");
+  EXPECT_EQ(columns[1].unit, "-") << "the number of the step";
+  EXPECT_EQ(columns[19].name, "v at (0, 0, \"top\")");
+  EXPECT_EQ(columns[19].unit, "m/s");
+  EXPECT_EQ(columns[18].values, (std::vector<double>{1.25, 1.25}));
+}
+
 TEST(History, HeaderNamesUnits) {
   EXPECT_THAT(history_csv({}, {}), StartsWith("time [s],step,dt [s],kinetic energy [J],"));
   EXPECT_TRUE(history_from_csv(history_csv({}, {}), "history.csv").empty());

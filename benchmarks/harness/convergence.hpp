@@ -1,0 +1,59 @@
+#pragma once
+/// A study of refinement as numbers that people script against: every quantity on every level,
+/// observed orders, extrapolated values, error bars; as text for a terminal, CSV and LaTeX.
+/// Test: tests/report/convergence_test.cpp
+
+#include "common/io/run_record.hpp"
+#include "postprocess/report/grid_convergence.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace diptych::harness {
+
+/// A run and what its history.csv holds.
+struct LevelRecord {
+  io::RunSummary summary;
+  std::vector<io::HistoryColumn> history;
+};
+
+/// A scalar at the final time, or the norm of an error, on the levels of one method.
+struct Quantity {
+  std::string name, unit;
+  bool is_error = false;
+  std::vector<double> values;  ///< coarse to fine; NaN where a level has none
+};
+
+struct MethodConvergence {
+  std::string method, case_name;
+  std::vector<io::RunSummary> levels;  ///< coarse to fine; finished runs only
+  std::vector<Quantity> errors;        ///< L1, L2, Linf of each field
+  std::vector<Quantity> scalars;       ///< those that are zero on every level are left out
+  std::vector<std::string> zero;       ///< their names
+};
+
+/// @param wanted  names of columns of the history, without units; empty: energies, least J, and
+///                all that the case adds (probes); "all": every column
+/// @throws base::InputError on a name that no column has
+std::vector<MethodConvergence> convergence_of(const std::vector<LevelRecord>& records,
+                                              const std::vector<std::string>& wanted);
+
+/// What the levels up to `level` (an index) say; nothing below three of them, or for errors.
+std::optional<report::GridConvergence> estimate(const MethodConvergence& study,
+                                                const Quantity& quantity,
+                                                size_t level);
+
+/// log(e_coarse/e_fine)/log(h_coarse/h_fine) of an error at `level` and the one before.
+double order_of_error(const MethodConvergence& study, const Quantity& quantity, size_t level);
+
+/// Scalars of one method for a terminal of 100 columns; empty where there are none.
+std::string quantity_table(const MethodConvergence& study);
+
+/// One line per method, quantity and level, with the order and the estimate of the levels so far.
+std::string convergence_csv(const std::vector<MethodConvergence>& studies);
+
+/// Two plain tabulars per method, of errors and of scalars; needs no package.
+std::string convergence_tex(const std::vector<MethodConvergence>& studies);
+
+}  // namespace diptych::harness
