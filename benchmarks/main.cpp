@@ -5,6 +5,7 @@
 #include "benchmarks/harness/material_report.hpp"
 #include "benchmarks/harness/run_table.hpp"
 #include "benchmarks/harness/study.hpp"
+#include "benchmarks/harness/study_verb.hpp"
 #include "benchmarks/harness/tables.hpp"
 #include "common/base/error.hpp"
 #include "common/base/registry.hpp"
@@ -33,7 +34,8 @@ struct Arguments {
   std::string path = "shear-oscillation", update = "gauss";
   harness::MaterialPath material;
   int level = 0, levels = 3, threads = 0;
-  bool quiet = false, no_fields = false;
+  bool quiet = false, no_fields = false, stability = false;
+  harness::StudyRequest study;
 };
 
 void print(const std::string& text) {
@@ -121,6 +123,19 @@ int converge_verb(const Arguments& arguments) {
   return exit_code_of_study();
 }
 
+int study_verb(const Arguments& arguments) {
+  harness::StudyRequest request = arguments.study;
+  request.case_file = harness::find_case(arguments.case_name);
+  request.overrides = arguments.overrides;
+  request.methods = methods_of(arguments.method);
+  request.level = arguments.level;
+  request.threads = arguments.threads;
+  request.quiet = arguments.quiet;
+  request.directory = directory_of(arguments, run::read_case(request.case_file));
+  harness::study_stability(request);
+  return exit_code_of_study();
+}
+
 int check_verb(const Arguments& arguments) {
   const run::Case setup = case_of(arguments);
   for (const std::string& method : methods_of(arguments.method)) {
@@ -188,6 +203,21 @@ void add_case_options(CLI::App* verb, Arguments& arguments, bool with_method) {
   verb->add_flag("--no-fields", arguments.no_fields, "write no field frames");
 }
 
+void add_study_options(CLI::App* verb, Arguments& arguments) {
+  add_case_options(verb, arguments, true);
+  verb->add_option("--vary", arguments.study.variations,
+                   "KEY=VALUE,VALUE: a run for every value, all combinations; repeatable")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  verb->add_flag("--stability", arguments.stability,
+                 "find the largest stable time step by bisection");
+  verb->add_option("--integrators", arguments.study.integrators,
+                   "with --stability: leapfrog,ssp-rk2,ssp-rk3 (default all)")
+      ->delimiter(',');
+  verb->add_option("--steps", arguments.study.stability.n_steps,
+                   "with --stability: of a trial (default 1000)");
+}
+
 void add_material_options(CLI::App* verb, Arguments& arguments) {
   harness::MaterialPath& path = arguments.material;
   verb->add_option("case", arguments.case_name, "path of a case file, or a name of 'list'")
@@ -221,6 +251,8 @@ int dispatch(int argc, char** argv) {
   auto* converge = app.add_subcommand("converge", "run levels, print errors and observed orders");
   add_case_options(converge, arguments, true);
   converge->add_option("--levels", arguments.levels, "number of levels, from --level on");
+  auto* study = app.add_subcommand("study", "stability limits of a case and its variants");
+  add_study_options(study, arguments);
   auto* check = app.add_subcommand("check", "read a case, build its graphs and make one step");
   add_case_options(check, arguments, true);
   auto* material = app.add_subcommand(
@@ -240,6 +272,7 @@ int dispatch(int argc, char** argv) {
   if (run->parsed()) return run_verb(arguments);
   if (compare->parsed()) return compare_verb(arguments);
   if (converge->parsed()) return converge_verb(arguments);
+  if (study->parsed()) return study_verb(arguments);
   if (check->parsed()) return check_verb(arguments);
   if (material->parsed()) return material_verb(arguments);
   if (list->parsed()) return list_verb();

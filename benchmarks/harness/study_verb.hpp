@@ -1,0 +1,26 @@
+#pragma once
+/// What `diptych study` does: stability limits, or error against cost, of a case and its variants.
+
+#include "benchmarks/harness/stability.hpp"
+
+#include <string>
+#include <vector>
+
+namespace diptych::harness {
+
+struct StudyRequest {
+  std::string case_file;
+  std::vector<std::string> overrides, variations;  ///< of --set and --vary
+  std::vector<std::string> methods;
+  std::vector<std::string> integrators;  ///< stability only; empty: all
+  int level = 0;
+  int threads = 0;
+  std::string directory;
+  bool quiet = false;
+  StabilityOptions stability;
+};
+
+/// Prints the table, writes DIR/stability.csv. Rows found before an interrupt are kept.
+void study_stability(const StudyRequest& request);
+
+}  // namespace diptych::harness
