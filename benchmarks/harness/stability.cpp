@@ -2,8 +2,8 @@
 
 #include "benchmarks/harness/run_case.hpp"
 #include "common/base/error.hpp"
+#include "common/run/default_cfl.hpp"
 #include "common/run/solver.hpp"
-#include "common/time/integrator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -117,7 +117,7 @@ StabilityLimit stability_limit(
   StabilityLimit result;
   result.integrator = integrator;
   result.nodes = graph.n_nodes();
-  result.default_cfl = time::integrator_menu().at(integrator).default_cfl;
+  result.default_cfl = run::default_cfl(setup, graph, time::integrator_menu().at(integrator));
   setup.time.integrator = integrator;
   const auto stable = [&](double cfl) {
     setup.time.cfl = cfl;

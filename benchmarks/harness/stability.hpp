@@ -45,7 +45,7 @@ struct StabilityLimit {
   std::string variant, method, integrator;
   std::int64_t nodes = 0;
   double limit = 0;        ///< 0: none found, `why` says what happened
-  double default_cfl = 0;  ///< of the integrator
+  double default_cfl = 0;  ///< of the integrator on this graph
   double dt = 0;           ///< s, first step at the limit
   std::string why;
   double ratio() const { return limit > 0 ? default_cfl / limit : 0; }

@@ -1,5 +1,7 @@
 #include "common/run/model_menu.hpp"
 
+#include "common/run/default_cfl.hpp"
+
 #include <fmt/format.h>
 
 namespace diptych::run {
@@ -64,7 +66,9 @@ scheme::AppliedBoundary boundary_of(const Case& setup, const scheme::PairGraph& 
   return {graph, std::move(conditions), body_force, setup.body_force.depends_on_time()};
 }
 
-SolverSetup solver_setup_of(const Case& setup, const scheme::AppliedBoundary& boundary) {
+SolverSetup solver_setup_of(const Case& setup,
+                            const scheme::PairGraph& graph,
+                            const scheme::AppliedBoundary& boundary) {
   using namespace scheme;
   const auto unknowns = base::Registry<Unknowns>("scheme.unknowns")
                             .add("F", Unknowns::F)
@@ -86,7 +90,7 @@ SolverSetup solver_setup_of(const Case& setup, const scheme::AppliedBoundary& bo
   s.face_correction = setup.scheme.face_correction;
   s.unknowns = unknowns.at(setup.scheme.unknowns);
   s.integrator = time::integrator_menu().at(setup.time.integrator);
-  s.cfl = setup.time.cfl > 0 ? setup.time.cfl : s.integrator.default_cfl;
+  s.cfl = setup.time.cfl > 0 ? setup.time.cfl : default_cfl(setup, graph, s.integrator);
   s.angular_momentum_projection = setup.scheme.angular_momentum_projection;
   if (s.angular_momentum_projection && boundary.has_constraints()) {
     throw base::InputError(
@@ -103,7 +107,7 @@ SolverSetup solver_setup_of(const Case& setup, const scheme::AppliedBoundary& bo
 std::unique_ptr<Solver> make_solver(const Case& setup, const scheme::PairGraph& graph) {
   const SolverMaker maker = model_menu().at(setup.material.model);
   scheme::AppliedBoundary boundary = boundary_of(setup, graph);
-  SolverSetup solver_setup = solver_setup_of(setup, boundary);
+  SolverSetup solver_setup = solver_setup_of(setup, graph, boundary);
   return maker(setup, graph, std::move(solver_setup), std::move(boundary));
 }
 
