@@ -3,6 +3,7 @@
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_list.hpp"
 #include "benchmarks/harness/material_report.hpp"
+#include "benchmarks/harness/option_costs.hpp"
 #include "benchmarks/harness/run_table.hpp"
 #include "benchmarks/harness/study.hpp"
 #include "benchmarks/harness/study_verb.hpp"
@@ -132,7 +133,21 @@ int study_verb(const Arguments& arguments) {
   request.threads = arguments.threads;
   request.quiet = arguments.quiet;
   request.directory = directory_of(arguments, run::read_case(request.case_file));
-  harness::study_stability(request);
+  if (arguments.stability)
+    harness::study_stability(request);
+  else
+    harness::study_work_precision(request);
+  return exit_code_of_study();
+}
+
+int cost_verb(const Arguments& arguments) {
+  const auto table = harness::measure_option_costs(20, 12, arguments.quiet);
+  print(harness::cost_text(table));
+  const std::string folder = arguments.directory.empty() ? "results" : arguments.directory;
+  io::make_directory(folder);
+  const std::string file = (std::filesystem::path(folder) / "option_costs.csv").string();
+  io::write_file_atomically(file, harness::cost_csv(table));
+  print("output: " + file + "\n");
   return exit_code_of_study();
 }
 
@@ -209,6 +224,9 @@ void add_study_options(CLI::App* verb, Arguments& arguments) {
                    "KEY=VALUE,VALUE: a run for every value, all combinations; repeatable")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  verb->add_option("--levels", arguments.study.n_levels, "number of levels, from --level on");
+  verb->add_option("--repeats", arguments.study.repeats, "timings of every run (default 3)");
+  verb->add_option("--field", arguments.study.field, "whose error is shown, such as stress");
   verb->add_flag("--stability", arguments.stability,
                  "find the largest stable time step by bisection");
   verb->add_option("--integrators", arguments.study.integrators,
@@ -251,13 +269,17 @@ int dispatch(int argc, char** argv) {
   auto* converge = app.add_subcommand("converge", "run levels, print errors and observed orders");
   add_case_options(converge, arguments, true);
   converge->add_option("--levels", arguments.levels, "number of levels, from --level on");
-  auto* study = app.add_subcommand("study", "stability limits of a case and its variants");
+  auto* study = app.add_subcommand(
+      "study", "error against cost of a case and its variants, or stability limits");
   add_study_options(study, arguments);
   auto* check = app.add_subcommand("check", "read a case, build its graphs and make one step");
   add_case_options(check, arguments, true);
   auto* material = app.add_subcommand(
       "material", "strain the case's material alone: stresses, loops, loss of hyperbolicity");
   add_material_options(material, arguments);
+  auto* cost = app.add_subcommand("cost", "what each option of the scheme costs per stage");
+  cost->add_option("--out", arguments.directory, "output folder (default results)");
+  cost->add_flag("--quiet", arguments.quiet, "no progress");
   auto* list = app.add_subcommand("list", "shipped cases");
   auto* explain = app.add_subcommand("explain", "what a key of a case file means");
   explain->add_option("key", arguments.key, "such as mesh.cells; 'all' prints the reference page")
@@ -275,6 +297,7 @@ int dispatch(int argc, char** argv) {
   if (study->parsed()) return study_verb(arguments);
   if (check->parsed()) return check_verb(arguments);
   if (material->parsed()) return material_verb(arguments);
+  if (cost->parsed()) return cost_verb(arguments);
   if (list->parsed()) return list_verb();
   if (explain->parsed()) return explain_verb(arguments);
   return 0;

@@ -5,11 +5,15 @@
 #include "benchmarks/harness/run_case.hpp"
 #include "benchmarks/harness/status_line.hpp"
 #include "benchmarks/harness/variants.hpp"
+#include "benchmarks/harness/work_precision.hpp"
+#include "common/base/error.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/io/run_record.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/time/integrator.hpp"
+#include "postprocess/report/orders.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
@@ -84,6 +88,97 @@ void study_stability(const StudyRequest& asked) {
                     cases.front().name, request.level));
   print(stability_table(limits));
   write(request, "stability.csv", stability_csv(limits));
+}
+
+namespace {
+
+/// Adds a repetition of one level to a curve. @return false after an interrupt
+bool add_run(const run::Case& setup, const RunOptions& options, bool first, WorkCurve& curve) {
+  const io::RunSummary run = run_case(setup, options).summary;
+  if (interrupt_requested()) return false;
+  if (first) {
+    curve.points.push_back({run, run.loop_seconds, run.loop_seconds, setup.scheme.face_correction});
+    return true;
+  }
+  WorkPoint& point = curve.points.back();
+  point.most = std::max(point.most, run.loop_seconds);
+  if (run.loop_seconds < point.least) {
+    point.least = run.loop_seconds;
+    point.run = run;
+  }
+  return true;
+}
+
+/// The field to show: the one asked for, or the first of the case.
+std::string field_of(const StudyRequest& request, const io::RunSummary& run) {
+  const std::vector<std::string> fields = report::fields_of({run});
+  if (fields.empty()) {
+    throw base::InputError(run.case_name +
+                           " has no exact solution to measure errors against; study a case with "
+                           "[exact] or [manufactured]");
+  }
+  if (request.field.empty()) return fields.front();
+  if (std::find(fields.begin(), fields.end(), request.field) == fields.end()) {
+    throw base::InputError("--field " + request.field + " is not measured" +
+                           base::suggestion(request.field, fields));
+  }
+  return request.field;
+}
+
+/// All levels of all curves. The first run, the shortest, sets the field and makes the folder.
+void measure(const StudyRequest& request,
+             const std::vector<run::Case>& cases,
+             std::string& field,
+             std::vector<WorkCurve>& curves) {
+  StatusLine status(request.quiet);
+  RunOptions options;
+  options.threads = request.threads;
+  options.fields = false;
+  options.quiet = true;
+  for (options.level = request.level; options.level < request.level + request.n_levels;
+       ++options.level) {
+    for (int repetition = 0; repetition < request.repeats; ++repetition) {
+      for (size_t i = 0; i < curves.size(); ++i) {
+        options.method = curves[i].method;
+        const run::Case& setup = cases[i / request.methods.size()];
+        status.show(fmt::format("{} level {}, repetition {} of {}", curves[i].name(), options.level,
+                                repetition + 1, request.repeats));
+        if (!add_run(setup, options, repetition == 0, curves[i])) return;
+        if (!field.empty()) continue;
+        field = field_of(request, curves[i].points.back().run);
+        io::make_directory(request.directory);  // now that nothing is wrong with what was asked
+      }
+    }
+    status.keep(fmt::format("level {} done: {} runs", options.level,
+                            request.repeats * static_cast<int>(curves.size())));
+  }
+}
+
+}  // namespace
+
+void study_work_precision(const StudyRequest& request) {
+  if (request.n_levels < 1) throw base::InputError("--levels must be 1 or more");
+  if (request.repeats < 1) throw base::InputError("--repeats must be 1 or more");
+  std::vector<run::Case> cases;
+  std::vector<WorkCurve> curves;
+  for (const Variant& variant : variants_of(request.variations)) {
+    cases.push_back(case_of_variant(request.case_file, request.overrides, variant));
+    for (const std::string& method : request.methods)
+      curves.push_back({variant.label, method, {}});
+  }
+  std::string field;
+  measure(request, cases, field, curves);
+  curves.erase(std::remove_if(curves.begin(), curves.end(),
+                              [](const WorkCurve& curve) { return curve.points.empty(); }),
+               curves.end());
+  if (curves.empty()) return;  // interrupted in the first run
+  const auto machine = probes::measure_machine(request.threads);
+  const std::string title =
+      fmt::format("Work and precision: {}",
+                  cases.front().title.empty() ? cases.front().name : cases.front().title);
+  print(cases.front().name + "\n" + work_precision_table(curves, field, machine));
+  write(request, "work_precision.csv", work_precision_csv(curves));
+  write(request, "work_precision.html", work_precision_html(title, curves, field, machine));
 }
 
 }  // namespace diptych::harness

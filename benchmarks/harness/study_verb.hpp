@@ -13,7 +13,9 @@ struct StudyRequest {
   std::vector<std::string> overrides, variations;  ///< of --set and --vary
   std::vector<std::string> methods;
   std::vector<std::string> integrators;  ///< stability only; empty: all
-  int level = 0;
+  int level = 0;                         ///< the first
+  int n_levels = 3, repeats = 3;         ///< work-precision only
+  std::string field;  ///< whose error is shown; empty: the first that the case measures
   int threads = 0;
   std::string directory;
   bool quiet = false;
@@ -22,5 +24,10 @@ struct StudyRequest {
 
 /// Prints the table, writes DIR/stability.csv. Rows found before an interrupt are kept.
 void study_stability(const StudyRequest& request);
+
+/// Prints the table, writes DIR/work_precision.csv and DIR/work_precision.html. Repetitions go
+/// round the curves, so that a slow minute of the machine hits all of them.
+/// @throws base::InputError where the case has no exact solution
+void study_work_precision(const StudyRequest& request);
 
 }  // namespace diptych::harness
