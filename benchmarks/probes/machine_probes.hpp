@@ -2,8 +2,9 @@
 /// What this machine can do, measured: memory bandwidth (triad a = b + s c over arrays larger than
 /// the last-level cache, 24 bytes counted per element in double) and the peak of fused
 /// multiply-adds (independent chains in registers, with the instruction set that the sweeps use),
-/// in double and float, with one thread and with all. Speeds of the code are given as fractions of
-/// these, from the same run. Test: tests/harness/machine_probes_test.cpp
+/// in double and float, with one thread (its processor time) and with all (time of the wall).
+/// Speeds of the code are given as fractions of these, from the same run. Test:
+/// tests/harness/machine_probes_test.cpp
 
 #include <cstdint>
 #include <string>
