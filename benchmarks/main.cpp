@@ -4,8 +4,10 @@
 #include "benchmarks/harness/case_list.hpp"
 #include "benchmarks/harness/convergence.hpp"
 #include "benchmarks/harness/material_report.hpp"
+#include "benchmarks/harness/option_costs.hpp"
 #include "benchmarks/harness/run_table.hpp"
 #include "benchmarks/harness/study.hpp"
+#include "benchmarks/harness/study_verb.hpp"
 #include "benchmarks/harness/tables.hpp"
 #include "benchmarks/harness/verification.hpp"
 #include "common/base/error.hpp"
@@ -38,7 +40,8 @@ struct Arguments {
   bool quiet = false, no_fields = false, fresh = false;
   std::vector<std::string> quantities, tables;
   std::string page;
-  bool check = false, quick = false;
+  bool check = false, quick = false, stability = false;
+  harness::StudyRequest study;
 };
 
 void print(const std::string& text) {
@@ -191,6 +194,33 @@ int verify_verb(const Arguments& arguments) {
   return 0;
 }
 
+int study_verb(const Arguments& arguments) {
+  harness::StudyRequest request = arguments.study;
+  request.case_file = harness::find_case(arguments.case_name);
+  request.overrides = arguments.overrides;
+  request.methods = methods_of(arguments.method);
+  request.level = arguments.level;
+  request.threads = arguments.threads;
+  request.quiet = arguments.quiet;
+  request.directory = directory_of(arguments, run::read_case(request.case_file));
+  if (arguments.stability)
+    harness::study_stability(request);
+  else
+    harness::study_work_precision(request);
+  return exit_code_of_study();
+}
+
+int cost_verb(const Arguments& arguments) {
+  const auto table = harness::measure_option_costs(20, 12, arguments.quiet);
+  print(harness::cost_text(table));
+  const std::string folder = arguments.directory.empty() ? "results" : arguments.directory;
+  io::make_directory(folder);
+  const std::string file = (std::filesystem::path(folder) / "option_costs.csv").string();
+  io::write_file_atomically(file, harness::cost_csv(table));
+  print("output: " + file + "\n");
+  return exit_code_of_study();
+}
+
 int check_verb(const Arguments& arguments) {
   const run::Case setup = case_of(arguments);
   for (const std::string& method : methods_of(arguments.method)) {
@@ -258,6 +288,24 @@ void add_case_options(CLI::App* verb, Arguments& arguments, bool with_method) {
   verb->add_flag("--no-fields", arguments.no_fields, "write no field frames");
 }
 
+void add_study_options(CLI::App* verb, Arguments& arguments) {
+  add_case_options(verb, arguments, true);
+  verb->add_option("--vary", arguments.study.variations,
+                   "KEY=VALUE,VALUE: a run for every value, all combinations; repeatable")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  verb->add_option("--levels", arguments.study.n_levels, "number of levels, from --level on");
+  verb->add_option("--repeats", arguments.study.repeats, "timings of every run (default 3)");
+  verb->add_option("--field", arguments.study.field, "whose error is shown, such as stress");
+  verb->add_flag("--stability", arguments.stability,
+                 "find the largest stable time step by bisection");
+  verb->add_option("--integrators", arguments.study.integrators,
+                   "with --stability: leapfrog,ssp-rk2,ssp-rk3 (default all)")
+      ->delimiter(',');
+  verb->add_option("--steps", arguments.study.stability.n_steps,
+                   "with --stability: of a trial (default 1000)");
+}
+
 void add_material_options(CLI::App* verb, Arguments& arguments) {
   harness::MaterialPath& path = arguments.material;
   verb->add_option("case", arguments.case_name, "path of a case file, or a name of 'list'")
@@ -309,11 +357,17 @@ int dispatch(int argc, char** argv) {
   verify->add_flag("--fresh", arguments.fresh, "run finished runs again too");
   verify->add_flag("--quick", arguments.quick, "without the finest level of each sequence");
   verify->add_flag("--quiet", arguments.quiet, "no progress");
+  auto* study = app.add_subcommand(
+      "study", "error against cost of a case and its variants, or stability limits");
+  add_study_options(study, arguments);
   auto* check = app.add_subcommand("check", "read a case, build its graphs and make one step");
   add_case_options(check, arguments, true);
   auto* material = app.add_subcommand(
       "material", "strain the case's material alone: stresses, loops, loss of hyperbolicity");
   add_material_options(material, arguments);
+  auto* cost = app.add_subcommand("cost", "what each option of the scheme costs per stage");
+  cost->add_option("--out", arguments.directory, "output folder (default results)");
+  cost->add_flag("--quiet", arguments.quiet, "no progress");
   auto* list = app.add_subcommand("list", "shipped cases");
   auto* explain = app.add_subcommand("explain", "what a key of a case file means");
   explain->add_option("key", arguments.key, "such as mesh.cells; 'all' prints the reference page")
@@ -329,8 +383,10 @@ int dispatch(int argc, char** argv) {
   if (compare->parsed()) return compare_verb(arguments);
   if (converge->parsed()) return converge_verb(arguments);
   if (verify->parsed()) return verify_verb(arguments);
+  if (study->parsed()) return study_verb(arguments);
   if (check->parsed()) return check_verb(arguments);
   if (material->parsed()) return material_verb(arguments);
+  if (cost->parsed()) return cost_verb(arguments);
   if (list->parsed()) return list_verb();
   if (explain->parsed()) return explain_verb(arguments);
   return 0;

@@ -70,6 +70,7 @@ struct InitialCase {
   std::optional<TensorExpression> deformation_gradient;
   std::shared_ptr<const Motion> motion;  ///< of [manufactured], or null
   bool relaxed = false;  ///< internal variables: "virgin" (A = S = I) or "relaxed" (at equilibrium)
+  double velocity_noise = 0;  ///< m/s, greatest random addition to v: not a key, for studies
 };
 
 /// [time]

@@ -1,5 +1,9 @@
 #include "common/run/model_menu.hpp"
 
+#include "common/run/default_cfl.hpp"
+
+#include "common/scheme/limiters/limiter_menu.hpp"
+
 #include <fmt/format.h>
 
 namespace diptych::run {
@@ -66,21 +70,22 @@ scheme::AppliedBoundary boundary_of(const Case& setup, const scheme::PairGraph& 
   return {graph, std::move(conditions), body_force, setup.body_force.depends_on_time()};
 }
 
-scheme::TimeStepRule time_step_of(const Case& setup, const SolverSetup& s) {
+scheme::TimeStepRule time_step_of(const Case& setup,
+                                  const scheme::PairGraph& graph,
+                                  const SolverSetup& s) {
   using scheme::Speeds;
   const auto speeds = base::Registry<Speeds>("time.speeds")
                           .add("exact", Speeds::exact)
                           .add("bound", Speeds::bound)
                           .add("linearised", Speeds::linearised);
-  const double cfl = setup.time.cfl > 0 ? setup.time.cfl : s.integrator.default_cfl;
-  return {.speeds = speeds.at(setup.time.speeds),
-          .cfl = cfl,
-          .damping_cfl = s.integrator.damping_cfl * cfl / s.integrator.default_cfl,
-          .frequency_factor = scheme::frequency_factor(s.face_correction),
-          .strength = s.dissipation_factor * scheme::strength_of(s.dissipation.limiter)};
+  const double cfl =
+      setup.time.cfl > 0 ? setup.time.cfl : default_cfl(setup, graph, s.integrator);
+  return {speeds.at(setup.time.speeds), cfl, scheme::frequency_factor(s.face_correction)};
 }
 
-SolverSetup solver_setup_of(const Case& setup, const scheme::AppliedBoundary& boundary) {
+SolverSetup solver_setup_of(const Case& setup,
+                            const scheme::PairGraph& graph,
+                            const scheme::AppliedBoundary& boundary) {
   using namespace scheme;
   const auto unknowns = base::Registry<Unknowns>("scheme.unknowns")
                             .add("F", Unknowns::F)
@@ -89,22 +94,17 @@ SolverSetup solver_setup_of(const Case& setup, const scheme::AppliedBoundary& bo
   const auto reconstruction = base::Registry<Reconstruction>("scheme.reconstruction")
                                   .add("none", Reconstruction::none)
                                   .add("linear", Reconstruction::linear);
-  const auto limiter = base::Registry<PairLimiter>("scheme.limiter")
-                           .add("none", PairLimiter::none)
-                           .add("barth-jespersen", PairLimiter::barth_jespersen)
-                           .add("venkatakrishnan", PairLimiter::venkatakrishnan)
-                           .add("sign-preserving", PairLimiter::sign_preserving);
   const auto impedance = base::Registry<Impedance>("scheme.impedance")
                              .add("isotropic", Impedance::isotropic)
                              .add("exact", Impedance::exact);
   SolverSetup s;
-  s.dissipation = {reconstruction.at(setup.scheme.reconstruction), limiter.at(setup.scheme.limiter),
+  s.dissipation = {reconstruction.at(setup.scheme.reconstruction), limiter_menu().at(setup.scheme.limiter),
                    impedance.at(setup.scheme.impedance)};
   s.dissipation_factor = setup.scheme.dissipation;
   s.face_correction = setup.scheme.face_correction;
   s.unknowns = unknowns.at(setup.scheme.unknowns);
   s.integrator = time::integrator_menu().at(setup.time.integrator);
-  s.time_step = time_step_of(setup, s);
+  s.time_step = time_step_of(setup, graph, s);
   s.angular_momentum_projection = setup.scheme.angular_momentum_projection;
   if (s.angular_momentum_projection && boundary.has_constraints()) {
     throw base::InputError(
@@ -121,7 +121,7 @@ SolverSetup solver_setup_of(const Case& setup, const scheme::AppliedBoundary& bo
 std::unique_ptr<Solver> make_solver(const Case& setup, const scheme::PairGraph& graph) {
   const SolverMaker maker = model_menu().at(setup.material.model);
   scheme::AppliedBoundary boundary = boundary_of(setup, graph);
-  SolverSetup solver_setup = solver_setup_of(setup, boundary);
+  SolverSetup solver_setup = solver_setup_of(setup, graph, boundary);
   return maker(setup, graph, std::move(solver_setup), std::move(boundary));
 }
 

@@ -66,6 +66,14 @@ void put_deformation(scheme::State<Dim>& state, std::int64_t a, const Mat3& F) {
   if (!state.J.empty()) state.J.at(a, 0) = X.J;
 }
 
+/// Uniform in [-1, 1), by position in a fixed sequence (splitmix64).
+double random_number(std::uint64_t position) {
+  std::uint64_t z = (position + 1) * 0x9e3779b97f4a7c15U;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
+}
+
 template <int Dim>
 void put_internal_variables(scheme::State<Dim>& state,
                             std::int64_t a,
@@ -105,6 +113,9 @@ void set_initial_state(const scheme::PairGraph& graph,
     for (int i = 0; i < Dim; ++i) {
       state.u.at(a, i) = u[a][i];
       state.v.at(a, i) = v[i];
+      if (initial.velocity_noise != 0) {
+        state.v.at(a, i) += initial.velocity_noise * random_number(Dim * a + i);
+      }
     }
     Mat3 F = initial.deformation_gradient ? (*initial.deformation_gradient)(graph.X[a], 0)
                                           : Mat3(Mat3::Identity() + gradients[a]);

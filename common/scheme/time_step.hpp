@@ -1,10 +1,9 @@
 #pragma once
 /// Largest stable time step (physics note 2.1), from the graph and the wave speeds:
 ///   dt = cfl / rate,  rate = max_a sum_b |C_ab| c_ab / (2 Omega_a),  c_ab = max(c_p,a, c_p,b),
-/// the Gershgorin bound of the dissipation operator, h/c on a line of nodes. Two things shorten it:
-/// the face correction raises the largest frequency (frequency_factor), and D_ab above its plain
-/// strength, by scheme.dissipation or by a slope limiter at work, the fastest damping.
-/// Relaxation does not enter (physics note 5). Tests: tests/common/scheme/time_step_test.cpp
+/// the Gershgorin bound of the dissipation operator, h/c on a line of nodes. The face correction raises
+/// the largest frequency and so shortens it (frequency_factor); what the dissipation allows is in
+/// the default cfl (run/default_cfl.hpp). Relaxation does not enter (physics note 5). Tests: tests/verification/time_step_test.cpp
 
 #include "common/physics/maxwell_branch.hpp"
 #include "common/physics/wave_speeds.hpp"
@@ -23,16 +22,11 @@ enum class Speeds {
 
 struct TimeStepRule {
   Speeds speeds = Speeds::exact;
-  double cfl = 1;               ///< for waves
-  double damping_cfl = 1;       ///< for the dissipation, over its strength
+  double cfl = 1;
   double frequency_factor = 1;  ///< of the face correction
-  double strength = 1;          ///< largest D_ab over its plain form
 
   /// Allowed dt times rate.
-  double limit() const {
-    const double waves = cfl / frequency_factor;
-    return strength > 0 ? algebra::smaller(waves, damping_cfl / strength) : waves;
-  }
+  double limit() const { return cfl / frequency_factor; }
 };
 
 /// max_a sum_b |C_ab| / (2 Omega_a)  [1/m]: rate per unit of speed.

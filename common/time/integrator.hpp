@@ -19,7 +19,6 @@ struct SspStage {
 struct Integrator {
   int order = 2;
   double default_cfl = 1;         ///< fraction of the graph bound 1 / rate (physics note 2.1)
-  double damping_cfl = 1;         ///< the same over the strength of D_ab, see scheme/time_step.hpp
   std::vector<SspStage> stages;   ///< empty: leapfrog
   bool gauss_relaxation = false;  ///< GEXP at the end of the step instead of LIN
 

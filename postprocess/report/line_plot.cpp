@@ -15,7 +15,8 @@ namespace {
 
 constexpr double panel_width = 460, panel_height = 340;
 constexpr double left = 78, right = 14, top = 56, bottom = 52;
-constexpr std::array colours{"#1f5fa8", "#c4501b", "#2d7d46", "#7a3e9d", "#555555"};
+constexpr std::array colours{"#1f5fa8", "#c4501b", "#2d7d46", "#7a3e9d",
+                             "#555555", "#b8860b", "#008b8b", "#d1408f"};
 
 struct Span {
   double least = std::numeric_limits<double>::infinity(), most = -least;
@@ -34,7 +35,8 @@ struct Scale {
   }
 };
 
-std::string tick_text(double value, double step) {
+std::string tick_text(double value, double step, bool logarithmic) {
+  if (logarithmic) return fmt::format("{:.4g}", std::pow(10.0, value));
   if (std::abs(value) < 1e-9 * step) return "0";
   return fmt::format("{:.4g}", value);
 }
@@ -60,12 +62,13 @@ std::string axes(const Panel& panel,
   const double floor = panel_height - bottom, end = origin + panel_width - right;
   for (const double tick : x_ticks) {
     svg += line(sx(tick), floor, sx(tick), top, "grid");
-    svg += text_at(sx(tick), floor + 16, "middle", tick_text(tick, x_ticks[1] - x_ticks[0]));
+    svg += text_at(sx(tick), floor + 16, "middle",
+                   tick_text(tick, x_ticks[1] - x_ticks[0], panel.logarithmic));
   }
   for (const double tick : y_ticks) {
     svg += line(origin + left, sy(tick), end, sy(tick), "grid");
-    svg +=
-        text_at(origin + left - 6, sy(tick) + 4, "end", tick_text(tick, y_ticks[1] - y_ticks[0]));
+    svg += text_at(origin + left - 6, sy(tick) + 4, "end",
+                   tick_text(tick, y_ticks[1] - y_ticks[0], panel.logarithmic));
   }
   svg += line(origin + left, floor, end, floor, "axis");
   svg += line(origin + left, floor, origin + left, top, "axis");
@@ -83,7 +86,29 @@ std::string polyline(const Curve& curve, const Scale& sx, const Scale& sy, const
   return fmt::format("<polyline points=\"{}\" stroke=\"{}\"/>\n", points, colour);
 }
 
-std::string panel_svg(const Panel& panel, double origin) {
+/// The panel with the logarithms of its values.
+Panel in_logarithms(Panel panel) {
+  for (Curve& curve : panel.curves) {
+    for (std::vector<double>* values : {&curve.x, &curve.y}) {
+      for (double& value : *values)
+        value = std::log10(value);  // of what is not positive: not finite, not drawn
+    }
+  }
+  return panel;
+}
+
+std::string points(const Curve& curve, const Scale& sx, const Scale& sy, const char* colour) {
+  std::string svg;
+  for (size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
+    if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) continue;
+    svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"/>\n",
+                       sx(curve.x[i]), sy(curve.y[i]), colour);
+  }
+  return svg;
+}
+
+std::string panel_svg(const Panel& given, double origin) {
+  const Panel panel = given.logarithmic ? in_logarithms(given) : given;
   Span x, y;
   for (const Curve& curve : panel.curves) {
     for (const double value : curve.x)
@@ -93,15 +118,17 @@ std::string panel_svg(const Panel& panel, double origin) {
   }
   if (!(x.least <= x.most) || !(y.least <= y.most))
     throw base::InputError("the plot '" + panel.title + "' has no finite point");
-  const auto x_ticks = round_ticks(x.least, x.most), y_ticks = round_ticks(y.least, y.most);
+  const auto ticks = panel.logarithmic ? logarithmic_ticks : round_ticks;
+  const auto x_ticks = ticks(x.least, x.most), y_ticks = ticks(y.least, y.most);
   const Scale sx{x_ticks.front(), x_ticks.back(), origin + left, origin + panel_width - right};
   const Scale sy{y_ticks.front(), y_ticks.back(), panel_height - bottom, top};
   std::string svg = axes(panel, origin, x_ticks, y_ticks, sx, sy);
   double legend = origin + panel_width - right;
   for (size_t i = 0; i < panel.curves.size(); ++i) {
     const Curve& curve = panel.curves[i];
-    const char* colour = colours[i % colours.size()];
+    const char* colour = curve_colour(i);
     svg += polyline(curve, sx, sy, colour);
+    if (panel.logarithmic) svg += points(curve, sx, sy, colour);
     if (curve.name.empty()) continue;
     svg += fmt::format("<g fill=\"{}\">{}</g>\n", colour,
                        text_at(legend, top - 10, "end", curve.name));
@@ -111,6 +138,28 @@ std::string panel_svg(const Panel& panel, double origin) {
 }
 
 }  // namespace
+
+const char* curve_colour(size_t number) {
+  return colours[number % colours.size()];
+}
+
+std::vector<double> logarithmic_ticks(double least, double most) {
+  const bool dense = most - least < 2.5;
+  std::vector<double> all;
+  for (double power = std::floor(least - 1e-9); power <= std::ceil(most + 1e-9); ++power) {
+    for (const double factor : {1.0, 2.0, 5.0}) {
+      if (factor == 1 || dense) all.push_back(power + std::log10(factor));
+    }
+  }
+  const auto inside = [&](double tick) { return tick >= least - 1e-9 && tick <= most + 1e-9; };
+  std::vector<double> ticks;  // those inside and the nearest outside
+  for (size_t i = 0; i < all.size(); ++i) {
+    const bool below = i + 1 < all.size() && all[i] < least - 1e-9 && all[i + 1] > least - 1e-9;
+    const bool above = i > 0 && all[i] > most + 1e-9 && all[i - 1] < most + 1e-9;
+    if (inside(all[i]) || below || above) ticks.push_back(all[i]);
+  }
+  return ticks;
+}
 
 std::vector<double> round_ticks(double least, double most) {
   const double size = std::max(std::abs(least), std::abs(most));

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <gmock/gmock.h>
 
 namespace diptych {
@@ -93,6 +94,30 @@ TEST(Verbs, CompareAndConvergeWriteAReport) {
   EXPECT_THAT(converged.text, HasSubstr("ord."));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "b" / "report.html"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "b" / "level_1" / "sph" / "summary.json"));
+}
+
+TEST(Verbs, StudySetsErrorAgainstCost) {
+  const Folder folder;
+  const auto outcome = diptych(folder,
+                               "study swinging-cube-elastic-hex --levels 2 --repeats 1 --quiet "
+                               "--threads 1 --vary scheme.face_correction=0,1/6 --out out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr("Gflop/s"), HasSubstr("seconds at equal error"),
+                                  HasSubstr("SPH face_correction=1/6")));
+  EXPECT_THAT(text_of(folder.path() / "out" / "work_precision.html"), HasSubstr("<svg"));
+  const std::string csv = text_of(folder.path() / "out" / "work_precision.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 2 * 2);
+}
+
+TEST(Verbs, StudyFindsStabilityLimits) {
+  const Folder folder;
+  const auto outcome = diptych(folder,
+                               "study cable-smooth --stability --integrators leapfrog --quiet "
+                               "--steps 200 --threads 1 --out out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr("default/limit"), HasSubstr("leapfrog")));
+  const std::string csv = text_of(folder.path() / "out" / "stability.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2);
 }
 
 TEST(Verbs, EveryShippedCaseIsListedAndSound) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <gmock/gmock.h>
+#include <cmath>
 #include <limits>
 
 namespace diptych::report {
@@ -41,6 +42,21 @@ TEST(SvgPlot, LeavesOutWhatIsNotFiniteAndRefusesNothingAtAll) {
   EXPECT_EQ(svg_plot("t", {{"p", "x", "y", {{"", {0, 1, 2}, {0, nan, 1}}}}}).find("nan"),
             std::string::npos);
   EXPECT_THROW(svg_plot("t", {{"p", "x", "y", {{"", {0}, {nan}}}}}), base::InputError);
+}
+
+TEST(LogarithmicTicks, SpanTheValuesWithRoundOnes) {
+  const auto powers = [](const std::vector<double>& ticks) {
+    std::vector<double> values;
+    for (const double tick : ticks)
+      values.push_back(std::pow(10, tick));
+    return values;
+  };
+  using testing::DoubleNear;
+  EXPECT_THAT(powers(logarithmic_ticks(-3.5, 0.2)),
+              testing::Pointwise(DoubleNear(1e-9), {1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0}));
+  EXPECT_THAT(powers(logarithmic_ticks(std::log10(3.0), std::log10(30.0))),
+              testing::Pointwise(DoubleNear(1e-9), {2.0, 5.0, 10.0, 20.0, 50.0}));
+  EXPECT_GE(logarithmic_ticks(1, 1).size(), 2u);
 }
 
 }  // namespace

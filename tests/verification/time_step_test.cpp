@@ -1,7 +1,6 @@
 /// The time step of a run: speeds of the current state, and what shortens it
 /// (scheme/time_step.hpp).
 
-#include "common/scheme/time_step.hpp"
 
 #include "benchmarks/harness/case_list.hpp"
 #include "benchmarks/harness/run_case.hpp"
@@ -33,15 +32,6 @@ TEST(TimeStep, FollowsTheStiffeningBodyUnlessLinearised) {
   EXPECT_GE(bound.dt_min, 0.9 * exact.dt_min) << "a bound, but a close one";
   EXPECT_NEAR(linearised.dt_min, exact.dt_max, 0.02 * exact.dt_max);
   EXPECT_GE(linearised.dt_min, 0.98 * linearised.dt_max) << "constant but for the last step";
-}
-
-TEST(TimeStep, IsTheShorterOfWavesAndDissipation) {
-  scheme::TimeStepRule rule{.cfl = 0.8, .damping_cfl = 1.15, .frequency_factor = 1.3};
-  EXPECT_DOUBLE_EQ(rule.limit(), 0.8 / 1.3);
-  rule.strength = 3;
-  EXPECT_DOUBLE_EQ(rule.limit(), 1.15 / 3);
-  rule.strength = 0;
-  EXPECT_DOUBLE_EQ(rule.limit(), 0.8 / 1.3) << "no dissipation, nothing that it limits";
 }
 
 TEST(TimeStep, StrongDissipationIsStableWithEveryIntegrator) {

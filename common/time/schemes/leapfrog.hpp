@@ -11,7 +11,7 @@ namespace diptych::time {
 
 inline Integrator leapfrog() {
   return {
-      .order = 2, .default_cfl = 1.2, .damping_cfl = 1.2, .stages = {}, .gauss_relaxation = false};
+      .order = 2, .default_cfl = 1.2, .stages = {}, .gauss_relaxation = false};
 }
 
 }  // namespace diptych::time

@@ -10,7 +10,6 @@ namespace diptych::time {
 inline Integrator ssp_rk2() {
   return {.order = 2,
           .default_cfl = 0.6,
-          .damping_cfl = 0.9,
           .stages = {{0, 1, 1}, {0.5, 0.5, 1}},
           .gauss_relaxation = false};
 }

@@ -9,7 +9,6 @@ namespace diptych::time {
 inline Integrator ssp_rk3() {
   return {.order = 3,
           .default_cfl = 0.8,
-          .damping_cfl = 1.15,
           .stages = {{0, 1, 1}, {0.75, 0.25, 0.5}, {1.0 / 3, 2.0 / 3, 1}},
           .gauss_relaxation = true};
 }

@@ -1,0 +1,33 @@
+#pragma once
+/// What `diptych study` does: stability limits, or error against cost, of a case and its variants.
+
+#include "benchmarks/harness/stability.hpp"
+
+#include <string>
+#include <vector>
+
+namespace diptych::harness {
+
+struct StudyRequest {
+  std::string case_file;
+  std::vector<std::string> overrides, variations;  ///< of --set and --vary
+  std::vector<std::string> methods;
+  std::vector<std::string> integrators;  ///< stability only; empty: all
+  int level = 0;                         ///< the first
+  int n_levels = 3, repeats = 3;         ///< work-precision only
+  std::string field;  ///< whose error is shown; empty: the first that the case measures
+  int threads = 0;
+  std::string directory;
+  bool quiet = false;
+  StabilityOptions stability;
+};
+
+/// Prints the table, writes DIR/stability.csv. Rows found before an interrupt are kept.
+void study_stability(const StudyRequest& request);
+
+/// Prints the table, writes DIR/work_precision.csv and DIR/work_precision.html. Repetitions go
+/// round the curves, so that a slow minute of the machine hits all of them.
+/// @throws base::InputError where the case has no exact solution
+void study_work_precision(const StudyRequest& request);
+
+}  // namespace diptych::harness

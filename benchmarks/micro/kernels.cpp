@@ -1,0 +1,198 @@
+/// Kernel benchmarks (Google Benchmark), one thread unless the name says more. Per kernel: ns per
+/// node (and stage), ns per directed pair, percent of the multiply-add peak that its counted flop
+/// are, percent of the triad that its streamed geometry is; probes and kernels in the same run.
+/// Flop and bytes: benchmarks/probes/work_counts.hpp.
+
+#include "benchmarks/micro/scene.hpp"
+#include "benchmarks/probes/machine_probes.hpp"
+#include "benchmarks/probes/work_counts.hpp"
+#include "common/parallel/for_chunks.hpp"
+#include "common/scheme/momentum.hpp"
+#include "common/scheme/strain_rates.hpp"
+
+#include <benchmark/benchmark.h>
+#include <cstdio>
+#include <ctime>
+
+namespace diptych::micro {
+namespace {
+
+probes::MachineProbes machine;  // measured before the first kernel
+
+/// Processor time of this thread, or, for work of several threads, time of the wall  [s]. On a
+/// shared machine the former does not count what others take.
+double seconds(int threads) {
+  timespec t{};
+  clock_gettime(threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// Runs the kernel and reports.
+/// @param work    per directed pair; nothing: not counted
+/// @param stages  in one call of the kernel
+template <class Kernel>
+void measure(benchmark::State& run,
+             const scheme::PairGraph& graph,
+             const Kernel& kernel,
+             const probes::PairWork& work = {},
+             double stages = 1,
+             int threads = 1) {
+  kernel();  // pages and caches
+  const double start = seconds(threads);
+  for (auto _ : run)
+    kernel();
+  const double each = (seconds(threads) - start) / (static_cast<double>(run.iterations()) * stages);
+  const double nodes = static_cast<double>(graph.n_nodes());
+  const double pairs = static_cast<double>(graph.n_pairs());
+  const probes::Peak& peak = threads == 1 ? machine.double_one : machine.double_all;
+  run.counters["ns/node"] = 1e9 * each / nodes;
+  if (work.flop == 0) return;
+  run.counters["ns/pair"] = 1e9 * each / pairs;
+  run.counters["%fma"] = 100 * work.flop * pairs / (each * peak.flops);
+  run.counters["%mem"] = 100 * work.streamed * pairs / (each * peak.bandwidth);
+}
+
+void strain_rates(benchmark::State& run, const std::string& graph) {
+  Scene scene({graph, 0, true});
+  const auto sweeps = scheme::face_correction_sweeps<3>();
+  measure(
+      run, graph_of(graph),
+      [&] { sweeps.gradients(scene.pairs, scene.state, 0, scene.pairs.n_blocks); },
+      probes::strain_work(3));
+}
+
+void face_correction(benchmark::State& run, const std::string& graph) {
+  Scene scene({graph, 0, true});
+  const auto sweeps = scheme::face_correction_sweeps<3>();
+  measure(
+      run, graph_of(graph),
+      [&] { sweeps.stresses(scene.pairs, scene.state, 1.0 / 6, 0, scene.pairs.n_blocks); },
+      probes::correction_work(3));
+}
+
+/// Results of a sweep made as one chunk.
+struct Results {
+  double power = 0, least_J = 0, rate = 0;
+};
+
+void first_sweep(Scene& scene, Results& results) {
+  const auto sweep = scheme::strain_rate_function<3, physics::MooneyRivlin>();
+  sweep({scene.model, scene.pairs, scene.state, scene.frozen, false, true, 0, 0, &results.power,
+         &results.least_J},
+        0, scene.pairs.n_blocks, 0);
+}
+
+void momentum(benchmark::State& run, const std::string& graph, bool with_bound) {
+  Scene scene({graph, 0, false});
+  Results results;
+  first_sweep(scene, results);
+  const auto sweep = scheme::momentum_function<3>({}, true);
+  const auto kernel = [&] {
+    sweep(
+        {scene.pairs, scene.state, scene.model.rho_R, 1, with_bound, &results.power, &results.rate},
+        0, scene.pairs.n_blocks, 0);
+    benchmark::DoNotOptimize(results);
+  };
+  measure(run, graph_of(graph), kernel, probes::momentum_work(3));
+}
+
+using algebra::Lanes;
+
+/// Stress and wave speeds of all blocks, results into the rates and forces of the state.
+DIPTYCH_CLONES void stress_and_speeds(Scene& scene, std::int64_t n_blocks) {
+  for (std::int64_t b = 0; b < n_blocks; ++b) {
+    const auto X = scheme::load_deformation(scene.state, b);
+    const auto response = scheme::response_of_block(scene.model, scene.state, scene.frozen, X, b,
+                                                    [](int, const physics::BranchState<Lanes>&) {});
+    const auto P = physics::piola_stress<true>(response, X);
+    for (int k = 0; k < 9; ++k)
+      algebra::store(scene.state.L.block(b) + k * algebra::n_lanes, P(k / 3, k % 3));
+    const auto speeds = physics::speed_bounds(response, X, scene.model.rho_R, true);
+    algebra::store(scene.state.T.block(b), speeds.c_p);
+    algebra::store(scene.state.T.block(b) + algebra::n_lanes, speeds.c_s);
+  }
+}
+
+void stress(benchmark::State& run, int n_branches) {
+  Scene scene({"fvm-hex", n_branches, false});
+  measure(run, graph_of("fvm-hex"), [&] { stress_and_speeds(scene, scene.pairs.n_blocks); });
+}
+
+/// New internal variables of the first branch of all blocks.
+DIPTYCH_CLONES void relax(Scene& scene, const scheme::Relaxation& rule, std::int64_t n_blocks) {
+  for (std::int64_t b = 0; b < n_blocks; ++b) {
+    const auto drive = scheme::relaxation_drive<3, true>(scene.state, rule, b, 0, 1);
+    const auto branch = scheme::relaxed_branch<3, true>(scene.state, rule, drive, b, 0);
+    algebra::store_A<3>(scene.state.A.block(b), branch.A);
+    algebra::store_S<3>(scene.state.S.block(b), branch.S);
+  }
+}
+
+void relaxation(benchmark::State& run, scheme::Relaxation::Rule rule) {
+  Scene scene({"fvm-hex", 1, false});
+  const scheme::Relaxation update(rule, true, 1e-4, scene.model.branches);
+  measure(run, graph_of("fvm-hex"), [&] { relax(scene, update, scene.pairs.n_blocks); });
+}
+
+/// A whole stage: step by step, divided by the evaluations of a step.
+void stage(benchmark::State& run,
+           const SceneChoice& choice,
+           const std::string& integrator,
+           int threads) {
+  parallel::set_threads(threads);
+  const auto solver = run::make_solver(case_of(choice, integrator), graph_of(choice.graph));
+  measure(
+      run, graph_of(choice.graph), [&] { solver->step(1e6); },
+      probes::stage_work(3, choice.face_correction), solver->evaluations_per_step(),
+      parallel::n_threads());
+  parallel::set_threads(1);
+}
+
+template <class... Arguments>
+void add(const std::string& name, Arguments... arguments) {
+  benchmark::RegisterBenchmark(name.c_str(), arguments...)->Unit(benchmark::kMillisecond);
+}
+
+void add_all() {
+  const std::vector<std::string> graphs{"sph-52", "fvm-tet", "fvm-hex"};
+  for (const auto& graph : graphs)
+    add("strain rates/" + graph, strain_rates, graph);
+  for (const int n : {0, 1, 3})
+    add("stress and speeds/" + std::to_string(n) + " branches", stress, n);
+  for (const auto& graph : graphs)
+    add("momentum/" + graph, momentum, graph, false);
+  add("momentum with rate/sph-52", momentum, "sph-52", true);
+  add("relaxation/linear", relaxation, scheme::Relaxation::Rule::linear);
+  add("relaxation/gauss", relaxation, scheme::Relaxation::Rule::gauss);
+  for (const auto& graph : graphs)
+    add("face correction/" + graph, face_correction, graph);
+  for (const auto& graph : graphs) {
+    for (const int n : {0, 1, 3}) {
+      add("stage/" + graph + "/" + std::to_string(n) + " branches", stage,
+          SceneChoice{graph, n, false}, "ssp-rk3", 1);
+    }
+    add("stage/" + graph + "/leapfrog", stage, SceneChoice{graph, 0, false}, "leapfrog", 1);
+    add("stage/" + graph + "/corrected", stage, SceneChoice{graph, 0, true}, "ssp-rk3", 1);
+    add("stage/" + graph + "/all threads", stage, SceneChoice{graph, 0, false}, "ssp-rk3", 0);
+  }
+}
+
+}  // namespace
+}  // namespace diptych::micro
+
+int main(int argc, char** argv) {
+  using namespace diptych;
+  std::vector<char*> arguments(argv, argv + argc);
+  std::string tabular = "--benchmark_counters_tabular=true";
+  arguments.insert(arguments.begin() + 1, tabular.data());
+  int n = static_cast<int>(arguments.size());
+  benchmark::Initialize(&n, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(n, arguments.data())) return 2;
+  micro::machine = probes::measure_machine(0);
+  std::fputs(probes::probes_text(micro::machine).c_str(), stdout);
+  parallel::set_threads(1);
+  micro::add_all();
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}

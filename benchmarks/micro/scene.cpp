@@ -1,0 +1,76 @@
+#include "benchmarks/micro/scene.hpp"
+
+#include "benchmarks/harness/backends.hpp"
+#include "benchmarks/harness/case_mesh.hpp"
+#include "common/physics/moduli.hpp"
+#include "common/run/case_reader.hpp"
+#include "common/run/model_menu.hpp"
+#include "common/run/state_access.hpp"
+#include "common/scheme/update.hpp"
+
+#include <filesystem>
+#include <map>
+
+namespace diptych::micro {
+
+namespace {
+
+const char* const cube = R"toml(
+[mesh]
+lower = [0, 0, 0]
+upper = [1, 1, 1]
+cells = [28, 28, 28]
+[material]
+model = "mooney-rivlin"
+density = 1100
+youngs_modulus = 17e6
+poissons_ratio = 0.3
+zeta_ratio = 0.5
+[initial]
+displacement = ["0.05*sin(3*x + y)", "0.05*cos(2*y - z)", "0.05*sin(x + 2*z)"]
+velocity = ["sin(3*y)", "cos(2*z)", "sin(3*x)"]
+[time]
+end = 1
+)toml";
+
+}  // namespace
+
+run::Case case_of(const SceneChoice& choice, const std::string& integrator) {
+  std::vector<std::string> overrides{"time.integrator=" + integrator};
+  overrides.push_back(choice.graph == "fvm-tet" ? "mesh.element=tetrahedron"
+                                                : "mesh.element=hexahedron");
+  if (choice.face_correction) overrides.push_back("scheme.face_correction=1/6");
+  run::Case setup = run::case_from_text(cube, "micro", overrides);
+  for (int k = 0; k < choice.n_branches; ++k)
+    setup.material.branches.push_back({0.5, 1e-3 * (k + 1), 0.5, 2e-3 * (k + 1)});
+  return setup;
+}
+
+const scheme::PairGraph& graph_of(const std::string& graph) {
+  static std::map<std::string, scheme::PairGraph> graphs;
+  const auto found = graphs.find(graph);
+  if (found != graphs.end()) return found->second;
+  const run::Case setup = case_of({graph, 0, false});
+  const auto mesh = harness::mesh_of(setup, 0, std::filesystem::temp_directory_path().string());
+  const std::string method = graph == "sph-52" ? "sph" : "fvm";
+  return graphs.emplace(graph, harness::method_menu().at(method)(mesh.mesh, setup)).first->second;
+}
+
+Scene::Scene(const SceneChoice& choice) : pairs(graph_of(choice.graph)) {
+  const run::Case setup = case_of(choice);
+  const auto p = physics::mooney_rivlin_parameters(
+      {setup.material.shear_modulus, setup.material.lame}, setup.material.zeta_ratio);
+  model.material = {p.xi, p.zeta, p.lambda_hat};
+  model.rho_R = setup.material.density;
+  model.branches = run::branches_of(setup.material, p.xi, p.zeta);
+  const auto& graph = graph_of(choice.graph);
+  state = scheme::State<3>(graph.n_nodes(), choice.n_branches, true, scheme::Unknowns::FHJ, false,
+                           choice.n_branches > 0);
+  if (choice.face_correction) state.allow_face_correction();
+  run::set_initial_state(graph, setup.initial, setup.scheme.face_correction, state);
+  for (std::int64_t i = 0; i < state.n_blocks * 9 * algebra::n_lanes; ++i)
+    state.F_0.block(0)[i] = state.F.block(0)[i];
+  scheme::publish_velocity(state, 0, pairs.n_blocks);
+}
+
+}  // namespace diptych::micro

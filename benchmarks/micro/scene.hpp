@@ -1,0 +1,40 @@
+#pragma once
+/// Scenes of the kernel benchmarks: a strained, moving cube of 29^3 nodes (a working set far beyond
+/// the second-level cache), as a graph and a state that kernels are called on one by one, and as a
+/// solver for whole stages.
+
+#include "common/physics/materials/mooney_rivlin.hpp"
+#include "common/run/solver.hpp"
+#include "common/scheme/model.hpp"
+#include "common/scheme/relaxation.hpp"
+#include "common/scheme/state.hpp"
+#include "common/scheme/sweep_graph.hpp"
+
+#include <memory>
+#include <string>
+
+namespace diptych::micro {
+
+/// "sph-52": SPH, cubic spline, kappa 1.2; "fvm-hex": edge stencil; "fvm-tet".
+struct SceneChoice {
+  std::string graph = "sph-52";
+  int n_branches = 0;
+  bool face_correction = false;
+};
+
+run::Case case_of(const SceneChoice& choice, const std::string& integrator = "ssp-rk3");
+
+/// Built once per kind and kept.
+const scheme::PairGraph& graph_of(const std::string& graph);
+
+/// Graph and state as the sweeps see them; every sweep has been made once.
+struct Scene {
+  scheme::SweepGraph<3> pairs;
+  scheme::Model<physics::MooneyRivlin> model;
+  scheme::State<3> state;
+  scheme::Relaxation frozen;  ///< as in cases without branches
+
+  explicit Scene(const SceneChoice& choice);
+};
+
+}  // namespace diptych::micro

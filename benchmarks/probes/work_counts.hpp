@@ -1,0 +1,41 @@
+#pragma once
+/// Flop and bytes per directed pair of the pair sweeps, counted by hand in their code (linear
+/// reconstruction, no limiter, isotropic impedance; a multiply-add is two flop). In 3-D:
+///   strain rates       3 differences, 9 multiply-adds: 21 flop;
+///                      28 bytes of geometry streamed, 32 gathered
+///   momentum           differences 3, P_b C_ba 18, (H_a + H_b) S 27, (L_a + L_b) X 27, jump 6,
+///                      sum 3, impedance means 4, h.jump and h.h 12, ratio 4, D 9, sums 13: 126
+///                      flop (and 16 for the CFL rate, once a step); 68 bytes streamed, 256
+///                      gathered
+///   face correction    9 differences, 9 + 9 multiply-adds: 45 flop, twice a stage;
+///                      68 bytes streamed, 96 gathered
+/// In 2-D: 10, 2 + 8 + 12 + 12 + 4 + 2 + 4 + 8 + 4 + 6 + 9 = 71, 20 flop; 20 and 48 bytes.
+/// Work on nodes alone is not counted.
+
+namespace diptych::probes {
+
+/// Of one pair sweep.
+struct PairWork {
+  double flop = 0;
+  double streamed = 0;  ///< bytes of geometry
+};
+
+inline PairWork strain_work(int dimension) {
+  return dimension == 3 ? PairWork{21, 28} : PairWork{10, 20};
+}
+inline PairWork momentum_work(int dimension) {
+  return dimension == 3 ? PairWork{126, 68} : PairWork{71, 48};
+}
+inline PairWork correction_work(int dimension) {
+  return dimension == 3 ? PairWork{45, 68} : PairWork{20, 48};
+}
+
+/// Of a whole stage.
+inline PairWork stage_work(int dimension, bool face_correction) {
+  const PairWork s = strain_work(dimension), m = momentum_work(dimension),
+                 c = correction_work(dimension);
+  const double n = face_correction ? 2 : 0;
+  return {s.flop + m.flop + n * c.flop, s.streamed + m.streamed + n * c.streamed};
+}
+
+}  // namespace diptych::probes
