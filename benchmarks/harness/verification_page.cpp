@@ -45,10 +45,6 @@ std::string number(double value) {
   return fmt::format("{:.3g}", value);
 }
 
-bool has_levels(const VerificationRun& entry) {
-  return entry.levels.front() != entry.levels.back();
-}
-
 std::string values_table(const VerificationResult& result, size_t r) {
   const VerificationTable& table = result.table;
   const VerificationRun& entry = table.runs[r];

@@ -58,7 +58,8 @@ DIPTYCH_INLINE T branch_energy(const MaxwellBranch& branch,
   return W;
 }
 
-/// Dissipation (12) of the branch with (13) corrected  [W/m^3], >= 0
+/// Dissipation (12) of the branch with (13) corrected  [W/m^3], >= 0. C and G are those that A and
+/// S relax to, from F alone: an evolved H off by d from cof F would add d^2/tau.
 template <bool has_H, class T>
 DIPTYCH_INLINE T branch_dissipation(const MaxwellBranch& branch,
                                     const BranchState<T>& state,
@@ -69,7 +70,7 @@ DIPTYCH_INLINE T branch_dissipation(const MaxwellBranch& branch,
         (algebra::contract(C, state.A) +
          algebra::contract(algebra::inverse(C), algebra::inverse(state.A)) - 6.0);
   if constexpr (has_H) {
-    const auto G = algebra::transpose_times_self(X.H);
+    const auto G = algebra::cofactor(C);
     D += (branch.zeta / branch.tau_G) *
          (algebra::contract(G, state.S) +
           algebra::contract(algebra::inverse(G), algebra::inverse(state.S)) - 6.0);

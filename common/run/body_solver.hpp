@@ -73,10 +73,6 @@ class BodySolver : public Solver {
     const double dt = setup_.integrator.is_leapfrog() ? leapfrog_step(t_limit) : ssp_step(t_limit);
     time_ = t_limit - (time_ + dt) <= 1e-12 * dt ? t_limit : time_ + dt;
     ++step_;
-    if (setup_.angular_momentum_projection) {
-      project_angular_momentum(state_, pairs_, X_centred_, model_.rho_R,
-                               initial_angular_momentum_ + audit_.impulse.angular);
-    }
     return {step_, time_, dt, check_health(dt)};
   }
 
@@ -224,6 +220,7 @@ class BodySolver : public Solver {
       add_action(last ? boundary_.constrain(state_, model_.rho_R, stage_time)
                       : boundary_.constrain_stage(state_, model_.rho_R, stages[i].alpha,
                                                   stages[i].beta, fraction));
+      if (last) keep_angular_momentum();
       fraction = stages[i].time;
       const Rule rule = model_.branches.empty()                      ? Rule::frozen
                         : last && setup_.integrator.gauss_relaxation ? Rule::gauss
@@ -238,10 +235,10 @@ class BodySolver : public Solver {
     boundary_.begin_step(time_, dt);
     scheme::Audit rate;
     kick(dt / 2, !model_.branches.empty());
-    rate.external_work = 0.5 * boundary_.power_of_loads(state_);
     rate.impulse = {0.5 * load_rates_.force, 0.5 * load_rates_.torque};
     constrain(time_ + dt / 2);
-    rate.external_work += boundary_.power_of_constraints(state_, model_.rho_R, 0.5);
+    rate.external_work = 0.5 * boundary_.power_of_loads(state_);
+    rate.external_work += 0.5 * boundary_.power_of_constraints(state_, model_.rho_R, 0.5);
     const Rule rule = model_.branches.empty() ? Rule::frozen : Rule::linear;
     rate.viscous_dissipation = 0.5 * parallel::sum_in_order(viscous_power_);
     evaluate({rule, true, dt, model_.branches}, dt);
@@ -249,13 +246,26 @@ class BodySolver : public Solver {
     sum_forces(true);
     load_rates_ = boundary_.add_loads(state_, time_ + dt);
     rate.external_work += 0.5 * load_rates_.power;
+    // the same velocities against the forces of the end: the trapezoid, of second order
+    rate.external_work += 0.5 * boundary_.power_of_constraints(state_, model_.rho_R, 0.5);
     rate.impulse.linear += 0.5 * load_rates_.force;
     rate.impulse.angular += 0.5 * load_rates_.torque;
     rate.numerical_dissipation = parallel::sum_in_order(numerical_power_);
     kick(dt / 2, false);
     constrain(time_ + dt);
     audit_ = audit_.combined(0, audit_, 1, dt, rate);
+    keep_angular_momentum();
     return dt;
+  }
+
+  /// Gives back the angular momentum that D_ab and the integrator took, before the strain rates see
+  /// the velocities: F stays the gradient of x. What this changes in the kinetic energy is booked
+  /// with the dissipation that made it necessary.
+  void keep_angular_momentum() {
+    if (!setup_.angular_momentum_projection) return;
+    audit_.numerical_dissipation -=
+        project_angular_momentum(state_, pairs_, X_centred_, model_.rho_R,
+                                 initial_angular_momentum_ + audit_.impulse.angular);
   }
 
   void kick(double dt, bool keep_F) {

@@ -107,8 +107,8 @@ double default_cfl(const Case& setup,
                    const time::Integrator& integrator) {
   constexpr double margin = 0.95;
   const double own = integrator.default_cfl;
-  const double strength =
-      setup.scheme.dissipation * scheme::strength_of(scheme::limiter_menu().at(setup.scheme.limiter));
+  const double strength = setup.scheme.dissipation *
+                          scheme::strength_of(scheme::limiter_menu().at(setup.scheme.limiter));
   // steps are cfl / (rate frequency_factor)
   const double limit = margin * 0.5 * real_extent(integrator) *
                        scheme::frequency_factor(setup.scheme.face_correction);

@@ -1,7 +1,6 @@
 #include "common/run/model_menu.hpp"
 
 #include "common/run/default_cfl.hpp"
-
 #include "common/scheme/limiters/limiter_menu.hpp"
 
 #include <fmt/format.h>
@@ -78,8 +77,7 @@ scheme::TimeStepRule time_step_of(const Case& setup,
                           .add("exact", Speeds::exact)
                           .add("bound", Speeds::bound)
                           .add("linearised", Speeds::linearised);
-  const double cfl =
-      setup.time.cfl > 0 ? setup.time.cfl : default_cfl(setup, graph, s.integrator);
+  const double cfl = setup.time.cfl > 0 ? setup.time.cfl : default_cfl(setup, graph, s.integrator);
   return {speeds.at(setup.time.speeds), cfl, scheme::frequency_factor(s.face_correction)};
 }
 
@@ -98,8 +96,8 @@ SolverSetup solver_setup_of(const Case& setup,
                              .add("isotropic", Impedance::isotropic)
                              .add("exact", Impedance::exact);
   SolverSetup s;
-  s.dissipation = {reconstruction.at(setup.scheme.reconstruction), limiter_menu().at(setup.scheme.limiter),
-                   impedance.at(setup.scheme.impedance)};
+  s.dissipation = {reconstruction.at(setup.scheme.reconstruction),
+                   limiter_menu().at(setup.scheme.limiter), impedance.at(setup.scheme.impedance)};
   s.dissipation_factor = setup.scheme.dissipation;
   s.face_correction = setup.scheme.face_correction;
   s.unknowns = unknowns.at(setup.scheme.unknowns);

@@ -13,6 +13,7 @@ namespace {
 struct Moments {
   double mass = 0;
   Vec3 first = Vec3::Zero();             ///< sum m x
+  Vec3 momentum = Vec3::Zero();          ///< sum m v
   Mat3 second = Mat3::Zero();            ///< sum m x (x) x
   Vec3 angular_momentum = Vec3::Zero();  ///< sum x cross m v
 };
@@ -28,11 +29,11 @@ Vec3 position(const State<Dim>& state, const std::vector<Vec3>& X, std::int64_t 
 }  // namespace
 
 template <int Dim>
-void project_angular_momentum(State<Dim>& state,
-                              const SweepGraph<Dim>& graph,
-                              const std::vector<Vec3>& X_centred,
-                              double rho_R,
-                              const Vec3& wanted) {
+double project_angular_momentum(State<Dim>& state,
+                                const SweepGraph<Dim>& graph,
+                                const std::vector<Vec3>& X_centred,
+                                double rho_R,
+                                const Vec3& wanted) {
   const auto for_nodes = [&](const auto& work) {
     parallel::for_chunks(graph.n_blocks,
                          [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
@@ -50,6 +51,7 @@ void project_angular_momentum(State<Dim>& state,
       v[i] = state.v.at(a, i);
     parts[chunk].mass += m;
     parts[chunk].first += m * x;
+    parts[chunk].momentum += m * v;
     parts[chunk].second += m * x * x.transpose();
     parts[chunk].angular_momentum += m * x.cross(v);
   });
@@ -57,6 +59,7 @@ void project_angular_momentum(State<Dim>& state,
   for (const Moments& part : parts) {
     sum.mass += part.mass;
     sum.first += part.first;
+    sum.momentum += part.momentum;
     sum.second += part.second;
     sum.angular_momentum += part.angular_momentum;
   }
@@ -69,6 +72,9 @@ void project_angular_momentum(State<Dim>& state,
     missing[0] = missing[1] = 0;
   }
   const Vec3 lambda = K.ldlt().solve(missing);
+  // of v + lambda x (x - centre): the first moment of the change is zero
+  const Vec3 spin = sum.angular_momentum - centre.cross(sum.momentum);
+  const double gain = lambda.dot(spin) + 0.5 * lambda.dot(missing);
   for_nodes([&](std::int64_t a, std::int64_t) {
     const Vec3 change = lambda.cross(position(state, X_centred, a) - centre);
     for (int i = 0; i < Dim; ++i) {
@@ -76,11 +82,12 @@ void project_angular_momentum(State<Dim>& state,
       state.velocity[a * velocity_stride<Dim> + i] = state.v.at(a, i);
     }
   });
+  return gain;
 }
 
-template void project_angular_momentum(
+template double project_angular_momentum(
     State<2>&, const SweepGraph<2>&, const std::vector<Vec3>&, double, const Vec3&);
-template void project_angular_momentum(
+template double project_angular_momentum(
     State<3>&, const SweepGraph<3>&, const std::vector<Vec3>&, double, const Vec3&);
 
 }  // namespace diptych::scheme

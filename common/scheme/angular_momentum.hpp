@@ -11,11 +11,12 @@
 namespace diptych::scheme {
 
 /// @param wanted  N m s, about the initial centroid
+/// @return        change of the kinetic energy  [J]
 template <int Dim>
-void project_angular_momentum(State<Dim>& state,
-                              const SweepGraph<Dim>& graph,
-                              const std::vector<Vec3>& X_centred,
-                              double rho_R,
-                              const Vec3& wanted);
+double project_angular_momentum(State<Dim>& state,
+                                const SweepGraph<Dim>& graph,
+                                const std::vector<Vec3>& X_centred,
+                                double rho_R,
+                                const Vec3& wanted);
 
 }  // namespace diptych::scheme

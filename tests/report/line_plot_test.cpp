@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <gmock/gmock.h>
 #include <cmath>
+#include <gmock/gmock.h>
 #include <limits>
 
 namespace diptych::report {

@@ -26,8 +26,8 @@ inline io::RunSummary sample_run(const std::string& method, int level) {
     l2 *= 1.5;
   }
   run.energy.relative_residual = 3e-6;
-  run.provenance = {"0.1.0", "c0ffee", "GCC 12", "-O3", "cpu", "avx2", "2026-01-02", "d00d",
-                    "beef",  "f00d"};
+  run.provenance = {"0.1.0", "c0ffee",     "GCC 12", "-O3",  "cpu",
+                    "avx2",  "2026-01-02", "d00d",   "beef", "f00d"};
   return run;
 }
 

@@ -1,7 +1,6 @@
 /// The time step of a run: speeds of the current state, and what shortens it
 /// (scheme/time_step.hpp).
 
-
 #include "benchmarks/harness/case_list.hpp"
 #include "benchmarks/harness/run_case.hpp"
 #include "common/run/case_reader.hpp"

@@ -10,8 +10,7 @@
 namespace diptych::time {
 
 inline Integrator leapfrog() {
-  return {
-      .order = 2, .default_cfl = 1.2, .stages = {}, .gauss_relaxation = false};
+  return {.order = 2, .default_cfl = 1.2, .stages = {}, .gauss_relaxation = false};
 }
 
 }  // namespace diptych::time

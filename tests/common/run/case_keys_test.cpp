@@ -63,7 +63,8 @@ TEST(Explain, TellsTypeUnitRangeDefaultAndExample) {
   const std::string text = explain("material.poissons_ratio");
   EXPECT_THAT(text, HasSubstr("in (-1, 0.5)"));
   EXPECT_THAT(text, HasSubstr("example: poissons_ratio = 0.3"));
-  EXPECT_THAT(explain("scheme.limiter"), HasSubstr("one of: none, barth-jespersen, venkatakrishnan"));
+  EXPECT_THAT(explain("scheme.limiter"),
+              HasSubstr("one of: none, barth-jespersen, venkatakrishnan"));
   EXPECT_THAT(explain("time.end"), HasSubstr("number, s, > 0, required"));
   EXPECT_THAT(explain("output.frames"), HasSubstr("default 10"));
 }

@@ -136,6 +136,8 @@ constexpr DissipationKind barth_jespersen{scheme::Reconstruction::linear,
 constexpr DissipationKind venkatakrishnan{scheme::Reconstruction::linear,
                                           scheme::PairLimiter::venkatakrishnan,
                                           scheme::Impedance::isotropic};
+constexpr DissipationKind limited_exact{
+    scheme::Reconstruction::linear, scheme::PairLimiter::sign_preserving, scheme::Impedance::exact};
 constexpr DissipationKind plain{scheme::Reconstruction::none, scheme::PairLimiter::none,
                                 scheme::Impedance::isotropic};
 
@@ -191,7 +193,8 @@ TEST_P(Methods, AffineVelocityDissipatesNothing) {
 }
 
 TEST_P(Methods, DissipationOfPlainOrLimitedJumpsIsPositiveForEveryNode) {
-  for (const DissipationKind& kind : {plain, limited, barth_jespersen, venkatakrishnan}) {
+  for (const DissipationKind& kind :
+       {plain, limited, limited_exact, barth_jespersen, venkatakrishnan}) {
     RandomBody body(GetParam(), kind);
     body.evaluate();
     for (const double power : body.numerical)
