@@ -28,7 +28,7 @@ std::vector<io::RunSummary> runs_of(const Expectation& e) {
   const auto setup =
       run::read_case(harness::find_case(e.name),
                      {std::string("boundary.0.type=") + e.boundary,
-                      solid ? "mesh.cells=[5, 5, 5]" : "mesh.cells=[14, 14]", "output.frames=2"});
+                      solid ? "mesh.cells=[6, 6, 6]" : "mesh.cells=[14, 14]", "output.frames=2"});
   harness::StudyOptions options;
   options.methods = {e.method};
   options.levels = {0, 1};
@@ -53,7 +53,7 @@ TEST_P(Manufactured, Converges) {
   EXPECT_LE(runs[1].errors.at("velocity").l2, e.most_v);
   EXPECT_LE(runs[1].errors.at("stress").l2, e.most_P);
   for (const char* field : {"deformation_gradient", "cofactor", "jacobian"})
-    EXPECT_GE(order(field), e.least_order_P - 0.2) << field;
+    EXPECT_GE(order(field), std::min(e.least_order_P, 2.0) - 0.4) << field;
   const bool has_branch = std::string(e.name).find("elastic") == std::string::npos;
   for (const char* field : {"viscous_C", "viscous_G"}) {
     ASSERT_EQ(runs[1].errors.count(field), has_branch ? 1U : 0U);
@@ -70,19 +70,30 @@ TEST_P(Manufactured, Converges) {
 INSTANTIATE_TEST_SUITE_P(
     Cases,
     Manufactured,
-    testing::Values(
-        Expectation{"manufactured-swirl-2d", "velocity", "sph", 1, 1, 1, 1, 1, 1},
-        Expectation{"manufactured-swirl-2d", "velocity", "fvm", 1, 1, 1, 1, 1, 1},
-        Expectation{"manufactured-swirl-2d", "traction", "sph", 1, 1, 1, 1, 1, 1},
-        Expectation{"manufactured-swirl-2d", "traction", "fvm", 1, 1, 1, 1, 1, 1},
-        Expectation{"manufactured-swirl-2d-elastic", "velocity", "sph", 1, 1, 1, 1, 1, 1},
-        Expectation{"manufactured-swirl-2d-elastic", "traction", "fvm", 1, 1, 1, 1, 1, 1},
-        Expectation{"manufactured-wave-3d", "velocity", "sph", 1, 1, 1, 1, 1, 1},
-        Expectation{"manufactured-wave-3d", "velocity", "fvm", 1, 1, 1, 1, 1, 1},
-        Expectation{"manufactured-wave-3d", "traction", "sph", 1, 1, 1, 1, 1, 1},
-        Expectation{"manufactured-wave-3d", "traction", "fvm", 1, 1, 1, 1, 1, 1},
-        Expectation{"manufactured-wave-3d-elastic", "traction", "sph", 1, 1, 1, 1, 1, 1},
-        Expectation{"manufactured-wave-3d-elastic", "velocity", "fvm", 1, 1, 1, 1, 1, 1}));
+    testing::Values(Expectation{"manufactured-swirl-2d", "velocity", "sph", 1.8, 2.1, 1.8, 2.42e-02,
+                                1.17e-02, 2.76e-02},
+                    Expectation{"manufactured-swirl-2d", "velocity", "fvm", 1.9, 2.1, 1.9, 1.57e-02,
+                                6.14e-03, 1.76e-02},
+                    Expectation{"manufactured-swirl-2d", "traction", "sph", 1.9, 1.6, 1.9, 2.08e-02,
+                                1.51e-02, 2.54e-02},
+                    Expectation{"manufactured-swirl-2d", "traction", "fvm", 1.9, 1.8, 1.9, 1.60e-02,
+                                7.92e-03, 1.78e-02},
+                    Expectation{"manufactured-swirl-2d-elastic", "velocity", "sph", 1.7, 1.9, 1.8,
+                                2.15e-02, 1.44e-02, 2.82e-02},
+                    Expectation{"manufactured-swirl-2d-elastic", "traction", "fvm", 1.8, 2.0, 1.8,
+                                1.51e-02, 8.25e-03, 1.80e-02},
+                    Expectation{"manufactured-wave-3d", "velocity", "sph", 1.45, 1.85, 1.55,
+                                6.33e-03, 1.13e-02, 2.31e-02},
+                    Expectation{"manufactured-wave-3d", "velocity", "fvm", 1.5, 1.95, 1.75,
+                                3.73e-03, 6.31e-03, 1.01e-02},
+                    Expectation{"manufactured-wave-3d", "traction", "sph", 1.75, 1.75, 1.45,
+                                9.61e-03, 1.83e-02, 2.57e-02},
+                    Expectation{"manufactured-wave-3d", "traction", "fvm", 1.95, 2, 1.75, 2.85e-03,
+                                4.80e-03, 7.59e-03},
+                    Expectation{"manufactured-wave-3d-elastic", "velocity", "fvm", 1.3, 1.8, 1.8,
+                                3.37e-03, 6.73e-03, 9.83e-03},
+                    Expectation{"manufactured-wave-3d-elastic", "traction", "sph", 1.75, 1.75, 1.45,
+                                8.62e-03, 1.73e-02, 2.38e-02}));
 
 // The residual of the budget falls with the third power of the step.
 TEST(ManufacturedEnergy, BudgetClosesAtTheOrderOfTheIntegrator) {

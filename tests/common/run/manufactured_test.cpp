@@ -6,6 +6,7 @@
 #include "common/physics/materials/mooney_rivlin.hpp"
 #include "common/run/manufactured/manufactured_solution.hpp"
 
+#include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -38,7 +39,7 @@ std::shared_ptr<const Motion> motion_of(const std::vector<std::string>& texts,
 std::shared_ptr<const Motion> table_motion(const nlohmann::json& single) {
   std::vector<std::string> u;
   for (const char* name : {"x", "y", "z"})
-    u.push_back("(" + single.at("single").at(name).get<std::string>() + ") - " + name);
+    u.push_back(fmt::format("({}) - {}", single.at("single").at(name).get<std::string>(), name));
   return motion_of(u);
 }
 
