@@ -224,8 +224,10 @@ constexpr std::array key_table{
 
     key("time.end", number, "s", "", required, above(0), "Final time; the run starts at t = 0.",
         "\"1.25*2*pi/omega\""),
-    choice("time.integrator", "\"leapfrog\"", "", menus::integrators, "Time integrator.",
-           "\"ssp-rk3\""),
+    choice("time.integrator", "\"ssp-rk3\"", "", menus::integrators,
+           "Time integrator. ssp-rk3: third order, branches by GEXP; leapfrog: one evaluation a step, second "
+           "order but for its dissipation, which lags half a step.",
+           "\"leapfrog\""),
     key("time.cfl", number, "-", "", "optional; the integrator has its own",
         Range{0, 10, false, true}, "Time step as a fraction of the bound of the graph.", "0.5"),
     choice("time.speeds", "\"exact\"", "", menus::speeds,
