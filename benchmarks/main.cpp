@@ -137,10 +137,12 @@ void show_convergence(const run::Case& setup,
   };
   write("convergence.csv", harness::convergence_csv(convergence));
   write("convergence.tex", harness::convergence_tex(convergence));
-  if (study.differences.empty() && study.runs.size() > 1 && arguments.method == "both") {
+  if (study.shapes.size() < methods_of(arguments.method).size() &&
+      !harness::interrupt_requested()) {
     print(
-        "difference of the methods: not in this report, as a run of the finest level was taken "
-        "over;\n  'diptych compare' or --fresh gives it\n");
+        "bodies and difference of the methods: not all in this report, as a run of the finest "
+        "level "
+        "was\n  taken over; 'diptych compare' or --fresh gives them\n");
   }
   write_report(setup, study, directory, convergence);
 }

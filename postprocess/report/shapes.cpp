@@ -20,23 +20,21 @@ Cube cube_of(const Point& x, double size) {
           std::llround(std::floor(x[2] / size))};
 }
 
-/// Squared distance from the middle of the cube that x lies in.
-double off_centre(const Point& x, double size) {
-  double sum = 0;
-  for (const double component : x) {
-    const double part = component / size - std::floor(component / size) - 0.5;
-    sum += part * part;
-  }
-  return sum;
+double squared_distance(const Point& a, const Point& b) {
+  return std::pow(a[0] - b[0], 2) + std::pow(a[1] - b[1], 2) + std::pow(a[2] - b[2], 2);
 }
 
-/// [n_points] the point that stands for each, one in every cube.
-std::vector<std::int32_t> representatives(std::span<const Point> X, double size) {
+/// [n_points] the point that stands for each: of those in one cube the farthest from the middle of
+/// the body, so that its edges and corners stay.
+std::vector<std::int32_t> representatives(std::span<const Point> X,
+                                          const Point& middle,
+                                          double size) {
   std::map<Cube, std::int32_t> chosen;
   for (size_t a = 0; a < X.size(); ++a) {
     const auto number = static_cast<std::int32_t>(a);
     const auto [at, is_first] = chosen.emplace(cube_of(X[a], size), number);
-    if (!is_first && off_centre(X[a], size) < off_centre(X[at->second], size)) at->second = number;
+    if (!is_first && squared_distance(X[a], middle) > squared_distance(X[at->second], middle))
+      at->second = number;
   }
   std::vector<std::int32_t> result(X.size());
   for (size_t a = 0; a < X.size(); ++a)
@@ -202,9 +200,12 @@ Surface thinned(const Surface& surface, std::span<const Point> X, size_t limit) 
       sides[i].widen(x[i]);
   }
   double longest = 0;
-  for (const Range& side : sides)
-    longest = std::max(longest, side.high - side.low);
-  std::vector<std::int32_t> standing = representatives(X, fitting_size(X, longest, limit));
+  Point middle{};
+  for (size_t i = 0; i < 3; ++i) {
+    longest = std::max(longest, sides[i].high - sides[i].low);
+    middle[i] = 0.5 * (sides[i].low + sides[i].high);
+  }
+  std::vector<std::int32_t> standing = representatives(X, middle, fitting_size(X, longest, limit));
   const std::set<std::int32_t> kept(standing.begin(), standing.end());
   Surface result{surface.dimension, {}, {}, surface.n_points_of_mesh};
   std::vector<std::int32_t> new_number(X.size(), -1);

@@ -46,8 +46,8 @@ constexpr size_t most_points = 4000;
 constexpr size_t most_point_frames = 60'000;
 constexpr size_t most_frames = 121;
 
-/// The surface on at most `limit` of its points: those nearest to the middles of equal cubes, each
-/// standing for all in its cube; faces that collapse are left out.
+/// The surface on at most `limit` of its points: the outermost in each of equal cubes stands for
+/// all in its cube; faces that collapse are left out.
 /// @param X  [n_points] reference positions, m
 Surface thinned(const Surface& surface,
                 std::span<const std::array<double, 3>> X,

@@ -104,7 +104,7 @@ inline report::StudyReport full_study() {
   }
   for (auto& [method, rows] : study.histories) {
     for (io::HistoryRow& row : rows)
-      row.probes = {std::sin(1000 * row.time), 250 * row.time};
+      row.probes = {std::sin(1000 * row.time), row.energy.viscous_dissipation};
   }
   study.shapes = sample_shapes(4, 3);
   for (const char* method : {"sph", "fvm"}) {

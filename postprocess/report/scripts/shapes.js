@@ -7,7 +7,7 @@
   const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
   const words = (text) => new Uint16Array(bytes(text).buffer);  // low byte first, as every browser's machine
   const onRange = ({ low, high }, word) => low + (high - low) * (word / 65535);
-  const stops = [[43, 27, 92], [49, 92, 148], [36, 143, 141], [104, 190, 99], [250, 231, 85]];  // dark to light
+  const stops = [[62, 40, 128], [54, 94, 154], [36, 143, 141], [104, 190, 99], [250, 231, 85]];  // dark to light
   const shade = (part, light) => {
     const at = part * (stops.length - 1);
     const k = Math.min(Math.floor(at), stops.length - 2);

@@ -15,30 +15,34 @@ std::string with_unit(const io::QuantitySummary& quantity) {
   return escaped(quantity.name) + (quantity.unit == "-" ? "" : " [" + escaped(quantity.unit) + "]");
 }
 
-std::string row(const io::RunSummary& run, const io::QuantitySummary& q, bool has_periods) {
+/// Which columns some run has something for.
+struct Columns {
+  bool period = false, decrement = false;
+};
+
+std::string row(const io::RunSummary& run, const io::QuantitySummary& q, const Columns& has) {
   std::string html = "<tr><th scope=\"row\">" + method_mark(run.method) + "</th>" +
                      cell(precise_html(q.final_value)) + cell(precise_html(q.least)) +
                      cell(precise_html(q.greatest));
-  if (has_periods) {
-    html += cell(q.n_periods > 0 ? precise_html(q.period) : "") +
-            cell(q.n_periods > 0 ? number_html(q.amplitude) : "") +
-            cell(q.decrement ? number_html(*q.decrement) : "");
-  }
+  if (has.period) html += cell(q.n_periods > 0 ? precise_html(q.period) : "");
+  if (has.decrement) html += cell(q.decrement ? number_html(*q.decrement) : "");
   return html + "</tr>\n";
 }
 
 /// The numbers of one probe, a row for each method.
 std::string numbers(const std::vector<io::RunSummary>& runs, size_t probe) {
-  bool has_periods = false;
+  Columns has;
+  std::string rows;
+  for (const io::RunSummary& run : runs) {
+    has.period = has.period || run.quantities[probe].n_periods > 0;
+    has.decrement = has.decrement || run.quantities[probe].decrement.has_value();
+  }
   for (const io::RunSummary& run : runs)
-    has_periods = has_periods || run.quantities.at(probe).n_periods > 0;
+    rows += row(run, run.quantities[probe], has);
   std::string head = heading_cell("method") + heading_cell("at the end") + heading_cell("least") +
                      heading_cell("greatest");
-  if (has_periods)
-    head += heading_cell("period [s]") + heading_cell("amplitude") + heading_cell("decrement");
-  std::string rows;
-  for (const io::RunSummary& run : runs)
-    rows += row(run, run.quantities[probe], has_periods);
+  if (has.period) head += heading_cell("period [s]");
+  if (has.decrement) head += heading_cell("decrement");
   return table(head, rows);
 }
 

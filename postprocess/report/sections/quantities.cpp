@@ -22,7 +22,7 @@ std::string agreement(const std::vector<GridSeries>& series) {
   const GridPoint &a = series[0].points.back(), &b = series[1].points.back();
   if (a.error_bar == 0 || b.error_bar == 0) return "";
   const bool agree = std::abs(a.value - b.value) <= a.error_bar + b.error_bar;
-  return agree ? "within both bars" : "apart by more than both bars";
+  return agree ? "agree" : "do not agree";
 }
 
 std::string rows_of(const std::pair<std::string, std::string>& quantity,
@@ -64,10 +64,12 @@ std::string quantities_section(const StudyReport& study) {
       "quantities", "Quantities against spacing",
       "<p>Values at the end. A bar is the numerical uncertainty that a level and the two before it "
       "give (grid convergence index; on the second level with the formal order and a factor of "
-      "3).</p>\n<p class=\"choice\"><label>Quantity <select id=\"quantity\">\n" +
+      "3). The methods agree where their finest values are no further apart than the sum of their "
+      "bars.</p>\n<p class=\"choice\"><label>Quantity <select id=\"quantity\">\n" +
           options + "</select></label></p>\n" +
           chart("quantity-chart", "A quantity against spacing with error bars",
-                "The hollow mark at zero is the extrapolated value.") +
+                "Three levels that converge monotonically give an extrapolated value: the hollow "
+                "mark at zero.") +
           table(head, rows));
 }
 
