@@ -22,6 +22,7 @@ namespace {
 /// clock, which a browser that runs ahead of time does not.
 const char* const listening = R"(<script>
 const faults = [];
+Element.prototype.setPointerCapture = () => {};  // refuses pointers that no hand moves
 window.requestAnimationFrame = (paint) => setTimeout(() => paint(performance.now()), 16);
 addEventListener('error', (event) => faults.push(event.message));
 addEventListener('unhandledrejection', (event) => faults.push(String(event.reason)));
@@ -58,6 +59,13 @@ addEventListener('load', async () => {
       seen.tips[canvas.id] = tip.opacity > 0 ? tip.body.flatMap((part) => part.lines).join('; ') : '';
     }
   }
+  const solid = document.querySelector('canvas[data-shape]');
+  const straight = solid.toDataURL();
+  over(solid, PointerEvent, 'pointerdown', { x: 50, y: 50 });
+  over(solid, PointerEvent, 'pointermove', { x: 90, y: 60 });
+  over(solid, PointerEvent, 'pointerup', { x: 90, y: 60 });
+  await painted();
+  seen.turned = solid.toDataURL() !== straight;
   const before = document.getElementById('shape-time').textContent;
   const slider = document.getElementById('shape-frame');
   slider.value = 0;
@@ -125,6 +133,7 @@ TEST(Browser, DrawsEveryCanvasAndTellsValuesWithoutAnError) {
     EXPECT_NE(tip.get<std::string>(), "") << id << " tells nothing";
   EXPECT_NE(seen["tips"]["probe-0"].get<std::string>().find(" m"), std::string::npos);
   EXPECT_NE(seen["tips"]["energy-sph"].get<std::string>().find(" J"), std::string::npos);
+  EXPECT_TRUE(seen["turned"].get<bool>()) << "dragging does not turn the body";
   EXPECT_NE(seen["before"], seen["after"]) << "the slider moves nothing";
   EXPECT_LE(seen["needed"].get<int>(), seen["width"].get<int>()) << "scrolls sideways";
 }

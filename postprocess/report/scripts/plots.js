@@ -58,6 +58,8 @@ const plots = (() => {
     max: Math.max(...methods.map((method) => method.history.time.at(-1))),
   });
 
+  const inOrder = (a, b) => a.datasetIndex - b.datasetIndex;  // whichever is painted last
+
   const options = (scales, tooltip, legend = {}, interaction = { mode: 'nearest', intersect: true }) => ({
     responsive: true, maintainAspectRatio: false, animation: false,
     layout: { padding: { top: 6, right: 22 } },
@@ -66,9 +68,9 @@ const plots = (() => {
     plugins: {
       legend: {
         position: 'top', align: 'start', onClick: () => {},
-        labels: { color: colour('ink'), usePointStyle: true, boxHeight: 7, padding: 16, ...legend },
+        labels: { color: colour('ink'), usePointStyle: true, boxHeight: 7, padding: 16, sort: inOrder, ...legend },
       },
-      tooltip: { callbacks: tooltip, displayColors: false, padding: 10 },
+      tooltip: { callbacks: tooltip, displayColors: false, padding: 10, itemSort: inOrder },
     },
   });
 

@@ -191,16 +191,20 @@
 
   const listen = (picture) => {
     const place = canvas(`shape-${picture.name}`);
-    place.addEventListener('pointerdown', (event) => solid && place.setPointerCapture(event.pointerId));
-    place.addEventListener('pointermove', (event) => {
-      if (solid && place.hasPointerCapture(event.pointerId)) {
-        view.yaw += 0.01 * event.movementX;
-        view.pitch = Math.max(-1.57, Math.min(1.57, view.pitch + 0.01 * event.movementY));
-        repaint();
-      } else {
-        read(picture, event);
-      }
+    let drag = null;  // where the pointer was last while it turns the body
+    place.addEventListener('pointerdown', (event) => {
+      if (!solid) return;
+      drag = { x: event.clientX, y: event.clientY };
+      place.setPointerCapture(event.pointerId);
     });
+    place.addEventListener('pointermove', (event) => {
+      if (!drag) { read(picture, event); return; }
+      view.yaw += 0.01 * (event.clientX - drag.x);
+      view.pitch = Math.max(-1.57, Math.min(1.57, view.pitch + 0.01 * (event.clientY - drag.y)));
+      drag = { x: event.clientX, y: event.clientY };
+      repaint();
+    });
+    ['pointerup', 'pointercancel'].forEach((end) => place.addEventListener(end, () => { drag = null; }));
     place.addEventListener('pointerleave', () => { part(picture.name, 'reading').textContent = ''; });
   };
   pictures.forEach(listen);
