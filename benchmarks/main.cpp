@@ -81,9 +81,12 @@ int exit_code_of_study() {
   return static_cast<int>(base::ExitCode::interrupted);
 }
 
-void write_report(const run::Case& setup, const harness::Study& study, const std::string& dir) {
+void write_report(const run::Case& setup,
+                  const harness::Study& study,
+                  const std::string& dir,
+                  const std::vector<harness::MethodConvergence>& convergence = {}) {
   const std::string path = (std::filesystem::path(dir) / "report.html").string();
-  report::write_report(path, harness::report_of(setup, study));
+  report::write_report(path, harness::report_of(setup, study, convergence));
   print(fmt::format("\nreport: {}\n", path));
 }
 
@@ -100,7 +103,8 @@ int run_verb(const Arguments& arguments) {
 int compare_verb(Arguments arguments) {
   arguments.method = "both";
   const run::Case setup = case_of(arguments);
-  const auto options = study_options(arguments, setup);
+  auto options = study_options(arguments, setup);
+  options.shapes = true;
   const harness::Study study = harness::run_study(setup, options);
   if (study.runs.size() == 2) {
     print(harness::comparison_table(study.runs[0], study.runs[1], study.differences));
@@ -133,12 +137,14 @@ void show_convergence(const run::Case& setup,
   };
   write("convergence.csv", harness::convergence_csv(convergence));
   write("convergence.tex", harness::convergence_tex(convergence));
-  if (study.differences.empty() && study.runs.size() > 1 && arguments.method == "both") {
+  if (study.shapes.size() < methods_of(arguments.method).size() &&
+      !harness::interrupt_requested()) {
     print(
-        "difference of the methods: not in this report, as a run of the finest level was taken "
-        "over;\n  'diptych compare' or --fresh gives it\n");
+        "bodies and difference of the methods: not all in this report, as a run of the finest "
+        "level "
+        "was\n  taken over; 'diptych compare' or --fresh gives them\n");
   }
-  write_report(setup, study, directory);
+  write_report(setup, study, directory, convergence);
 }
 
 int converge_verb(const Arguments& arguments) {
@@ -146,6 +152,7 @@ int converge_verb(const Arguments& arguments) {
   const run::Case setup = case_of(arguments);
   auto options = study_options(arguments, setup);
   options.fields = false;
+  options.shapes = true;
   options.resume = !arguments.fresh;
   options.levels.clear();
   for (int k = 0; k < arguments.levels; ++k)

@@ -5,6 +5,7 @@
 #include "benchmarks/harness/provenance.hpp"
 #include "benchmarks/harness/quantities.hpp"
 #include "benchmarks/harness/resumption.hpp"
+#include "benchmarks/harness/shape_recorder.hpp"
 #include "common/base/error.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/run/exact_errors.hpp"
@@ -70,6 +71,10 @@ class Recorder {
     if (!options.directory.empty() && options.fields && setup.output.fields) {
       writer_ = std::make_unique<io::FieldWriter>(options.directory, visual_mesh(result.mesh));
     }
+    if (options.shapes) {
+      const auto n_outputs = static_cast<size_t>(setup.output.frames) + 1;
+      shapes_ = std::make_unique<ShapeRecorder>(result.mesh.mesh, n_outputs);
+    }
   }
 
   void record(const run::StepReport& step) {
@@ -91,10 +96,12 @@ class Recorder {
     result_.history.push_back(row);
     update_drifts(balance, audit);
     const bool last = solver_.time() >= setup_.time.end;
-    if (!errors_.available() && !writer_ && !last) return;
+    const bool keeps_shape = shapes_ && shapes_->wants(result_.history.size() - 1);
+    if (!errors_.available() && !writer_ && !keeps_shape && !last) return;
     run::Snapshot snapshot = solver_.snapshot();
     if (errors_.available()) errors_.measure(snapshot);
     if (writer_) write_fields(snapshot);
+    if (keeps_shape) shapes_->take(snapshot, row.time);
     result_.final_state = std::move(snapshot);
   }
 
@@ -115,6 +122,7 @@ class Recorder {
     s.linear_momentum_drift = linear_drift_;
     s.angular_momentum_drift = angular_drift_;
     s.quantities = quantities_of(setup_.probes, result_);
+    if (shapes_) result_.shapes = shapes_->record();
     for (const io::HistoryRow& row : result_.history) {
       s.involution_H = std::max(s.involution_H, row.involution_H);
       s.involution_J = std::max(s.involution_J, row.involution_J);
@@ -183,6 +191,7 @@ class Recorder {
   scheme::Balance initial_;
   EnergyRecord energy_;
   std::unique_ptr<io::FieldWriter> writer_;
+  std::unique_ptr<ShapeRecorder> shapes_;
   double momentum_scale_ = 0, angular_scale_ = 0, linear_drift_ = 0, angular_drift_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include "common/io/run_record.hpp"
 #include "common/run/case.hpp"
 #include "common/run/solver.hpp"
+#include "postprocess/report/shapes.hpp"
 
 #include <memory>
 #include <string>
@@ -20,6 +21,7 @@ struct RunOptions {
   std::string directory;              ///< of this run; empty: nothing is written
   bool fields = true;                 ///< write field frames (besides output.fields of the case)
   bool quiet = false;                 ///< no progress
+  bool shapes = false;                ///< keep deformed surfaces for a report
   std::vector<NodeMeasure> measures;  ///< of the final state, for summary.json
 };
 
@@ -28,6 +30,7 @@ struct RunResult {
   std::vector<io::HistoryRow> history;
   std::vector<io::StepRow> steps;  ///< of the probes with every_step
   run::Snapshot final_state;       ///< in the numbering of `mesh`
+  report::ShapeRecord shapes;      ///< where they were asked for
   CaseMesh mesh;
   scheme::PairGraph graph;
 };

@@ -4,6 +4,7 @@
 #include "common/base/text.hpp"
 #include "common/run/exact_errors.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -48,6 +49,7 @@ Study run_study(const run::Case& setup, const StudyOptions& options) {
       run_options.directory = run_directory(options, level, method);
       run_options.fields = options.fields;
       run_options.quiet = options.quiet;
+      run_options.shapes = options.shapes && level == options.levels.back();
       const auto finished = options.resume ? finished_run(setup, run_options) : std::nullopt;
       study.directories.push_back(run_options.directory);
       if (finished) {
@@ -59,6 +61,7 @@ Study run_study(const run::Case& setup, const StudyOptions& options) {
       results.push_back(run_case(setup, run_options));
       study.runs.push_back(results.back().summary);
       study.histories[method] = results.back().history;
+      if (run_options.shapes) study.shapes[method] = std::move(results.back().shapes);
       if (interrupt_requested()) return study;
     }
     study.differences.clear();  // of the finest level only, and only where both were run now
@@ -82,7 +85,33 @@ std::vector<std::string> material_lines(const run::MaterialCase& m) {
   return lines;
 }
 
-report::StudyReport report_of(const run::Case& setup, const Study& study) {
+/// Of the second level; zero where the two levels have no ratio of spacings.
+double two_level_bar(const MethodConvergence& method, const Quantity& scalar) {
+  const double coarse = method.levels[0].spacing, fine = method.levels[1].spacing;
+  if (!(fine < coarse) || !std::isfinite(scalar.values[0])) return 0;
+  return report::two_grid_error_bar({fine, coarse}, {scalar.values[1], scalar.values[0]});
+}
+
+/// Scalars of one method with the error bars that each level and those before it give.
+void add_quantities(const MethodConvergence& method, report::StudyReport& report) {
+  for (const Quantity& scalar : method.scalars) {
+    report::GridSeries series{method.method, {}, std::nullopt};
+    for (size_t i = 0; i < scalar.values.size(); ++i) {
+      if (!std::isfinite(scalar.values[i])) continue;
+      series.estimate = estimate(method, scalar, i);
+      double bar = series.estimate ? series.estimate->error_bar : 0;
+      if (i == 1) bar = two_level_bar(method, scalar);
+      series.points.push_back(
+          {method.levels[i].level, method.levels[i].spacing, scalar.values[i], bar});
+    }
+    if (!series.points.empty())
+      report.quantities[{scalar.name, scalar.unit}].push_back(std::move(series));
+  }
+}
+
+report::StudyReport report_of(const run::Case& setup,
+                              const Study& study,
+                              const std::vector<MethodConvergence>& convergence) {
   report::StudyReport report;
   report.title = setup.title.empty() ? setup.name : setup.title;
   report.description =
@@ -92,6 +121,9 @@ report::StudyReport report_of(const run::Case& setup, const Study& study) {
   report.runs = study.runs;
   report.histories = study.histories;
   report.differences = study.differences;
+  report.shapes = study.shapes;
+  for (const MethodConvergence& method : convergence)
+    add_quantities(method, report);
   return report;
 }
 

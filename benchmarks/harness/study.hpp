@@ -1,6 +1,7 @@
 #pragma once
 /// Studies of several runs: both methods side by side, and levels of refinement.
 
+#include "benchmarks/harness/convergence.hpp"
 #include "benchmarks/harness/run_case.hpp"
 #include "postprocess/report/study_report.hpp"
 
@@ -17,6 +18,7 @@ struct StudyOptions {
   std::string directory;  ///< runs go to DIR/<method> (one level) or DIR/level_<L>/<method>
   bool fields = true;
   bool quiet = false;
+  bool shapes = false;  ///< keep deformed surfaces of the finest level for the report
   bool resume = false;  ///< runs that the same program has finished there are taken over
 };
 
@@ -25,14 +27,17 @@ struct Study {
   std::map<std::string, std::vector<io::HistoryRow>> histories;  ///< method: finest level
   std::vector<std::string> directories;                          ///< of each run
   std::vector<std::string> taken_over;                           ///< directories of such runs
+  std::map<std::string, report::ShapeRecord> shapes;             ///< method: finest level
   std::map<std::string, double> differences;  ///< field: relative L2 at the nodes, finest level
 };
 
 /// Runs all methods on all levels; stops after an interrupt.
 Study run_study(const run::Case& setup, const StudyOptions& options);
 
-/// The study as the report shows it.
-report::StudyReport report_of(const run::Case& setup, const Study& study);
+/// The study as the report shows it. @param convergence  of its runs; empty: of one level
+report::StudyReport report_of(const run::Case& setup,
+                              const Study& study,
+                              const std::vector<MethodConvergence>& convergence = {});
 
 /// Law, constants and branches as lines of text.
 std::vector<std::string> material_lines(const run::MaterialCase& material);

@@ -55,6 +55,12 @@ std::string scientific_html(double value) {
                      with_minus(std::to_string(exponent)));
 }
 
+std::string precise_html(double value) {
+  const double size = std::abs(value);
+  if (!std::isfinite(value) || size < 1e-3 || size >= 1e6) return scientific_html(value);
+  return with_minus(fmt::format("{:.6g}", value));
+}
+
 std::string number_html(double value) {
   const double size = std::abs(value);
   if (!std::isfinite(value) || value == 0 || size < 1e-3 || size >= 1e6) {

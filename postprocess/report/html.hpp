@@ -14,7 +14,10 @@ std::string escaped(std::string_view text);
 /// finite.
 std::string number_html(double value);
 
-/// The same, always with a power of ten, for columns of errors: "1.60 × 10<sup>−2</sup>".
+/// Six significant digits, for values that are compared with each other.
+std::string precise_html(double value);
+
+/// Three digits, always with a power of ten, for columns of errors: "1.60 × 10<sup>−2</sup>".
 std::string scientific_html(double value);
 
 /// Whole number, thousands apart by narrow spaces.

@@ -2,6 +2,7 @@
 
 #include "postprocess/report/html.hpp"
 #include "postprocess/report/orders.hpp"
+#include "postprocess/report/sections/parts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,31 +13,6 @@ namespace diptych::report {
 namespace {
 
 using io::RunSummary;
-
-std::string section(std::string_view id, std::string_view heading, const std::string& body) {
-  return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}</section>\n", id, heading, body);
-}
-
-std::string cell(const std::string& content) {
-  return "<td>" + content + "</td>";
-}
-std::string heading_cell(const std::string& content) {
-  return "<th scope=\"col\">" + content + "</th>";
-}
-
-std::string table(const std::string& head, const std::string& rows) {
-  return fmt::format(
-      "<div class=\"scroll\" "
-      "tabindex=\"0\"><table>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n"
-      "</table></div>\n",
-      head, rows);
-}
-
-/// Name of a method with its mark, which has the colour and the shape of its points.
-std::string method_mark(const std::string& method) {
-  return fmt::format("<span class=\"mark {0}\"></span>{1}", escaped(method),
-                     escaped(method_title(method)));
-}
 
 /// The symbol of a field, or its name where it has none.
 std::string field_heading(const std::string& field) {
@@ -51,32 +27,6 @@ std::string order_html(double order) {
 const io::ErrorNorms* norms_of(const RunSummary& run, const std::string& field) {
   const auto found = run.errors.find(field);
   return found == run.errors.end() ? nullptr : &found->second;
-}
-
-/// A canvas with a height of its own, a title for those who hear the page, and a caption.
-std::string chart(std::string_view id,
-                  std::string_view spoken,
-                  std::string_view caption,
-                  bool low = false) {
-  return fmt::format(
-      "<figure>\n<div class=\"plot{}\"><canvas id=\"{}\" role=\"img\" "
-      "aria-label=\"{}\"></canvas></div>\n"
-      "<figcaption id=\"{}-caption\">{}</figcaption>\n</figure>\n",
-      low ? " low" : "", id, spoken, id, caption);
-}
-
-/// Radio buttons that choose the field of a chart.
-std::string field_choice(const std::string& group, const std::vector<std::string>& fields) {
-  std::string html =
-      fmt::format("<fieldset class=\"choice\" data-chart=\"{}\">\n<legend>Field</legend>\n", group);
-  for (size_t i = 0; i < fields.size(); ++i) {
-    html += fmt::format(
-        "<label><input type=\"radio\" name=\"{}-field\" value=\"{}\"{}><span>{} "
-        "<i>{}</i></span></label>\n",
-        group, escaped(fields[i]), i == 0 ? " checked" : "", escaped(field_title(fields[i])),
-        escaped(field_symbol(fields[i])));
-  }
-  return html + "</fieldset>\n";
 }
 
 /// The different values among the runs, one text.
@@ -264,9 +214,9 @@ std::string energy_section(const StudyReport& study) {
       "<p>Kinetic and strain energy, and what viscous branches and the scheme have dissipated, "
       "laid "
       "one on the other. The dashed line is the energy at the start and the work done from outside "
-      "since; the gap between it and the top of the areas is the residual.</p>\n<div "
-      "class=\"pair\">\n" +
-          charts + "</div>\n<h3>Residual</h3>\n" +
+      "since; the gap between it and the top of the areas is the residual." +
+          stride_note(study) + "</p>\n<div class=\"pair\">\n" + charts +
+          "</div>\n<h3>Residual</h3>\n" +
           chart("residual-chart", "Relative energy residual over time",
                 "Relative residual of the energy budget. It should fall with the time step at the "
                 "order of the integrator.",

@@ -26,26 +26,66 @@ Json run_json(const io::RunSummary& run) {
           {"errors", errors}};
 }
 
-/// Energies over time as columns. "supplied" is the energy at the start and the work since.
+/// Energies in joule and probes over time as columns. "supplied" is the energy at the start and the
+/// work since; "residual" what of it is not accounted for.
 Json history_json(const std::vector<io::HistoryRow>& rows) {
   Json columns = Json::object();
-  for (const char* name :
-       {"time", "kinetic", "strain", "viscous", "numerical", "supplied", "residual"}) {
+  for (const char* name : {"time", "kinetic", "strain", "viscous", "numerical", "work", "supplied",
+                           "residual", "relative"}) {
     columns[name] = Json::array();
   }
-  const auto total = [](const io::EnergySummary& e) {
-    return e.kinetic + e.strain + e.viscous_dissipation + e.numerical_dissipation - e.external_work;
+  columns["probes"] = Json::array();
+  const auto accounted = [](const io::EnergySummary& e) {
+    return e.kinetic + e.strain + e.viscous_dissipation + e.numerical_dissipation;
   };
-  for (const io::HistoryRow& row : rows) {
+  const size_t stride = row_stride(rows.size());
+  for (size_t i = 0; i < rows.size(); ++i) {
+    if (i % stride != 0 && i + 1 != rows.size()) continue;
+    const io::HistoryRow& row = rows[i];
+    const io::EnergySummary &e = row.energy, &start = rows.front().energy;
+    const double supplied = accounted(start) - start.external_work + e.external_work;
     columns["time"].push_back(row.time);
-    columns["kinetic"].push_back(row.energy.kinetic);
-    columns["strain"].push_back(row.energy.strain);
-    columns["viscous"].push_back(row.energy.viscous_dissipation);
-    columns["numerical"].push_back(row.energy.numerical_dissipation);
-    columns["supplied"].push_back(total(rows.front().energy) + row.energy.external_work);
-    columns["residual"].push_back(row.energy.relative_residual);
+    columns["kinetic"].push_back(e.kinetic);
+    columns["strain"].push_back(e.strain);
+    columns["viscous"].push_back(e.viscous_dissipation);
+    columns["numerical"].push_back(e.numerical_dissipation);
+    columns["work"].push_back(e.external_work);
+    columns["supplied"].push_back(supplied);
+    columns["residual"].push_back(accounted(e) - supplied);
+    columns["relative"].push_back(e.relative_residual);
+    for (size_t k = 0; k < row.probes.size(); ++k)
+      columns["probes"][k].push_back(row.probes[k]);
   }
   return columns;
+}
+
+/// Names and units of the probes.
+Json probes_json(const StudyReport& study) {
+  Json probes = Json::array();
+  const auto runs = probed_runs(study);
+  if (runs.empty()) return probes;
+  for (const io::QuantitySummary& quantity : runs.front().quantities)
+    probes.push_back({{"name", quantity.name}, {"unit", quantity.unit}});
+  return probes;
+}
+
+Json quantities_json(const StudyReport& study) {
+  Json quantities = Json::array();
+  for (const auto& [quantity, series] : study.quantities) {
+    Json all = Json::array();
+    for (const GridSeries& one : series) {
+      Json points = Json::array();
+      for (const GridPoint& p : one.points) {
+        points.push_back(
+            {{"level", p.level}, {"spacing", p.spacing}, {"value", p.value}, {"bar", p.error_bar}});
+      }
+      Json entry = {{"method", one.method}, {"points", points}};
+      if (one.estimate) entry["extrapolated"] = one.estimate->extrapolated;  // NaN becomes null
+      all.push_back(entry);
+    }
+    quantities.push_back({{"name", quantity.first}, {"unit", quantity.second}, {"series", all}});
+  }
+  return quantities;
 }
 
 std::string data_json(const StudyReport& study) {
@@ -62,7 +102,11 @@ std::string data_json(const StudyReport& study) {
   Json fields = Json::object();
   for (const std::string& field : fields_of(study.runs))
     fields[field] = field_title(field);
-  const Json study_json = {{"methods", methods}, {"fields", fields}};
+  const Json study_json = {{"methods", methods},
+                           {"fields", fields},
+                           {"probes", probes_json(study)},
+                           {"quantities", quantities_json(study)},
+                           {"shapes", shapes_json(study.shapes)}};
   return study_json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -80,8 +124,9 @@ std::string report_html(const StudyReport& study, const std::string& chart_scrip
       escaped(study.title), style_css);
   html += header_section(study);
   html += "<main>\n";
-  html += verdict_section(study) + panels_section(study) + cost_section(study) +
-          convergence_section(study) + energy_section(study) + runs_section(study) +
+  html += verdict_section(study) + panels_section(study) + shapes_section(study) +
+          probes_section(study) + cost_section(study) + convergence_section(study) +
+          quantities_section(study) + energy_section(study) + runs_section(study) +
           provenance_section(study);
   html +=
       "</main>\n<noscript><p class=\"warning\">The charts need JavaScript; the tables do "
@@ -89,7 +134,7 @@ std::string report_html(const StudyReport& study, const std::string& chart_scrip
   html += fmt::format("<script type=\"application/json\" id=\"study\">{}</script>\n",
                       json_safe(data_json(study)));
   html += "<script>" + script_safe(chart_script) + "</script>\n";
-  html += "<script>" + script_safe(charts_js) + "</script>\n</body>\n</html>\n";
+  html += "<script>" + script_safe(page_js) + "</script>\n</body>\n</html>\n";
   return html;
 }
 

@@ -1,14 +1,19 @@
 #pragma once
 /// The report of a study: one HTML file that needs no network and nothing beside it. It says what
-/// was run, what each method costs for the error it makes, how fast the errors fall, where the
-/// energy went, and whether the bounds were met. Reads on a phone, in the dark and on paper.
+/// was run, what each method costs for the error it makes, how fast the errors fall, how the body
+/// moved and where the methods part, what the probes saw, where the energy went, and whether the
+/// bounds were met. Reads on a phone, in the dark and on paper.
 /// Its charts are drawn by Chart.js (Debian: libjs-chart.js), copied into the page as it is
 /// written. Test: tests/report/study_report_test.cpp
 
 #include "common/io/run_record.hpp"
+#include "postprocess/report/grid_convergence.hpp"
+#include "postprocess/report/shapes.hpp"
 
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace diptych::report {
@@ -19,6 +24,20 @@ struct AcceptanceLine {
   bool passed = false;
 };
 
+/// A scalar at the final time on one level, with the half width of its error bar: 0 where the level
+/// and those before it give none.
+struct GridPoint {
+  int level = 0;
+  double spacing = 0, value = 0, error_bar = 0;
+};
+
+/// A scalar of one method from coarse to fine.
+struct GridSeries {
+  std::string method;
+  std::vector<GridPoint> points;
+  std::optional<GridConvergence> estimate;  ///< of the finest level: three grids or more
+};
+
 struct StudyReport {
   std::string title, description;
   std::vector<std::string> material;  ///< lines of text: law, constants with units, branches
@@ -26,6 +45,9 @@ struct StudyReport {
   std::map<std::string, std::vector<io::HistoryRow>> histories;  ///< method: finest level
   std::vector<AcceptanceLine> acceptance;
   std::map<std::string, double> differences;  ///< field: relative L2 between the methods
+  std::map<std::string, ShapeRecord> shapes;  ///< method: deformed surfaces of the finest level
+  /// name and unit of a scalar: its values on the levels of each method
+  std::map<std::pair<std::string, std::string>, std::vector<GridSeries>> quantities;
 };
 
 /// Writes the page, whole or not at all.

@@ -4,8 +4,11 @@
 
 #include "postprocess/report/study_report.hpp"
 
+#include <array>
 #include <cmath>
+#include <map>
 #include <string>
+#include <vector>
 
 namespace diptych::test {
 
@@ -50,6 +53,67 @@ inline report::StudyReport sample_study() {
   }
   study.acceptance = {{"velocity order", ">= 1.8", "2.00", true}, {"gap", "<= 1 %", "2 %", false}};
   study.differences = {{"velocity", 6.1e-4}, {"stress", 2e-3}};
+  return study;
+}
+
+/// The sides of a cube of n x n squares each that rises and brightens; the two methods part by
+/// 0.01 m along z for each frame.
+inline std::map<std::string, report::ShapeRecord> sample_shapes(int n, int n_frames) {
+  report::ShapeRecord record;
+  std::vector<std::array<double, 3>> X;
+  for (int side = 0; side < 6; ++side) {
+    for (int j = 0; j <= n; ++j) {
+      for (int i = 0; i <= n; ++i) {
+        std::array<double, 3> x{};
+        x[side % 3] = side < 3 ? 0 : 1;
+        x[(side + 1) % 3] = i / double(n);
+        x[(side + 2) % 3] = j / double(n);
+        const auto a = static_cast<std::int32_t>(X.size());
+        X.push_back(x);
+        record.surface.nodes.push_back(a);
+        if (i < n && j < n) record.surface.faces.push_back({a, a + 1, a + n + 2, a + n + 1});
+      }
+    }
+  }
+  record.surface.n_points_of_mesh = X.size();
+  record.fields = {{"speed", "m/s"}, {"pressure", "Pa"}, {"von Mises stress", "Pa"}, {"J", "-"}};
+  record.n_outputs = static_cast<size_t>(n_frames);
+  std::map<std::string, report::ShapeRecord> shapes;
+  for (const char* method : {"sph", "fvm"}) {
+    report::ShapeRecord& one = shapes[method] = record;
+    for (int k = 0; k < n_frames; ++k) {
+      report::ShapeFrame frame{0.001 * k, {}, std::vector<std::vector<double>>(4)};
+      for (const auto& x : X) {
+        const double apart = std::string(method) == "fvm" ? 0.01 * k : 0;
+        frame.x.insert(frame.x.end(), {x[0], x[1], x[2] + 0.05 * k + apart});
+        for (auto& values : frame.values)
+          values.push_back(x[0] + x[2] + 0.1 * k);
+      }
+      one.frames.push_back(frame);
+    }
+  }
+  return shapes;
+}
+
+/// The same with everything that a page can show: probes, shapes, quantities with error bars.
+inline report::StudyReport full_study() {
+  report::StudyReport study = sample_study();
+  for (io::RunSummary& run : study.runs) {
+    run.quantities = {{"tip <z>", "m", 0.5, -1.25, 2, 3, 0.25, 0.1, 0.9, 0.04},
+                      {"swept share", "-", 1, 0, 1, 0, 0, 0, 0, {}}};
+  }
+  for (auto& [method, rows] : study.histories) {
+    for (io::HistoryRow& row : rows)
+      row.probes = {std::sin(1000 * row.time), row.energy.viscous_dissipation};
+  }
+  study.shapes = sample_shapes(4, 3);
+  for (const char* method : {"sph", "fvm"}) {
+    const double off = std::string(method) == "sph" ? 0.01 : 0;
+    report::GridSeries series{method, {}, report::GridConvergence{}};
+    series.points = {{0, 0.25, 1.16 + off, 0}, {1, 0.125, 1.04, 0.12}, {2, 0.0625, 1.01, 0.0125}};
+    *series.estimate = {report::Convergence::monotone, 2, 1, 0.0125, 0.0124};
+    study.quantities[{"strain energy", "J"}].push_back(series);
+  }
   return study;
 }
 

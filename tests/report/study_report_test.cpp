@@ -104,6 +104,40 @@ TEST(StudyReport, ShowsVerdictOrdersAndProvenance) {
   EXPECT_THAT(page(good), AllOf(HasSubstr("✓ The bound is met"), Not(HasSubstr("✗"))));
 }
 
+TEST(StudyReport, ShowsProbesShapesAndQuantitiesWhereTheStudyHasThem) {
+  const std::string full = page(test::full_study()), plain = page(sample_study());
+  EXPECT_EQ(imbalance(full), "");
+  for (const char* id : {"\"shapes\"", "\"probes\"", "\"quantities\"", "\"probe-1\"",
+                         "\"shape-sph\"", "\"shape-fvm\"", "\"shape-difference\""}) {
+    EXPECT_THAT(full, HasSubstr(std::string("id=") + id));
+    EXPECT_THAT(plain, Not(HasSubstr(std::string("id=") + id)));
+  }
+  EXPECT_THAT(full, HasSubstr("<h3>tip &lt;z&gt; [m]</h3>"));
+  EXPECT_THAT(full, HasSubstr("<td>0.5</td><td>−1.25</td><td>2</td><td>0.25</td>"));
+  EXPECT_THAT(full, HasSubstr("± 0.0125"));
+  EXPECT_THAT(full, HasSubstr("<td>agree</td>"));
+  const json study = data_of(full);
+  EXPECT_EQ(study["probes"][0]["name"], "tip <z>");
+  EXPECT_EQ(study["methods"][0]["history"]["probes"][1], json({0.0, 0.25, 0.5, 0.75, 1.0}));
+  EXPECT_EQ(study["quantities"][0]["series"][1]["points"][1]["bar"], 0.12);
+  EXPECT_EQ(study["shapes"]["times"].size(), 3u);
+}
+
+TEST(StudyReport, StaysBelowFiveMegabytesAtItsBounds) {
+  StudyReport study = test::full_study();
+  // 6 (n + 1)^2 points, and as many instants as such a surface may have
+  study.shapes = test::sample_shapes(24, static_cast<int>(most_point_frames / 3750));
+  for (auto& [method, rows] : study.histories) {
+    io::HistoryRow row;
+    row.time = 1 / 3.0;
+    row.energy = {1 / 3.0, 1 / 7.0, 1 / 9.0, 0.1, 0.7, 1e-9};
+    row.probes.assign(10, 1 / 3.0);
+    rows.assign(100'000, row);
+  }
+  // Chart.js 3.9 has 200 kB
+  EXPECT_LT(page(study).size() + 200'000, 5'000'000u);
+}
+
 TEST(StudyReport, LetsNothingBreakOut) {
   StudyReport study = sample_study();
   const std::string hostile = "</script><script>alert(1)</script><!--\"&'";
@@ -116,6 +150,13 @@ TEST(StudyReport, LetsNothingBreakOut) {
     run.errors[hostile] = {1, 1, 1};
   }
   study.runs[0].method = hostile;
+  study.shapes = test::sample_shapes(1, 2);
+  study.shapes["sph"].fields[0] = {hostile, hostile};
+  io::QuantitySummary quantity;
+  quantity.name = quantity.unit = hostile;
+  for (io::RunSummary& run : study.runs)
+    run.quantities.push_back(quantity);
+  study.quantities[{hostile, hostile}] = test::full_study().quantities.begin()->second;
   const std::string html = page(study);
   EXPECT_EQ(imbalance(html), "");
   EXPECT_THAT(html, Not(HasSubstr("<script>alert")));

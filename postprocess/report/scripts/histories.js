@@ -1,0 +1,69 @@
+// Energies and probes over time.
+(() => {
+  const { study, colour, withAlpha, number, linearAxis, timeAxis, options, curveOf } = plots;
+  const layers = {
+    strain: 'strain energy', kinetic: 'kinetic energy',
+    viscous: 'viscous dissipation', numerical: 'numerical dissipation',
+  };
+  const histories = study.methods.filter((method) => method.history && method.history.time.length);
+  const atOneTime = { mode: 'index', intersect: false };  // all curves at the instant nearest to the pointer
+  const asPoints = (history, values) => history.time.map((t, i) => ({ x: t, y: values[i] }));
+  const timeTitle = (items) => `t = ${number(items[0].raw.x)} s`;
+  const highest = Math.max(0, ...histories.flatMap((m) => m.history.time.map(
+    (_, i) => Object.keys(layers).reduce((sum, name) => sum + m.history[name][i], 0))));
+
+  const area = ({ history }, name) => ({
+    label: layers[name], data: asPoints(history, history[name]), stack: 'energy', fill: 'stack',
+    borderColor: colour(name), backgroundColor: withAlpha(colour(name), 0.55), borderWidth: 1,
+    pointRadius: 0, pointStyle: 'rect',
+  });
+  const line = ({ history }, name, label, ink, dash) => ({
+    label, data: asPoints(history, history[name]), stack: name, fill: false,
+    borderColor: colour(ink), backgroundColor: colour(ink), borderDash: dash, borderWidth: 1.5,
+    pointRadius: 0, pointStyle: 'line',
+  });
+
+  const energyChart = (method) => {
+    const { history } = method;
+    const fromRest = history.supplied[0] === 0;
+    const lines = [line(method, 'supplied', fromRest ? 'external work' : 'start + work', 'ink', [5, 4])];
+    if (!fromRest && history.work.some((y) => y !== 0)) lines.push(line(method, 'work', 'external work', 'soft', [1, 3]));
+    return {
+      type: 'line',
+      data: {
+        datasets: [
+          ...Object.keys(layers).filter((name) => history[name].some((y) => y !== 0)).map((name) => area(method, name)),
+          ...lines,
+        ],
+      },
+      options: options({ x: timeAxis([method]), y: linearAxis('energy [J]', { stacked: true, suggestedMax: highest }) }, {
+        title: timeTitle,
+        label: (item) => `${item.dataset.label}: ${number(item.raw.y)} J`,
+        footer: ([item]) => `residual: ${number(history.residual[item.dataIndex])} J`,
+      }, {}, atOneTime),
+    };
+  };
+
+  const overlaid = (values, yText, label) => {
+    const methods = histories.filter((method) => values(method.history));
+    return {
+      type: 'line',
+      data: {
+        // dashes over the solid line: both are seen where they coincide
+        datasets: methods.map((method, i) => curveOf(method, asPoints(method.history, values(method.history)), {
+          order: -i, borderWidth: 2, pointRadius: method.history.time.length > 40 ? 0 : 2.5,
+        })),
+      },
+      options: options({ x: timeAxis(methods), y: linearAxis(yText) }, { title: timeTitle, label }, {}, atOneTime),
+    };
+  };
+
+  histories.forEach((method) => plots.add(`energy-${method.name}`, () => energyChart(method)));
+  plots.add('residual-chart', () => overlaid((history) => history.relative, 'relative residual',
+    (item) => `${item.dataset.label}: ${number(item.raw.y)}`));
+  study.probes.forEach(({ name, unit }, k) => {
+    const suffix = unit === '-' ? '' : ` ${unit}`;
+    plots.add(`probe-${k}`, () => overlaid((history) => history.probes[k], `${name}${unit === '-' ? '' : ` [${unit}]`}`,
+      (item) => `${item.dataset.label}: ${item.raw.y.toPrecision(5)}${suffix}`));
+  });
+})();

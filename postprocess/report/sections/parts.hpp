@@ -1,0 +1,30 @@
+#pragma once
+/// What the sections of the page are made of.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace diptych::report {
+
+std::string section(std::string_view id, std::string_view heading, const std::string& body);
+
+std::string cell(const std::string& content);
+std::string heading_cell(const std::string& content);
+
+/// @param head  cells, @param rows  whole rows
+std::string table(const std::string& head, const std::string& rows);
+
+/// Name of a method with its mark, which has the colour and the shape of its points.
+std::string method_mark(const std::string& method);
+
+/// A canvas with a height of its own, a title for those who hear the page, and a caption.
+std::string chart(std::string_view id,
+                  std::string_view spoken,
+                  std::string_view caption,
+                  bool low = false);
+
+/// Radio buttons that choose the field of a chart.
+std::string field_choice(const std::string& group, const std::vector<std::string>& fields);
+
+}  // namespace diptych::report

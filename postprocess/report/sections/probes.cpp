@@ -1,0 +1,89 @@
+/// What the probes of the case saw: histories of both methods and their numbers.
+
+#include "postprocess/report/html.hpp"
+#include "postprocess/report/orders.hpp"
+#include "postprocess/report/sections.hpp"
+#include "postprocess/report/sections/parts.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace diptych::report {
+namespace {
+
+std::string with_unit(const io::QuantitySummary& quantity) {
+  return escaped(quantity.name) + (quantity.unit == "-" ? "" : " [" + escaped(quantity.unit) + "]");
+}
+
+/// Which columns some run has something for.
+struct Columns {
+  bool period = false, decrement = false;
+};
+
+std::string row(const io::RunSummary& run, const io::QuantitySummary& q, const Columns& has) {
+  std::string html = "<tr><th scope=\"row\">" + method_mark(run.method) + "</th>" +
+                     cell(precise_html(q.final_value)) + cell(precise_html(q.least)) +
+                     cell(precise_html(q.greatest));
+  if (has.period) html += cell(q.n_periods > 0 ? precise_html(q.period) : "");
+  if (has.decrement) html += cell(q.decrement ? number_html(*q.decrement) : "");
+  return html + "</tr>\n";
+}
+
+/// The numbers of one probe, a row for each method.
+std::string numbers(const std::vector<io::RunSummary>& runs, size_t probe) {
+  Columns has;
+  std::string rows;
+  for (const io::RunSummary& run : runs) {
+    has.period = has.period || run.quantities[probe].n_periods > 0;
+    has.decrement = has.decrement || run.quantities[probe].decrement.has_value();
+  }
+  for (const io::RunSummary& run : runs)
+    rows += row(run, run.quantities[probe], has);
+  std::string head = heading_cell("method") + heading_cell("at the end") + heading_cell("least") +
+                     heading_cell("greatest");
+  if (has.period) head += heading_cell("period [s]");
+  if (has.decrement) head += heading_cell("decrement");
+  return table(head, rows);
+}
+
+}  // namespace
+
+size_t row_stride(size_t n_rows) {
+  constexpr size_t most_rows = 1000;
+  return (n_rows + most_rows - 1) / most_rows;
+}
+
+std::string stride_note(const StudyReport& study) {
+  size_t stride = 1;
+  for (const auto& [method, rows] : study.histories)
+    stride = std::max(stride, row_stride(rows.size()));
+  return stride == 1 ? "" : fmt::format(" The curves keep one of {} output times.", stride);
+}
+
+std::vector<io::RunSummary> probed_runs(const StudyReport& study) {
+  std::vector<io::RunSummary> runs;
+  for (const std::string& method : methods_of(study.runs)) {
+    const io::RunSummary run = runs_of(study.runs, method).back();
+    const bool fits = runs.empty() || run.quantities.size() == runs.front().quantities.size();
+    if (!run.quantities.empty() && fits) runs.push_back(run);
+  }
+  return runs;
+}
+
+std::string probes_section(const StudyReport& study) {
+  const std::vector<io::RunSummary> runs = probed_runs(study);
+  if (runs.empty()) return "";
+  std::string html =
+      "<p>Both methods on the finest level. Extremes, period and logarithmic decrement are of the "
+      "recorded values; a probe that the case records at every step has them from there." +
+      stride_note(study) + "</p>\n<div class=\"pair\">\n";
+  for (size_t k = 0; k < runs.front().quantities.size(); ++k) {
+    const std::string title = with_unit(runs.front().quantities[k]);
+    html +=
+        fmt::format("<div>\n<h3>{}</h3>\n{}{}</div>\n", title,
+                    chart(fmt::format("probe-{}", k), title + " over time", ""), numbers(runs, k));
+  }
+  return section("probes", "What the probes saw", html + "</div>\n");
+}
+
+}  // namespace diptych::report

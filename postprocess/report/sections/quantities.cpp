@@ -1,0 +1,76 @@
+/// Scalars against the spacing, with the error bars of the grid convergence index.
+
+#include "postprocess/report/html.hpp"
+#include "postprocess/report/orders.hpp"
+#include "postprocess/report/sections.hpp"
+#include "postprocess/report/sections/parts.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace diptych::report {
+namespace {
+
+std::string titled(const std::pair<std::string, std::string>& quantity) {
+  return escaped(quantity.first) +
+         (quantity.second == "-" ? "" : " [" + escaped(quantity.second) + "]");
+}
+
+/// Whether the finest values of the two methods lie within the sum of their error bars.
+std::string agreement(const std::vector<GridSeries>& series) {
+  if (series.size() != 2) return "";
+  const GridPoint &a = series[0].points.back(), &b = series[1].points.back();
+  if (a.error_bar == 0 || b.error_bar == 0) return "";
+  const bool agree = std::abs(a.value - b.value) <= a.error_bar + b.error_bar;
+  return agree ? "agree" : "do not agree";
+}
+
+std::string rows_of(const std::pair<std::string, std::string>& quantity,
+                    const std::vector<GridSeries>& series) {
+  std::string rows;
+  for (const GridSeries& one : series) {
+    const GridPoint& finest = one.points.back();
+    const auto& e = one.estimate;
+    const bool has_order = e && std::isfinite(e->order);
+    rows += "<tr><th scope=\"row\">" + titled(quantity) + "</th>" + cell(method_mark(one.method)) +
+            cell(precise_html(finest.value)) +
+            cell(finest.error_bar > 0 ? "± " + number_html(finest.error_bar) : "") +
+            cell(e && std::isfinite(e->extrapolated) ? precise_html(e->extrapolated) : "") +
+            cell(has_order ? fmt::format("{:.2f}", e->order) : "") +
+            cell(e                        ? convergence_name(e->kind)
+                 : one.points.size() == 2 ? "two grids"
+                                          : "") +
+            cell(&one == &series.back() ? agreement(series) : "") + "</tr>\n";
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::string quantities_section(const StudyReport& study) {
+  if (study.quantities.empty()) return "";
+  std::string options, rows;
+  size_t number = 0;
+  for (const auto& [quantity, series] : study.quantities) {
+    options += fmt::format("<option value=\"{}\">{}</option>\n", number++, titled(quantity));
+    rows += rows_of(quantity, series);
+  }
+  std::string head;
+  for (const char* name : {"quantity", "method", "finest grid", "error bar", "extrapolated",
+                           "order", "convergence", "the methods"}) {
+    head += heading_cell(name);
+  }
+  return section(
+      "quantities", "Quantities against spacing",
+      "<p>Values at the end. A bar is the numerical uncertainty that a level and the two before it "
+      "give (grid convergence index; on the second level with the formal order and a factor of "
+      "3). The methods agree where their finest values are no further apart than the sum of their "
+      "bars.</p>\n<p class=\"choice\"><label>Quantity <select id=\"quantity\">\n" +
+          options + "</select></label></p>\n" +
+          chart("quantity-chart", "A quantity against spacing with error bars",
+                "Three levels that converge monotonically give an extrapolated value: the hollow "
+                "mark at zero.") +
+          table(head, rows));
+}
+
+}  // namespace diptych::report
