@@ -5,6 +5,7 @@
 #include "benchmarks/harness/convergence.hpp"
 #include "benchmarks/harness/material_report.hpp"
 #include "benchmarks/harness/option_costs.hpp"
+#include "benchmarks/harness/regress.hpp"
 #include "benchmarks/harness/run_table.hpp"
 #include "benchmarks/harness/study.hpp"
 #include "benchmarks/harness/study_verb.hpp"
@@ -42,6 +43,7 @@ struct Arguments {
   std::string page;
   bool check = false, quick = false, stability = false;
   harness::StudyRequest study;
+  harness::RegressRequest regress;
 };
 
 void print(const std::string& text) {
@@ -201,6 +203,15 @@ int verify_verb(const Arguments& arguments) {
   return 0;
 }
 
+int regress_verb(const Arguments& arguments) {
+  harness::RegressRequest request = arguments.regress;
+  request.directory = arguments.directory.empty() ? "results/regress" : arguments.directory;
+  request.threads = arguments.threads;
+  request.quiet = arguments.quiet;
+  harness::regress(request);
+  return exit_code_of_study();
+}
+
 int study_verb(const Arguments& arguments) {
   harness::StudyRequest request = arguments.study;
   request.case_file = harness::find_case(arguments.case_name);
@@ -313,6 +324,16 @@ void add_study_options(CLI::App* verb, Arguments& arguments) {
                    "with --stability: of a trial (default 1000)");
 }
 
+void add_regress_options(CLI::App* verb, Arguments& arguments) {
+  verb->add_option("case", arguments.regress.cases, "names of 'list' (default: all)");
+  verb->add_option("--bless", arguments.regress.bless,
+                   "record a new baseline of this case, or of all; asks for --why");
+  verb->add_option("--why", arguments.regress.why, "reason of the new baseline, kept with it");
+  verb->add_option("--out", arguments.directory, "output folder (default results/regress)");
+  verb->add_option("--threads", arguments.threads, "0: all processors");
+  verb->add_flag("--quiet", arguments.quiet, "no progress");
+}
+
 void add_material_options(CLI::App* verb, Arguments& arguments) {
   harness::MaterialPath& path = arguments.material;
   verb->add_option("case", arguments.case_name, "path of a case file, or a name of 'list'")
@@ -364,6 +385,9 @@ int dispatch(int argc, char** argv) {
   verify->add_flag("--fresh", arguments.fresh, "run finished runs again too");
   verify->add_flag("--quick", arguments.quick, "without the finest level of each sequence");
   verify->add_flag("--quiet", arguments.quiet, "no progress");
+  auto* regress = app.add_subcommand(
+      "regress", "all cases at a small size against their baselines; code 5 where a bound fails");
+  add_regress_options(regress, arguments);
   auto* study = app.add_subcommand(
       "study", "error against cost of a case and its variants, or stability limits");
   add_study_options(study, arguments);
@@ -390,6 +414,7 @@ int dispatch(int argc, char** argv) {
   if (compare->parsed()) return compare_verb(arguments);
   if (converge->parsed()) return converge_verb(arguments);
   if (verify->parsed()) return verify_verb(arguments);
+  if (regress->parsed()) return regress_verb(arguments);
   if (study->parsed()) return study_verb(arguments);
   if (check->parsed()) return check_verb(arguments);
   if (material->parsed()) return material_verb(arguments);

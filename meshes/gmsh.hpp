@@ -29,6 +29,9 @@ Mesh mesh_geo(const std::string& geo_path,
               double size,
               const std::string& work_directory);
 
+/// Whether mesh_geo has a gmsh program to start.
+bool has_gmsh();
+
 /// Checks all cells (positive Jacobian at every corner, finite coordinates, no repeated node).
 /// @throws base::InputError naming the first bad cell and its place
 void check_cells(const Mesh& mesh, const std::string& name);

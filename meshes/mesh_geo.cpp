@@ -102,6 +102,10 @@ void write_options(const fs::path& path) {
 
 }  // namespace
 
+bool has_gmsh() {
+  return DIPTYCH_GMSH_ALLOWED != 0 && !program_in_path("gmsh").empty();
+}
+
 Mesh mesh_geo(const std::string& geo_path,
               int dimension,
               double size,

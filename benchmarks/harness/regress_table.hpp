@@ -1,0 +1,25 @@
+#pragma once
+/// What the regression shows: a line a case and method, below it every failure; and the difference
+/// of two baselines.
+
+#include "benchmarks/harness/regress.hpp"
+
+#include <string>
+#include <vector>
+
+namespace diptych::harness {
+
+struct RegressRow {
+  std::string case_name, method;  ///< sph, fvm, or both
+  std::vector<RegressCheck> checks;
+};
+
+/// For 100 columns; with a line of totals at the end.
+std::string regress_table(const std::vector<RegressRow>& rows);
+
+bool has_failed(const std::vector<RegressRow>& rows);
+
+/// Who recorded what when, and figures old -> new where they differ, the largest changes first.
+std::string difference_text(const RegressBaseline& old, const RegressBaseline& now);
+
+}  // namespace diptych::harness
