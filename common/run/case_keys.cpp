@@ -228,7 +228,7 @@ constexpr std::array key_table{
            "Time integrator. ssp-rk3: third order, branches by GEXP; leapfrog: one evaluation a step, second "
            "order but for its dissipation, which lags half a step.",
            "\"leapfrog\""),
-    key("time.cfl", number, "-", "", "optional; the integrator has its own",
+    key("time.cfl", number, "-", "", "optional; found from the graph and the integrator",
         Range{0, 10, false, true}, "Time step as a fraction of the bound of the graph.", "0.5"),
     choice("time.speeds", "\"exact\"", "", menus::speeds,
            "Wave speeds of the time step: of the current state pair by pair, the largest of the "

@@ -18,7 +18,7 @@ struct SspStage {
 
 struct Integrator {
   int order = 2;
-  double default_cfl = 1;         ///< fraction of the graph bound 1 / rate (physics note 2.1)
+  double default_dt_omega = 1;    ///< step without time.cfl times the largest frequency of the body
   std::vector<SspStage> stages;   ///< empty: leapfrog
   bool gauss_relaxation = false;  ///< GEXP at the end of the step instead of LIN
 

@@ -37,7 +37,8 @@ RunSummary full_summary() {
   s.measures["star stress"] = 7.25;
   s.energy = {1.5, 2.5, 3.5, 4.5, -5.5, 6.5e-5};
   s.linear_momentum_drift = 7e-16, s.angular_momentum_drift = 8e-9, s.min_jacobian = 0.93;
-  s.quantities = {{"tip", "m", 1.25, -0.5, 2.5, 0, 0, 0, 0, std::nullopt}, {"swing", "mm", 1, -2, 3, 4, 0.65, 0.1, 2, 0.2}};
+  s.quantities = {{"tip", "m", 1.25, -0.5, 2.5, 0, 0, 0, 0, std::nullopt},
+                  {"swing", "mm", 1, -2, 3, 4, 0.65, 0.1, 2, 0.2}};
   s.involution_H = 9e-7, s.involution_J = 1e-6;
   s.state_hash = "a1b2";
   s.provenance = {"0.1.0", "c0ffee",     "GCC 12.2", "-O3",  "some cpu",

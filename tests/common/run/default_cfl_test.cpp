@@ -1,6 +1,9 @@
 #include "common/run/default_cfl.hpp"
 
+#include "common/parallel/for_chunks.hpp"
 #include "common/run/case_reader.hpp"
+#include "common/run/largest_rates.hpp"
+#include "common/scheme/face_correction.hpp"
 #include "fvm/fvm_graph.hpp"
 #include "meshes/generators.hpp"
 
@@ -31,38 +34,67 @@ double cfl(const std::vector<std::string>& overrides, const char* integrator = "
   return default_cfl(setup, fvm::build_graph(mesh, {}), time::integrator_menu().at(integrator));
 }
 
-double share(const std::array<int, 2>& cells, double shear_ratio) {
-  const auto mesh =
-      meshes::box(meshes::CellType::quadrilateral, {0, 0, 0}, {1, 1, 0}, {cells[0], cells[1], 1});
-  return dissipation_share(fvm::build_graph(mesh, {}), shear_ratio);
+scheme::PairGraph squares(int nx, int ny) {
+  return fvm::build_graph(
+      meshes::box(meshes::CellType::quadrilateral, {0, 0, 0}, {1.0 * nx, 1.0 * ny, 0}, {nx, ny, 1}),
+      {});
 }
 
-// The mode of two cells in every direction: rate 2 (c_p + c_s)/h on squares, where the graph rate
-// is 2 c_p/h. 3 %: thirty power iterations, from below.
-TEST(DefaultCfl, KnowsTheShareOfTheDissipationOnALattice) {
-  EXPECT_NEAR(share({24, 24}, 0.5), 0.75, 0.03 * 0.75);
-  EXPECT_LE(share({24, 24}, 0.5), 0.75 + 1e-12);
-  EXPECT_NEAR(share({24, 24}, 1), 1, 0.03);
-  EXPECT_NEAR(share({256, 1}, 0.5), 1, 0.03);
+// The mode of two cells in every direction, of a body of spacing one: rate 2 (c_p + c_s). 2 %:
+// sixteen Lanczos iterations, from below.
+TEST(LargestRates, KnowTheDissipationOfALattice) {
+  const auto graph = squares(24, 24);
+  for (const double r : {0.15, 0.5, 1.0}) {
+    EXPECT_NEAR(largest_dissipation(graph, r), 2 * (1 + r), 0.02 * 2 * (1 + r)) << r;
+    EXPECT_LE(largest_dissipation(graph, r), 2 * (1 + r) * (1 + 1e-12)) << r;
+  }
 }
 
-TEST(DefaultCfl, IsTheIntegratorsOwnOnSquares) {
-  for (const char* name : {"leapfrog", "ssp-rk2", "ssp-rk3"})
-    EXPECT_EQ(cfl({}, name), time::integrator_menu().at(name).default_cfl) << name;
+// Inside 1 in every direction, at a free boundary sqrt(2): of the first two nodes u_0 alone moves,
+// strains u_0 in Omega = 1/2 and u_0/2 in Omega = 1 give omega^2 = (1/2 + 1/4)/(1/2) and more.
+TEST(LargestRates, KnowTheFrequencyOfALatticeWithItsBoundary) {
+  EXPECT_NEAR(largest_frequency(squares(24, 24), 0), 2, 0.02 * 2);
+  EXPECT_LE(largest_frequency(squares(24, 24), 0), 2 * (1 + 1e-12));
+  // the correction raises it by no more than inside
+  const double corrected = largest_frequency(squares(24, 24), 1.0 / 6);
+  EXPECT_GT(corrected, 2.3);
+  EXPECT_LE(corrected, 2 * scheme::frequency_factor(1.0 / 6));
 }
 
-// c dt/h = 1 is the limit of leapfrog along one direction; 3 % as above
+TEST(LargestRates, AreTheSameForEveryNumberOfThreads) {
+  const auto graph = squares(48, 48);
+  const auto rates = [&](int n) {
+    parallel::set_threads(n);
+    return std::pair{largest_dissipation(graph, 0.5), largest_frequency(graph, 0.125)};
+  };
+  const auto one = rates(1);
+  EXPECT_EQ(rates(2), one);
+  EXPECT_EQ(rates(3), one);
+  parallel::set_threads(0);
+}
+
+// graph rate 2 c_p/h, omega 2 c_p/h, d 2 (c_p + c_s)/h, c_s/c_p = 0.535
+TEST(DefaultCfl, IsThatOfTheFrequencyOnSquaresOrOfTheDissipation) {
+  for (const char* name : {"leapfrog", "ssp-rk2"}) {
+    const double expected = time::integrator_menu().at(name).default_dt_omega;
+    EXPECT_NEAR(cfl({}, name), expected, 0.02 * expected) << name;
+  }
+  EXPECT_NEAR(cfl({}, "ssp-rk3"), 0.8 * 2.5127 / 1.535, 0.02);
+}
+
+// c dt/h = 1 is the limit of leapfrog along one direction: both bounds are well below
 TEST(DefaultCfl, StaysBelowTheLimitAlongOneDirection) {
-  const double one = cfl({"mesh.cells=[256,1]"});
-  EXPECT_LT(one, 0.95 * 1.03);
-  EXPECT_GE(one, 0.95);
+  EXPECT_NEAR(cfl({"mesh.cells=[256,1]"}), 0.92 / std::sqrt(2), 0.02);
+  EXPECT_NEAR(cfl({"mesh.cells=[256,1]"}, "ssp-rk3"), 1.39 / std::sqrt(2), 0.02);
 }
 
 TEST(DefaultCfl, FallsWithStrongerDissipationButDoesNotRiseWithWeaker) {
   EXPECT_NEAR(cfl({"scheme.dissipation=4"}), cfl({"scheme.dissipation=2"}) / 2, 1e-12);
-  EXPECT_LT(cfl({"scheme.dissipation=2"}), 0.7);
-  EXPECT_LT(cfl({"scheme.dissipation=2"}, "ssp-rk3"), 0.8);
-  EXPECT_EQ(cfl({"scheme.dissipation=0"}), 1.2);
+  // dt d = 0.8 * 2 and 0.8 * 2.51
+  const double d = 2 * 2 * 1.535 / 2;
+  EXPECT_NEAR(cfl({"scheme.dissipation=2"}), 1.6 / d, 0.02);
+  EXPECT_NEAR(cfl({"scheme.dissipation=2"}, "ssp-rk3"), 0.8 * 2.5127 / d, 0.02);
+  EXPECT_EQ(cfl({"scheme.dissipation=0"}), cfl({}));
 }
 
 TEST(DefaultCfl, KnowsTheRealExtentOfTheIntegrators) {

@@ -1,0 +1,24 @@
+#pragma once
+/// The largest rates of the linearised, undeformed body, per unit of c_p: what limits the time
+/// step. The dissipation is the operator
+///   v_a -> 1/(2 Omega_a) sum_b |S_ab| (N(x)N + c_s/c_p (I - N(x)N)) (v_a - v_b),
+/// the square of the frequency that of u -> G* G u, for one component u, G the gradient of (18b)
+/// with its face correction and G* its adjoint (the force of (18a)). On a lattice that is a
+/// pressure wave; free boundaries count, where it is up to sqrt(2) times as fast as inside.
+///
+/// Both are symmetric in the inner product with the weights Omega_a. Lanczos iterations from a
+/// fixed vector come within a percent or two of the largest eigenvalue, from below; every sum has a
+/// fixed order. Reconstruction is left out: the roughest modes have hardly a gradient. Test:
+/// tests/common/run/default_cfl_test.cpp
+
+#include "common/scheme/pair_graph.hpp"
+
+namespace diptych::run {
+
+/// d of plain jumps with scheme.dissipation = 1, per unit of c_p  [1/m]
+double largest_dissipation(const scheme::PairGraph& graph, double shear_ratio);
+
+/// omega per unit of c_p  [1/m]
+double largest_frequency(const scheme::PairGraph& graph, double kappa_f);
+
+}  // namespace diptych::run
