@@ -7,6 +7,7 @@
 #include "benchmarks/harness/option_costs.hpp"
 #include "benchmarks/harness/regress.hpp"
 #include "benchmarks/harness/run_table.hpp"
+#include "benchmarks/harness/spinning.hpp"
 #include "benchmarks/harness/study.hpp"
 #include "benchmarks/harness/study_verb.hpp"
 #include "benchmarks/harness/tables.hpp"
@@ -22,11 +23,9 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <new>
-#include <unistd.h>
 
 namespace {
 
@@ -426,17 +425,8 @@ int dispatch(int argc, char** argv) {
 
 }  // namespace
 
-/// On a shared machine a thread that spins at a barrier takes the processor from the one it waits
-/// for: loops became thirty times slower. OpenMP's runtime reads its settings when it is loaded, so
-/// the program starts itself once more with a short spin; settings of the user's own are kept.
-void limit_spinning(char** argv) {
-  if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
-  setenv("GOMP_SPINCOUNT", "10000", 1);
-  execv("/proc/self/exe", argv);  // where this fails the run goes on as it is
-}
-
 int main(int argc, char** argv) {
-  limit_spinning(argv);
+  harness::limit_spinning(argv);
   std::signal(SIGINT, [](int) { harness::request_interrupt(); });
   std::signal(SIGTERM, [](int) { harness::request_interrupt(); });
   std::signal(SIGPIPE, SIG_IGN);
