@@ -1,5 +1,6 @@
 #include "benchmarks/harness/provenance.hpp"
 
+#include "common/algebra/lanes.hpp"
 #include "common/io/run_record.hpp"
 #include "common/run/case_reader.hpp"
 
@@ -23,14 +24,17 @@ std::string value_of(const std::string& path, const std::string& key) {
   return "unknown";
 }
 
+/// What the sweeps run, as levels of the architecture.
 std::string instruction_set() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("x86-64-v4")) return "x86-64-v4";
-  if (__builtin_cpu_supports("x86-64-v3")) return "x86-64-v3";
-  return "x86-64";
-#else
-  return "generic";
-#endif
+  using enum algebra::InstructionSet;
+  switch (algebra::instruction_set()) {
+    case avx512:
+      return "x86-64-v4";
+    case avx2:
+      return "x86-64-v3";
+    default:
+      return "baseline";
+  }
 }
 
 }  // namespace

@@ -58,6 +58,26 @@ DIPTYCH_INLINE T branch_energy(const MaxwellBranch& branch,
   return W;
 }
 
+/// tr(M) + tr(M^-1) - 6 of M = C A, >= 0, as tr[(M - I)(I - M^-1)]: a product of two small
+/// matrices, where the sum would leave only the rounding of its three terms at small strains.
+/// @param  C, A  symmetric positive definite
+template <class T>
+DIPTYCH_INLINE T distance_from_equilibrium(const SymmetricTensor<T>& C,
+                                           const SymmetricTensor<T>& A) {
+  const SymmetricTensor<T> inverse_A = algebra::inverse(A), inverse_C = algebra::inverse(C);
+  T sum{};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const double delta = i == j ? 1 : 0;
+      const T M = C(i, 0) * A(0, j) + C(i, 1) * A(1, j) + C(i, 2) * A(2, j);
+      const T inverse_M = inverse_A(j, 0) * inverse_C(0, i) + inverse_A(j, 1) * inverse_C(1, i) +
+                          inverse_A(j, 2) * inverse_C(2, i);
+      sum += (M - delta) * (delta - inverse_M);
+    }
+  }
+  return sum;
+}
+
 /// Dissipation (12) of the branch with (13) corrected  [W/m^3], >= 0. C and G are those that A and
 /// S relax to, from F alone: an evolved H off by d from cof F would add d^2/tau.
 template <bool has_H, class T>
@@ -65,15 +85,9 @@ DIPTYCH_INLINE T branch_dissipation(const MaxwellBranch& branch,
                                     const BranchState<T>& state,
                                     const Deformation<T>& X) {
   const auto C = algebra::transpose_times_self(X.F);
-  // tr((CA)^-1) = A^-1 : C^-1
-  T D = (branch.xi / branch.tau_C) *
-        (algebra::contract(C, state.A) +
-         algebra::contract(algebra::inverse(C), algebra::inverse(state.A)) - 6.0);
+  T D = (branch.xi / branch.tau_C) * distance_from_equilibrium(C, state.A);
   if constexpr (has_H) {
-    const auto G = algebra::cofactor(C);
-    D += (branch.zeta / branch.tau_G) *
-         (algebra::contract(G, state.S) +
-          algebra::contract(algebra::inverse(G), algebra::inverse(state.S)) - 6.0);
+    D += (branch.zeta / branch.tau_G) * distance_from_equilibrium(algebra::cofactor(C), state.S);
   }
   return D;
 }

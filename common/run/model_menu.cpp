@@ -1,5 +1,6 @@
 #include "common/run/model_menu.hpp"
 
+#include "common/run/boundary_group.hpp"
 #include "common/run/default_cfl.hpp"
 #include "common/scheme/limiters/limiter_menu.hpp"
 
@@ -28,19 +29,6 @@ std::vector<physics::MaxwellBranch> branches_of(const MaterialCase& material,
 
 namespace {
 
-const scheme::BoundaryPatch& patch_of(const scheme::PairGraph& graph,
-                                      const std::string& name,
-                                      const SourcePlace& where) {
-  std::vector<std::string> names;
-  for (const auto& patch : graph.patches) {
-    if (patch.name == name) return patch;
-    names.push_back(patch.name);
-  }
-  throw base::InputError(prefix(where) + "the mesh has no boundary group '" + name + "'" +
-                         (names.empty() ? std::string("; it has none: name its physical groups")
-                                        : base::suggestion(name, names)));
-}
-
 /// Velocity of a motion; its traction comes from the known state.
 void follow_motion(const std::shared_ptr<const Motion>& motion, scheme::BoundaryValues& values) {
   values.vector = [motion](const Vec3& X, double t) { return motion->velocity(X, t); };
@@ -61,7 +49,7 @@ scheme::AppliedBoundary boundary_of(const Case& setup, const scheme::PairGraph& 
         boundary.value.depends_on_time() || boundary.pressure.depends_on_time();
     if (boundary.manufactured) follow_motion(setup.motion, values);
     for (const std::string& group : boundary.groups) {
-      conditions.push_back({maker(values), &patch_of(graph, group, boundary.where)});
+      conditions.push_back({maker(values), &boundary_group(graph, group, boundary.where)});
     }
   }
   scheme::VectorFunction body_force;

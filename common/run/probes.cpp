@@ -1,7 +1,7 @@
 #include "common/run/probes.hpp"
 
 #include "common/base/error.hpp"
-#include "common/base/text.hpp"
+#include "common/run/boundary_group.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -12,18 +12,6 @@
 namespace diptych::run {
 
 namespace {
-
-const scheme::BoundaryPatch& patch_of(const scheme::PairGraph& graph,
-                                      const std::string& name,
-                                      const SourcePlace& where) {
-  std::vector<std::string> names;
-  for (const auto& patch : graph.patches) {
-    if (patch.name == name) return patch;
-    names.push_back(patch.name);
-  }
-  throw base::InputError(fmt::format("{}the mesh has no boundary group '{}'{}", prefix(where), name,
-                                     base::suggestion(name, names)));
-}
 
 std::int32_t nearest_node(const ProbeCase& probe, const scheme::PairGraph& graph) {
   std::int64_t nearest = 0;
@@ -64,7 +52,7 @@ Probes::PlacedProbe Probes::placed(const ProbeCase& probe, const scheme::PairGra
   }
   std::map<std::int32_t, double> area;
   for (const std::string& group : probe.groups) {
-    const scheme::BoundaryPatch& patch = patch_of(graph, group, probe.where);
+    const scheme::BoundaryPatch& patch = boundary_group(graph, group, probe.where);
     for (size_t k = 0; k < patch.nodes.size(); ++k)
       area[patch.nodes[k]] += patch.area[k].norm();
   }

@@ -19,18 +19,8 @@ element = "hexahedron"
 lower = [0, 0, 0]
 upper = [1, 1, 1]
 cells = [4, 3, 3]
-[material]
-model = "mooney-rivlin"
-density = 1100
-youngs_modulus = 17e6
-poissons_ratio = 0.3
-zeta_ratio = 0.5
-[[material.branch]]
-beta_C = 0.5
-tau_C = 2e-3
-beta_G = 0.5
-tau_G = 1e-3
-[initial]
+)toml" + tests::viscoelastic("0.3") +
+                          R"toml([initial]
 velocity = ["10*x*y", "-8*y*x", "6*z*x*(1 - z)"]
 [time]
 end = 1

@@ -13,19 +13,7 @@ namespace {
 using tests::Scene;
 using tests::text_of;
 
-const std::string body = R"toml(
-[material]
-model = "mooney-rivlin"
-density = 1100
-youngs_modulus = 17e6
-poissons_ratio = 0.4
-zeta_ratio = 0.5
-[[material.branch]]
-beta_C = 0.5
-tau_C = 2e-3
-beta_G = 0.5
-tau_G = 1e-3
-[[boundary]]
+const std::string body = tests::viscoelastic("0.4") + R"toml([[boundary]]
 group = "x_min"
 type = "velocity"
 )toml";

@@ -33,18 +33,7 @@ element = "hexahedron"
 lower = [0, 0, 0]
 upper = [1, 1, 1]
 cells = [4, 4, 4]
-[material]
-model = "mooney-rivlin"
-density = 1100
-youngs_modulus = 17e6
-poissons_ratio = 0.4
-zeta_ratio = 0.5
-[[material.branch]]
-beta_C = 0.5
-tau_C = 2e-3
-beta_G = 0.5
-tau_G = 1e-3
-[initial]
+{}[initial]
 velocity = ["{}", "{}", "{}"]
 [[boundary]]
 group = "x_min"
@@ -63,7 +52,8 @@ value = "5e5"
 [time]
 end = 3e-3
 )",
-                     velocity(0), velocity(1), velocity(2), t[0], t[1], t[2]);
+                     tests::viscoelastic("0.4"), velocity(0), velocity(1), velocity(2), t[0], t[1],
+                     t[2]);
 }
 
 run::Snapshot turned_run(const std::string& method,
@@ -136,24 +126,14 @@ TEST_P(RigidMotion, TurnedSceneGivesTheTurnedAnswer) {
 
 /// A cube whose motion is given: rotation at 100 rad/s about (0, 0, 1), held to it by its body
 /// force and the velocities of its surface.
-const char* const rigid_spin = R"(
+const std::string rigid_spin = R"(
 [mesh]
 element = "hexahedron"
 lower = [-0.5, -0.5, -0.5]
 upper = [0.5, 0.5, 0.5]
 cells = [4, 4, 4]
-[material]
-model = "mooney-rivlin"
-density = 1100
-youngs_modulus = 17e6
-poissons_ratio = 0.3
-zeta_ratio = 0.5
-[[material.branch]]
-beta_C = 0.5
-tau_C = 2e-3
-beta_G = 0.5
-tau_G = 1e-3
-[manufactured]
+)" + tests::viscoelastic("0.3") +
+                               R"([manufactured]
 displacement = ["x*cos(100*t) - y*sin(100*t) - x", "x*sin(100*t) + y*cos(100*t) - y", "0*x"]
 [[boundary]]
 group = ["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"]

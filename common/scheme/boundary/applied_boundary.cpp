@@ -1,6 +1,7 @@
 #include "common/scheme/boundary/applied_boundary.hpp"
 
 #include "common/parallel/for_chunks.hpp"
+#include "common/scheme/boundary/node_vector.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -61,14 +62,6 @@ Vec3 centroid_of(const PairGraph& graph) {
     volume += graph.Omega[a];
   }
   return sum / volume;
-}
-
-template <int Dim>
-Vec3 vector_at(const algebra::BlockField& field, std::int64_t node) {
-  Vec3 r = Vec3::Zero();
-  for (int i = 0; i < Dim; ++i)
-    r[i] = field.at(node, i);
-  return r;
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "common/scheme/boundary/rigid_wall.hpp"
 
+#include "common/scheme/boundary/node_vector.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -15,14 +17,6 @@ class Wall : public BoundaryCondition {
  private:
   RigidWall wall_;
 };
-
-template <int Dim>
-Vec3 vector_at(const algebra::BlockField& field, std::int64_t node) {
-  Vec3 r = Vec3::Zero();
-  for (int i = 0; i < Dim; ++i)
-    r[i] = field.at(node, i);
-  return r;
-}
 
 }  // namespace
 

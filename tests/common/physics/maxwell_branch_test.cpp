@@ -119,6 +119,22 @@ TEST(MaxwellBranch, DissipationIsTheRateAtWhichRelaxationLowersTheEnergy) {
   }
 }
 
+TEST(MaxwellBranch, DissipationKeepsItsDigitsAtSmallStrains) {
+  // sum (lambda - 1)^2 / lambda over the eigenvalues of C A; tr(CA) + tr((CA)^-1) - 6 has none left
+  const auto at_rest = deformation_of(algebra::identity<double>());
+  const double strain[3] = {1e-7, -2e-7, 3e-7};
+  auto A = algebra::symmetric_identity<double>();
+  double D = 0;
+  for (int i = 0; i < 3; ++i) {
+    A(i, i) += strain[i];
+    D += strain[i] * strain[i] / (1 + strain[i]);
+  }
+  const auto I = algebra::symmetric_identity<double>();
+  // rounding eps of 1 + strain: 1e-9 of the strain
+  EXPECT_NEAR(branch_dissipation<true>({1, 1, 0, 1}, {A, I}, at_rest), D, 5e-9 * D);
+  EXPECT_NEAR(branch_dissipation<true>({0, 1, 1, 1}, {I, A}, at_rest), D, 5e-9 * D);
+}
+
 TEST(MaxwellBranch, Equation13AsPrintedWouldCreateEnergy) {
   // C = I, C_v^-1 = 2 I: the printed Sigma = xi (C - C_v^-1) gives D = -3 xi/tau, the corrected
   // one 1.5 xi/tau

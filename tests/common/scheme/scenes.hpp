@@ -54,25 +54,31 @@ inline std::vector<std::int32_t> natural_order(const scheme::PairGraph& graph) {
   return order;
 }
 
-/// A free viscoelastic cube that spins and stretches at large strain.
-inline const char* const spinning_cube = R"(
-[mesh]
-element = "hexahedron"
-lower = [-0.5, -0.5, -0.5]
-upper = [0.5, 0.5, 0.5]
-cells = [5, 5, 5]
-[material]
+/// The solid of most scenes, with one branch of each kind.
+inline std::string viscoelastic(const std::string& poissons_ratio) {
+  return R"([material]
 model = "mooney-rivlin"
 density = 1100
 youngs_modulus = 17e6
-poissons_ratio = 0.45
+poissons_ratio = )" +
+         poissons_ratio + R"(
 zeta_ratio = 0.5
 [[material.branch]]
 beta_C = 0.5
 tau_C = 2e-3
 beta_G = 0.5
 tau_G = 1e-3
-[initial]
+)";
+}
+
+/// A free viscoelastic cube that spins and stretches at large strain.
+inline const std::string spinning_cube = R"(
+[mesh]
+element = "hexahedron"
+lower = [-0.5, -0.5, -0.5]
+upper = [0.5, 0.5, 0.5]
+cells = [5, 5, 5]
+)" + viscoelastic("0.45") + R"([initial]
 velocity = ["-105*y + 20*x", "105*x - 10*y", "-10*z"]
 [time]
 end = 4e-3

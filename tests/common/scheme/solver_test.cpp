@@ -155,58 +155,5 @@ TEST_P(Solver, BreakdownNamesNodeStepAndState) {
   }
 }
 
-TEST_P(Solver, PlaneStrainIsASliceOfThreeDimensions) {
-  // FVM on one layer of hexahedra between rollers repeats the plane scene; SPH has no such layer
-  // (its kernel spans several), and is held to the plane scene's own conservation above.
-  if (std::string(GetParam()) == "sph") return;
-  const std::string tail = R"(
-[material]
-model = "mooney-rivlin"
-density = 1100
-youngs_modulus = 17e6
-poissons_ratio = 0.45
-zeta_ratio = 0.5
-[[material.branch]]
-beta_C = 0.5
-tau_C = 2e-3
-beta_G = 0.5
-tau_G = 1e-3
-[time]
-end = 2e-3
-integrator = "ssp-rk3"
-)";
-  Scene plane = scene_of("fvm", R"([mesh]
-element = "quadrilateral"
-lower = [0, 0]
-upper = [1, 1]
-cells = [6, 6]
-[initial]
-velocity = ["30*y*y", "-20*x*y"]
-)" + tail);
-  Scene solid = scene_of("fvm", R"([mesh]
-element = "hexahedron"
-lower = [0, 0, 0]
-upper = [1, 1, 0.25]
-cells = [6, 6, 1]
-[initial]
-velocity = ["30*y*y", "-20*x*y", "0"]
-[[boundary]]
-group = ["z_min", "z_max"]
-type = "symmetry"
-)" + tail);
-  for (int k = 1; k <= 30; ++k) {
-    plane.solver->step(2e-3 * k / 30);
-    solid.solver->step(2e-3 * k / 30);
-  }
-  const auto p = plane.solver->snapshot(), s = solid.solver->snapshot();
-  EXPECT_LT(plane.solver->unknowns_per_node(), solid.solver->unknowns_per_node());
-  for (size_t a = 0; a < p.u.size(); ++a) {
-    EXPECT_LE((p.u[a] - s.u[a]).norm(), 1e-12);
-    EXPECT_LE((p.F[a] - s.F[a]).norm(), 1e-11);
-    EXPECT_LE((p.S[0][a] - s.S[0][a]).norm(), 1e-11);
-    EXPECT_LE((p.P[a] - s.P[a]).norm(), 1e-10 * 17e6);
-  }
-}
-
 }  // namespace
 }  // namespace diptych
