@@ -24,10 +24,10 @@ inline PairWork strain_work(int dimension) {
   return dimension == 3 ? PairWork{21, 28} : PairWork{10, 20};
 }
 inline PairWork momentum_work(int dimension) {
-  return dimension == 3 ? PairWork{126, 68} : PairWork{71, 48};
+  return dimension == 3 ? PairWork{126, 44} : PairWork{71, 32};
 }
 inline PairWork correction_work(int dimension) {
-  return dimension == 3 ? PairWork{45, 68} : PairWork{20, 48};
+  return dimension == 3 ? PairWork{45, 20} : PairWork{20, 16};
 }
 
 /// Of a whole stage.

@@ -28,21 +28,23 @@ DIPTYCH_INLINE void correction_of_node(const SweepGraph<Dim>& graph,
                                        double (&correction)[Dim * Dim]) {
   constexpr int stride = tensor_stride<Dim>;
   const double* own = tensors + a * stride;
+  const double* X = graph.X.data();
+  const Neighbours* neighbours = graph.neighbours.data() + graph.row[a];
+  const FaceGeometry<Dim>* geometry = graph.face.data() + graph.first[a];
+  const std::int64_t n_chunks = graph.row[a + 1] - graph.row[a];
   Lanes sum[Dim * Dim] = {};
-  for (std::int64_t c = graph.row[a]; c < graph.row[a + 1]; ++c) {
-    const ForcePairs<Dim>& pairs = graph.force_pairs[c];
-    const double* neighbour[n_lanes];
-    for (int l = 0; l < n_lanes; ++l) {
-      neighbour[l] = tensors + static_cast<std::int64_t>(pairs.neighbour[l]) * stride;
-    }
-    Lanes q[stride];
-    gather<isa, Dim * Dim>(neighbour, q);
+  for (std::int64_t c = 0; c < n_chunks; ++c) {
+    prefetch(geometry + c + chunks_ahead);
+    Lanes q[stride], X_b[4];
+    gather_nodes<isa, Dim * Dim, stride>(tensors, neighbours[c], q);
+    gather_nodes<isa, Dim, vector_stride<Dim>>(X, neighbours[c], X_b);
     Lanes x[Dim], y[Dim];
 #pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i) {
-      const Lanes X = algebra::load(pairs.X_ab[i]), S = algebra::load(pairs.S_ab[i]);
-      x[i] = side == Side::rates ? X : S;
-      y[i] = side == Side::rates ? S : X;
+      const Lanes X_ab = X_b[i] - X[a * vector_stride<Dim> + i];
+      const Lanes S_ab = algebra::load(geometry[c].S_ab[i]);
+      x[i] = side == Side::rates ? X_ab : S_ab;
+      y[i] = side == Side::rates ? S_ab : X_ab;
     }
 #pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i) {

@@ -30,7 +30,7 @@ State<Dim>::State(
     if (G) S = BlockField(n, branches * Layout::n_S);
   }
   // gathers read four doubles of every row, in the plane two beyond the last
-  velocity = algebra::AlignedArray<double>(n_blocks * algebra::n_lanes * velocity_stride<Dim> + 4);
+  velocity = algebra::AlignedArray<double>(n_blocks * algebra::n_lanes * vector_stride<Dim> + 4);
   records = algebra::AlignedArray<double>(n_blocks * algebra::n_lanes * record_stride);
 }
 

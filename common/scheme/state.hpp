@@ -6,6 +6,7 @@
 
 #include "common/algebra/field.hpp"
 #include "common/algebra/layout.hpp"
+#include "common/scheme/sweep_graph.hpp"
 
 namespace diptych::scheme {
 
@@ -35,10 +36,6 @@ struct NodeRecord {
   static constexpr int stride(bool exact) { return ((exact ? n_exact : n_isotropic) + 7) / 8 * 8; }
 };
 
-/// v of a node, padded to four (3-D) or two doubles, for the strain-rate sweep.
-template <int Dim>
-inline constexpr int velocity_stride = Dim == 3 ? 4 : 2;
-
 /// A tensor of a node, padded to whole gathers (face correction).
 template <int Dim>
 inline constexpr int tensor_stride = Dim == 3 ? 12 : 4;
@@ -61,7 +58,7 @@ struct State {
   BlockField L;  ///< dF/dt = velocity gradient [1/s]
   BlockField T;  ///< internal force and loads, force on the node [N]
   // what neighbours read
-  algebra::AlignedArray<double> velocity;  ///< [n_nodes][velocity_stride]
+  algebra::AlignedArray<double> velocity;  ///< [n_nodes][vector_stride]
   algebra::AlignedArray<double> records;   ///< [n_nodes][record_stride]
   // face correction only: what its sweeps gather
   algebra::AlignedArray<double> gradients;  ///< [n_nodes][tensor_stride], uncorrected dF/dt

@@ -3,8 +3,8 @@
 /// (x) C_ab, then per node relaxation (14), stress (9) and wave speeds, left where the momentum
 /// sweep reads them. (18c) and (18d) are pointwise in dF/dt and stand in the update.
 ///
-/// Cost per directed pair in 3-D: 9 multiply-adds and 3 subtractions on 32 bytes gathered and 28 of
-/// geometry.
+/// Cost per directed pair in 3-D: 9 multiply-adds and 3 subtractions on 32 bytes gathered and at
+/// most 28 of geometry.
 
 #include "common/algebra/layout.hpp"
 #include "common/physics/wave_speeds.hpp"
@@ -43,26 +43,25 @@ template <InstructionSet isa, int Dim>
 DIPTYCH_INLINE void strain_rates_of_block(const SweepGraph<Dim>& graph,
                                           State<Dim>& state,
                                           std::int64_t b) {
-  constexpr int stride = velocity_stride<Dim>;
+  constexpr int stride = vector_stride<Dim>;
   const double* velocity = state.velocity.data();
   double* L = state.L.block(b);
   for (int lane = 0; lane < n_lanes; ++lane) {
     const std::int64_t a = b * n_lanes + lane;
     Lanes sum[Dim * Dim] = {};
-    for (std::int64_t c = graph.row[a]; c < graph.row[a + 1]; ++c) {
-      const StrainPairs<Dim>& pairs = graph.strain_pairs[c];
-      const double* neighbour[n_lanes];
-      for (int l = 0; l < n_lanes; ++l) {
-        neighbour[l] = velocity + static_cast<std::int64_t>(pairs.neighbour[l]) * stride;
-      }
+    const Neighbours* neighbours = graph.neighbours.data() + graph.row[a];
+    const StrainGeometry<Dim>* geometry = graph.strain.data() + graph.first[a];
+    const std::int64_t n_chunks = graph.row[a + 1] - graph.row[a];
+    for (std::int64_t c = 0; c < n_chunks; ++c) {
+      prefetch(geometry + c + chunks_ahead);
       Lanes v[4];
-      gather<isa, Dim>(neighbour, v);
+      gather_nodes<isa, Dim, stride>(velocity, neighbours[c], v);
 #pragma GCC unroll 3
       for (int i = 0; i < Dim; ++i) {
         const Lanes jump = v[i] - velocity[a * stride + i];
 #pragma GCC unroll 3
         for (int j = 0; j < Dim; ++j)
-          sum[i * Dim + j] += jump * algebra::load(pairs.C_ab[j]);
+          sum[i * Dim + j] += jump * algebra::load(geometry[c].C_ab[j]);
       }
     }
     const double half_inverse_Omega = 0.5 * graph.inverse_Omega[a];
@@ -113,7 +112,7 @@ DIPTYCH_INLINE void write_records(State<Dim>& state,
                                   const Tensor<Lanes>& P,
                                   bool exact_impedance) {
   using Record = NodeRecord<Dim>;
-  constexpr int stride = velocity_stride<Dim>;
+  constexpr int stride = vector_stride<Dim>;
   const double* velocity = state.velocity.data() + b * n_lanes * stride;
   for (int i = 0; i < Dim; ++i) {
     Lanes v;
