@@ -65,7 +65,7 @@ Scene::Scene(const SceneChoice& choice) : pairs(graph_of(choice.graph)) {
   model.branches = run::branches_of(setup.material, p.xi, p.zeta);
   const auto& graph = graph_of(choice.graph);
   state = scheme::State<3>(graph.n_nodes(), choice.n_branches, true, scheme::Unknowns::FHJ, false,
-                           choice.n_branches > 0);
+                           choice.n_branches > 0, pairs.shape);
   if (choice.face_correction) state.allow_face_correction();
   run::set_initial_state(graph, setup.initial, setup.scheme.face_correction, state);
   for (std::int64_t i = 0; i < state.n_blocks * 9 * algebra::n_lanes; ++i)

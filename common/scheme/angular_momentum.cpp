@@ -79,7 +79,7 @@ double project_angular_momentum(State<Dim>& state,
     const Vec3 change = lambda.cross(position(state, X_centred, a) - centre);
     for (int i = 0; i < Dim; ++i) {
       state.v.at(a, i) += change[i];
-      state.velocity[a * vector_stride<Dim> + i] = state.v.at(a, i);
+      state.velocity.at(a, i) = state.v.at(a, i);
     }
   });
   return gain;

@@ -16,8 +16,7 @@ DIPTYCH_INLINE void plain_gradients(const SweepGraph<Dim>& graph,
                                     std::int64_t end) {
   for (std::int64_t b = begin; b < end; ++b) {
     strain_rates_of_block<isa>(graph, state, b);
-    put_tensor<Dim>(state.gradients.data(), tensor_stride<Dim>, b,
-                    algebra::load_tensor<Dim>(state.L.block(b), 0));
+    put_tensor<Dim>(state.gradients, b, 0, algebra::load_tensor<Dim>(state.L.block(b), 0));
   }
 }
 

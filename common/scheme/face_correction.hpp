@@ -10,39 +10,32 @@
 /// order on a lattice; 1/8: exact face values of quadratics. Test:
 /// tests/common/scheme/face_correction_test.cpp.
 
-#include "common/scheme/gather.hpp"
+#include "common/scheme/pair_access.hpp"
 #include "common/scheme/state.hpp"
-#include "common/scheme/sweep_graph.hpp"
 
 namespace diptych::scheme {
 
 /// Which side of the duality a sweep works on.
 enum class Side { rates, stress };
 
-/// Sums over the row of node a: [(Q_a - Q_b) x] (x) y, row-major, from tensors stored per node.
-/// @param  tensors  [n_nodes][tensor_stride]
-template <InstructionSet isa, Side side, int Dim>
-DIPTYCH_INLINE void correction_of_node(const SweepGraph<Dim>& graph,
-                                       const double* tensors,
-                                       std::int64_t a,
-                                       double (&correction)[Dim * Dim]) {
-  constexpr int stride = tensor_stride<Dim>;
-  const double* own = tensors + a * stride;
-  const double* X = graph.X.data();
-  const Neighbours* neighbours = graph.neighbours.data() + graph.row[a];
-  const FaceGeometry<Dim>* geometry = graph.face.data() + graph.first[a];
-  const std::int64_t n_chunks = graph.row[a + 1] - graph.row[a];
-  Lanes sum[Dim * Dim] = {};
-  for (std::int64_t c = 0; c < n_chunks; ++c) {
-    prefetch(geometry + c + chunks_ahead);
-    Lanes q[stride], X_b[4];
-    gather_nodes<isa, Dim * Dim, stride>(tensors, neighbours[c], q);
-    gather_nodes<isa, Dim, vector_stride<Dim>>(X, neighbours[c], X_b);
+/// sum_b [(Q_a - Q_b) x] (x) y over the pairs of a unit, row-major, lane by lane.
+/// @param tensors  Q: uncorrected dF/dt, or P
+template <InstructionSet isa, Arrangement arrangement, Side side, int Dim>
+DIPTYCH_INLINE void sum_correction(const SweepGraph<Dim>& graph,
+                                   const NodeTable& tensors,
+                                   std::int64_t unit,
+                                   Lanes (&sum)[Dim * Dim]) {
+  const std::int64_t begin = graph.row[unit], end = graph.row[unit + 1];
+  const FaceGeometry<Dim>* geometry = graph.face.data() + graph.first[unit];
+  for (std::int64_t chunk = begin; chunk < end; ++chunk, ++geometry) {
+    prefetch(geometry + chunks_ahead);
+    const auto Q =
+        pairs_of<isa, arrangement, Dim * Dim, tensor_stride<Dim>>(graph, tensors, unit, chunk);
+    const auto X = vector_pairs_of<isa, arrangement>(graph, graph.X, unit, chunk);
     Lanes x[Dim], y[Dim];
 #pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i) {
-      const Lanes X_ab = X_b[i] - X[a * vector_stride<Dim> + i];
-      const Lanes S_ab = algebra::load(geometry[c].S_ab[i]);
+      const Lanes X_ab = X.neighbour(i) - X.own(i), S_ab = algebra::load(geometry->S_ab[i]);
       x[i] = side == Side::rates ? X_ab : S_ab;
       y[i] = side == Side::rates ? S_ab : X_ab;
     }
@@ -51,14 +44,35 @@ DIPTYCH_INLINE void correction_of_node(const SweepGraph<Dim>& graph,
       Lanes w{};
 #pragma GCC unroll 3
       for (int j = 0; j < Dim; ++j)
-        w += (own[i * Dim + j] - q[i * Dim + j]) * x[j];
+        w += (Q.own(i * Dim + j) - Q.neighbour(i * Dim + j)) * x[j];
 #pragma GCC unroll 3
       for (int j = 0; j < Dim; ++j)
         sum[i * Dim + j] += w * y[j];
     }
   }
+}
+
+/// Corrected tensors of block b: Q_a + kappa_f/Omega_a sum_b [(Q_a - Q_b) x] (x) y.
+template <InstructionSet isa, Side side, int Dim>
+DIPTYCH_INLINE void corrected_block(const SweepGraph<Dim>& graph,
+                                    const NodeTable& tensors,
+                                    double kappa_f,
+                                    std::int64_t b,
+                                    Lanes (&corrected)[Dim * Dim]) {
+  Lanes sum[Dim * Dim] = {};
+  if (graph.shape.arrangement == Arrangement::runs) {
+    sum_correction<isa, Arrangement::runs, side>(graph, tensors, b, sum);
+  } else {
+    for (int lane = 0; lane < n_lanes; ++lane) {
+      Lanes of_node[Dim * Dim] = {};
+      sum_correction<isa, Arrangement::rows, side>(graph, tensors, b * n_lanes + lane, of_node);
+      for (int k = 0; k < Dim * Dim; ++k)
+        sum[k][lane] = algebra::lane_sum(of_node[k]);
+    }
+  }
+  const Lanes scale = kappa_f * algebra::load(graph.inverse_Omega.data() + b * n_lanes);
   for (int k = 0; k < Dim * Dim; ++k)
-    correction[k] = algebra::lane_sum(sum[k]);
+    corrected[k] = tensors.get(b, k) + scale * sum[k];
 }
 
 /// state.L of block b <- L' from state.gradients.
@@ -67,16 +81,10 @@ DIPTYCH_INLINE void correct_rates_of_block(const SweepGraph<Dim>& graph,
                                            State<Dim>& state,
                                            double kappa_f,
                                            std::int64_t b) {
-  double* L = state.L.block(b);
-  for (int lane = 0; lane < n_lanes; ++lane) {
-    const std::int64_t a = b * n_lanes + lane;
-    double correction[Dim * Dim];
-    correction_of_node<isa, Side::rates>(graph, state.gradients.data(), a, correction);
-    const double* plain = state.gradients.data() + a * tensor_stride<Dim>;
-    for (int k = 0; k < Dim * Dim; ++k) {
-      L[k * n_lanes + lane] = plain[k] + kappa_f * graph.inverse_Omega[a] * correction[k];
-    }
-  }
+  Lanes L[Dim * Dim];
+  corrected_block<isa, Side::rates>(graph, state.gradients, kappa_f, b, L);
+  for (int k = 0; k < Dim * Dim; ++k)
+    algebra::store(state.L.block(b) + k * n_lanes, L[k]);
 }
 
 /// Records of the nodes of blocks [begin, end): P <- P' from state.stresses.
@@ -86,15 +94,11 @@ DIPTYCH_INLINE void correct_stresses(const SweepGraph<Dim>& graph,
                                      double kappa_f,
                                      std::int64_t begin,
                                      std::int64_t end) {
-  const std::int64_t last = end * n_lanes < graph.n_nodes ? end * n_lanes : graph.n_nodes;
-  for (std::int64_t a = begin * n_lanes; a < last; ++a) {
-    double correction[Dim * Dim];
-    correction_of_node<isa, Side::stress>(graph, state.stresses.data(), a, correction);
-    double* P = state.records.data() + a * state.record_stride + NodeRecord<Dim>::P;
-    const double* plain = state.stresses.data() + a * tensor_stride<Dim>;
-    for (int k = 0; k < Dim * Dim; ++k) {
-      P[k] = plain[k] + kappa_f * graph.inverse_Omega[a] * correction[k];
-    }
+  for (std::int64_t b = begin; b < end; ++b) {
+    Lanes P[Dim * Dim];
+    corrected_block<isa, Side::stress>(graph, state.stresses, kappa_f, b, P);
+    for (int k = 0; k < Dim * Dim; ++k)
+      state.records.put(b, NodeRecord<Dim>::P + k, P[k]);
   }
 }
 

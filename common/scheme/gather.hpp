@@ -5,7 +5,6 @@
 /// 32 values, against 7 shuffles per 8 values of a plain element-wise gather).
 
 #include "common/algebra/lanes.hpp"
-#include "common/scheme/sweep_graph.hpp"
 
 #include <cstdint>
 
@@ -75,15 +74,6 @@ DIPTYCH_INLINE void gather(const double* const* row, Lanes* r) {
 #pragma GCC unroll 16
   for (int c = 0; c < n; c += 4)
     gather_four<isa>(row, c, r + c);
-}
-
-/// The same from the rows of eight nodes in an array of rows of `stride` doubles.
-template <InstructionSet isa, int n, int stride>
-DIPTYCH_INLINE void gather_nodes(const double* rows, const Neighbours& neighbours, Lanes* r) {
-  const double* row[n_lanes];
-  for (int l = 0; l < n_lanes; ++l)
-    row[l] = rows + static_cast<std::int64_t>(neighbours.node[l]) * stride;
-  gather<isa, n>(row, r);
 }
 
 }  // namespace diptych::scheme

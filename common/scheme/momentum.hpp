@@ -1,14 +1,14 @@
 #pragma once
 /// Second pair sweep of an evaluation: internal forces of (18a) with the dissipation D_ab,
 ///   T_a = sum_b 1/2 (P_a C_ab - P_b C_ba) + sum_b D_ab,
-/// gathered per node: every pair is worked twice, each time for one of its nodes, so that no node
+/// summed per node: every pair is worked twice, each time for one of its nodes, so that no node
 /// is written by two threads and the sum has a fixed order. P_a sum_b C_ab is taken out of the sum.
 ///
 /// Also per node: numerical dissipation 1/2 sum_b (v_b - v_a).D_ab, and on demand the graph CFL
 /// rate sum_b |C_ab| c_ab / (2 Omega_a) with c_ab = max(c_p,a, c_p,b) (physics note 2.1).
 ///
-/// Cost per directed pair in 3-D (linear reconstruction, isotropic): about 75 multiply-adds on 288
-/// bytes gathered and at most 44 bytes of geometry.
+/// Cost per directed pair in 3-D (linear reconstruction, isotropic): about 75 multiply-adds on 280
+/// bytes of the neighbour and at most 44 bytes of geometry.
 
 #include "common/scheme/dissipation.hpp"
 #include "common/scheme/state.hpp"
@@ -52,13 +52,12 @@ struct NodeSums {
 };
 
 /// Mean response of the pair from the records of its nodes, for the exact impedance.
-template <int Dim>
-DIPTYCH_INLINE void mean_state(const double* own,
-                               const Lanes* neighbour,
+template <int Dim, class Pairs>
+DIPTYCH_INLINE void mean_state(const Pairs& pairs,
                                physics::Response<Lanes>& r,
                                physics::Deformation<Lanes>& X) {
   using Record = NodeRecord<Dim>;
-  const auto mean = [&](int c) { return 0.5 * (neighbour[c] + own[c]); };
+  const auto mean = [&](int c) { return 0.5 * (pairs.neighbour(c) + pairs.own(c)); };
   X.F = Tensor<Lanes>{};
   X.H = Tensor<Lanes>{};
   for (int i = 0; i < Dim; ++i) {
@@ -110,43 +109,30 @@ DIPTYCH_INLINE Vector<Lanes> reconstructed_jump(const Vector<Lanes>& plain,
   return jump;
 }
 
-/// What stands of node a while its row is worked.
-struct OwnNode {
-  const double* record;
-  const double* X;
-};
-
 /// Geometry of eight pairs.
 template <int Dim>
 struct PairGeometry {
-  const Neighbours& neighbours;
   const ForceGeometry<Dim>& force;
   const FaceGeometry<Dim>& face;
 };
 
-/// Adds eight pairs to the sums of their node a.
-template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
+/// Adds eight pairs to the sums of their unit.
+/// @param pairs      of the records
+/// @param positions  pairs of X
+template <int Dim, DissipationKind kind, bool has_H, class Pairs, class Positions>
 DIPTYCH_INLINE void add_pairs(const MomentumSweep<Dim>& sweep,
-                              const PairGeometry<Dim>& pairs,
-                              const OwnNode& node,
+                              const PairGeometry<Dim>& geometry,
+                              const Pairs& pairs,
+                              const Positions& positions,
                               NodeSums<Dim>& sums) {
   using Record = NodeRecord<Dim>;
-  constexpr bool exact = kind.impedance == Impedance::exact;
-  constexpr int stride = Record::stride(exact);
-  const double* own = node.record;
-  Lanes r[stride], X_b[4];
-  gather_nodes<isa, exact ? Record::n_exact : Record::n_isotropic, stride>(
-      sweep.state.records.data(), pairs.neighbours, r);
-  if constexpr (kind.reconstruction == Reconstruction::linear) {
-    gather_nodes<isa, Dim, vector_stride<Dim>>(sweep.graph.X.data(), pairs.neighbours, X_b);
-  }
   Vector<Lanes> C_ba{}, S{}, plain{}, h{};
   Slopes<Dim> slopes;
 #pragma GCC unroll 3
   for (int i = 0; i < Dim; ++i) {
-    C_ba[i] = algebra::load(pairs.force.C_ba[i]);
-    S[i] = algebra::load(pairs.face.S_ab[i]);
-    plain[i] = r[Record::v + i] - own[Record::v + i];
+    C_ba[i] = algebra::load(geometry.force.C_ba[i]);
+    S[i] = algebra::load(geometry.face.S_ab[i]);
+    plain[i] = pairs.neighbour(Record::v + i) - pairs.own(Record::v + i);
   }
 #pragma GCC unroll 3
   for (int i = 0; i < Dim; ++i) {
@@ -154,31 +140,32 @@ DIPTYCH_INLINE void add_pairs(const MomentumSweep<Dim>& sweep,
 #pragma GCC unroll 3
     for (int j = 0; j < Dim; ++j) {
       const int ij = i * Dim + j;
-      PC += r[Record::P + ij] * C_ba[j];
-      h[i] += (r[Record::H + ij] + own[Record::H + ij]) * S[j];
+      PC += pairs.neighbour(Record::P + ij) * C_ba[j];
+      h[i] += (pairs.neighbour(Record::H + ij) + pairs.own(Record::H + ij)) * S[j];
       if constexpr (kind.reconstruction == Reconstruction::linear) {
-        const Lanes X = X_b[j] - node.X[j];
+        const Lanes X = positions.neighbour(j) - positions.own(j);
         if constexpr (limits_slopes(kind.limiter)) {
-          slopes.a[i] += own[Record::L + ij] * X;
-          slopes.b[i] += r[Record::L + ij] * X;
+          slopes.a[i] += pairs.own(Record::L + ij) * X;
+          slopes.b[i] += pairs.neighbour(Record::L + ij) * X;
         } else {
-          slopes.sum[i] += (r[Record::L + ij] + own[Record::L + ij]) * X;
+          slopes.sum[i] += (pairs.neighbour(Record::L + ij) + pairs.own(Record::L + ij)) * X;
         }
       }
     }
     sums.force[i] -= PC;
   }
-  const Lanes area = algebra::load(pairs.face.area);
-  const Lanes z_p = r[Record::z_p];
+  const Lanes area = algebra::load(geometry.face.area);
+  const Lanes z_p = pairs.neighbour(Record::z_p);
   const Vector<Lanes> jump = reconstructed_jump<Dim, kind.limiter>(plain, slopes, h);
   Vector<Lanes> D{};
   if constexpr (kind.impedance == Impedance::isotropic) {
-    D = isotropic_impedance_times<Dim>(0.5 * (z_p + own[Record::z_p]),
-                                       0.5 * (r[Record::z_s] + own[Record::z_s]), h, jump);
+    const Lanes z_s = pairs.neighbour(Record::z_s);
+    D = isotropic_impedance_times<Dim>(0.5 * (z_p + pairs.own(Record::z_p)),
+                                       0.5 * (z_s + pairs.own(Record::z_s)), h, jump);
   } else {
     physics::Response<Lanes> response;
     physics::Deformation<Lanes> X;
-    mean_state<Dim>(own, r, response, X);
+    mean_state<Dim>(pairs, response, X);
     Lanes S2{};
     for (int i = 0; i < Dim; ++i)
       S2 += S[i] * S[i];
@@ -201,41 +188,68 @@ DIPTYCH_INLINE void add_pairs(const MomentumSweep<Dim>& sweep,
       const Lanes C_ab = 2.0 * S[i] + C_ba[i];
       C2 += C_ab * C_ab;
     }
-    sums.rate += algebra::square_root(C2) * algebra::larger(z_p, Lanes{} + own[Record::z_p]);
+    sums.rate += algebra::square_root(C2) * algebra::larger(z_p, Lanes{} + pairs.own(Record::z_p));
   }
 }
 
-/// One node. @return numerical dissipation of its half of each pair [W]; updates the largest rate
+/// Sums of the pairs of a unit.
+template <InstructionSet isa, Arrangement arrangement, int Dim, DissipationKind kind, bool has_H>
+DIPTYCH_INLINE NodeSums<Dim> sums_of(const MomentumSweep<Dim>& sweep, std::int64_t unit) {
+  using Record = NodeRecord<Dim>;
+  constexpr bool exact = kind.impedance == Impedance::exact;
+  const SweepGraph<Dim>& graph = sweep.graph;
+  const std::int64_t begin = graph.row[unit], end = graph.row[unit + 1];
+  const ForceGeometry<Dim>* force = graph.force.data() + graph.first[unit];
+  const FaceGeometry<Dim>* face = graph.face.data() + graph.first[unit];
+  NodeSums<Dim> sums;
+  if constexpr (arrangement == Arrangement::runs) {
+    prefetch_last_run<Record::n(exact)>(graph, sweep.state.records, unit);
+  }
+  for (std::int64_t chunk = begin; chunk < end; ++chunk, ++force, ++face) {
+    prefetch(force + chunks_ahead);
+    prefetch(face + chunks_ahead);
+    const auto pairs = pairs_of<isa, arrangement, Record::n(exact), Record::stride(exact)>(
+        graph, sweep.state.records, unit, chunk);
+    const auto positions = vector_pairs_of<isa, arrangement>(graph, graph.X, unit, chunk);
+    add_pairs<Dim, kind, has_H>(sweep, {*force, *face}, pairs, positions, sums);
+  }
+  return sums;
+}
+
+/// Forces on the eight nodes of block b, each over its row of pairs.
+/// @return numerical dissipation of their halves of the pairs [W]; updates the largest rate
 template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
-DIPTYCH_INLINE double force_on_node(const MomentumSweep<Dim>& sweep,
-                                    std::int64_t a,
-                                    double& largest_rate) {
+DIPTYCH_INLINE double forces_on_block(const MomentumSweep<Dim>& sweep,
+                                      std::int64_t b,
+                                      double& largest_rate) {
   using Record = NodeRecord<Dim>;
   const SweepGraph<Dim>& graph = sweep.graph;
-  constexpr int stride = Record::stride(kind.impedance == Impedance::exact);
-  const double* own = sweep.state.records.data() + a * stride;
-  const OwnNode node{own, graph.X.data() + a * vector_stride<Dim>};
-  const Neighbours* neighbours = graph.neighbours.data() + graph.row[a];
-  const ForceGeometry<Dim>* force = graph.force.data() + graph.first[a];
-  const FaceGeometry<Dim>* face = graph.face.data() + graph.first[a];
-  const std::int64_t n_chunks = graph.row[a + 1] - graph.row[a];
   NodeSums<Dim> sums;
-  for (std::int64_t c = 0; c < n_chunks; ++c) {
-    prefetch(force + c + chunks_ahead);
-    prefetch(face + c + chunks_ahead);
-    add_pairs<isa, Dim, kind, has_H>(sweep, {neighbours[c], force[c], face[c]}, node, sums);
+  if (graph.shape.arrangement == Arrangement::runs) {
+    sums = sums_of<isa, Arrangement::runs, Dim, kind, has_H>(sweep, b);
+  } else {
+    for (int lane = 0; lane < n_lanes; ++lane) {
+      const auto of_node =
+          sums_of<isa, Arrangement::rows, Dim, kind, has_H>(sweep, b * n_lanes + lane);
+      for (int i = 0; i < Dim; ++i)
+        sums.force[i][lane] = algebra::lane_sum(of_node.force[i]);
+      sums.power[lane] = algebra::lane_sum(of_node.power);
+      sums.rate[lane] = algebra::lane_sum(of_node.rate);
+    }
   }
-  double* T = sweep.state.T.block(a / n_lanes) + a % n_lanes;
-  const double* C_sum = graph.C_sum.block(a / n_lanes) + a % n_lanes;
   for (int i = 0; i < Dim; ++i) {
-    double PC = 0;
-    for (int j = 0; j < Dim; ++j)
-      PC += own[Record::P + i * Dim + j] * C_sum[j * n_lanes];
-    T[i * n_lanes] = 0.5 * (PC + algebra::lane_sum(sums.force[i]));
+    Lanes PC{};
+    for (int j = 0; j < Dim; ++j) {
+      PC += sweep.state.records.get(b, Record::P + i * Dim + j) *
+            algebra::load(graph.C_sum.block(b) + j * n_lanes);
+    }
+    algebra::store(sweep.state.T.block(b) + i * n_lanes, 0.5 * (PC + sums.force[i]));
   }
   if (sweep.with_bound) {
-    const double rate = 0.5 * algebra::lane_sum(sums.rate) * graph.inverse_Omega[a] / sweep.rho_R;
-    largest_rate = algebra::larger(largest_rate, rate);
+    const Lanes rate =
+        (0.5 / sweep.rho_R) * sums.rate * algebra::load(graph.inverse_Omega.data() + b * n_lanes);
+    for (int lane = 0; lane < n_lanes; ++lane)
+      largest_rate = algebra::larger(largest_rate, rate[lane]);
   }
   return 0.25 * algebra::lane_sum(sums.power);
 }
@@ -246,11 +260,8 @@ DIPTYCH_INLINE void forces_on_blocks(const MomentumSweep<Dim>& sweep,
                                      std::int64_t end,
                                      std::int64_t chunk) {
   double power = 0, rate = 0;
-  const std::int64_t n_nodes = sweep.graph.n_nodes;
-  const std::int64_t last = end * n_lanes < n_nodes ? end * n_lanes : n_nodes;
-  for (std::int64_t a = begin * n_lanes; a < last; ++a) {
-    power += force_on_node<isa, Dim, kind, has_H>(sweep, a, rate);
-  }
+  for (std::int64_t b = begin; b < end; ++b)
+    power += forces_on_block<isa, Dim, kind, has_H>(sweep, b, rate);
   sweep.numerical_power[chunk] = power;
   sweep.largest_rate[chunk] = rate;
 }

@@ -3,14 +3,19 @@
 namespace diptych::scheme {
 
 template <int Dim>
-State<Dim>::State(
-    std::int64_t n, int branches, bool G, Unknowns which, bool exact_impedance, bool keep_L_0)
+State<Dim>::State(std::int64_t n,
+                  int branches,
+                  bool G,
+                  Unknowns which,
+                  bool exact_impedance,
+                  bool keep_L_0,
+                  const algebra::TableShape& table_shape)
     : n_nodes(n),
       n_blocks(algebra::n_blocks_of(n)),
       n_branches(branches),
       has_G(G),
       unknowns(which),
-      record_stride(NodeRecord<Dim>::stride(exact_impedance)) {
+      shape(table_shape) {
   using Layout = algebra::Layout<Dim>;
   for (BlockField* f : {&v, &u, &v_0, &u_0, &T})
     *f = BlockField(n, Dim);
@@ -29,21 +34,21 @@ State<Dim>::State(
     A = BlockField(n, branches * Layout::n_A);
     if (G) S = BlockField(n, branches * Layout::n_S);
   }
-  // gathers read four doubles of every row, in the plane two beyond the last
-  velocity = algebra::AlignedArray<double>(n_blocks * algebra::n_lanes * vector_stride<Dim> + 4);
-  records = algebra::AlignedArray<double>(n_blocks * algebra::n_lanes * record_stride);
+  velocity = algebra::NodeTable(n, Dim, vector_stride<Dim>, shape);
+  using Record = NodeRecord<Dim>;
+  records =
+      algebra::NodeTable(n, Record::n(exact_impedance), Record::stride(exact_impedance), shape);
 }
 
 template <int Dim>
 void State<Dim>::allow_face_correction() {
-  const std::int64_t size = n_blocks * algebra::n_lanes * tensor_stride<Dim>;
-  gradients = algebra::AlignedArray<double>(size);
-  stresses = algebra::AlignedArray<double>(size);
+  gradients = algebra::NodeTable(n_nodes, Dim * Dim, tensor_stride<Dim>, shape);
+  stresses = algebra::NodeTable(n_nodes, Dim * Dim, tensor_stride<Dim>, shape);
 }
 
 template <int Dim>
 std::int64_t State<Dim>::bytes() const {
-  std::int64_t sum = 8 * (velocity.size() + records.size() + gradients.size() + stresses.size());
+  std::int64_t sum = velocity.bytes() + records.bytes() + gradients.bytes() + stresses.bytes();
   for (const BlockField* f :
        {&v, &u, &F, &H, &J, &A, &S, &v_0, &u_0, &F_0, &H_0, &J_0, &L_0, &L, &T}) {
     sum += f->bytes();

@@ -2,7 +2,7 @@
 /// The unknowns of a body and what the sweeps keep beside them.
 ///
 /// Two forms of the same values: block fields (algebra/field.hpp) for pointwise work, and node
-/// records, contiguous per node, that pair sweeps gather from neighbours.
+/// tables (algebra/node_table.hpp) that pair sweeps read of neighbours.
 
 #include "common/algebra/field.hpp"
 #include "common/algebra/layout.hpp"
@@ -32,11 +32,12 @@ struct NodeRecord {
   static constexpr int W_JJ = S_tot + algebra::Layout<Dim>::n_S;
   static constexpr int W_FJ = W_JJ + 1;
   static constexpr int n_exact = W_FJ + 1;
-  /// Length in doubles, padded to whole cache lines.
-  static constexpr int stride(bool exact) { return ((exact ? n_exact : n_isotropic) + 7) / 8 * 8; }
+  static constexpr int n(bool exact) { return exact ? n_exact : n_isotropic; }
+  /// Length of a row in doubles, padded to whole cache lines.
+  static constexpr int stride(bool exact) { return (n(exact) + 7) / 8 * 8; }
 };
 
-/// A tensor of a node, padded to whole gathers (face correction).
+/// Row of a tensor, padded to whole gathers (face correction).
 template <int Dim>
 inline constexpr int tensor_stride = Dim == 3 ? 12 : 4;
 
@@ -46,7 +47,7 @@ struct State {
   int n_branches = 0;
   bool has_G = false;  ///< branches keep S = G_v^-1
   Unknowns unknowns = Unknowns::FHJ;
-  int record_stride = 0;
+  algebra::TableShape shape;  ///< of the tables
 
   // unknowns
   BlockField v, u, F;  ///< velocity p/rho_R [m/s], displacement [m], deformation gradient [-]
@@ -58,18 +59,24 @@ struct State {
   BlockField L;  ///< dF/dt = velocity gradient [1/s]
   BlockField T;  ///< internal force and loads, force on the node [N]
   // what neighbours read
-  algebra::AlignedArray<double> velocity;  ///< [n_nodes][vector_stride]
-  algebra::AlignedArray<double> records;   ///< [n_nodes][record_stride]
-  // face correction only: what its sweeps gather
-  algebra::AlignedArray<double> gradients;  ///< [n_nodes][tensor_stride], uncorrected dF/dt
-  algebra::AlignedArray<double> stresses;   ///< [n_nodes][tensor_stride], P
+  algebra::NodeTable velocity;
+  algebra::NodeTable records;  ///< NodeRecord
+  // face correction only: what its sweeps read
+  algebra::NodeTable gradients;  ///< uncorrected dF/dt
+  algebra::NodeTable stresses;   ///< P
 
   State() = default;
-  State(std::int64_t n, int branches, bool G, Unknowns which, bool exact_impedance, bool keep_L_0);
+  State(std::int64_t n,
+        int branches,
+        bool G,
+        Unknowns which,
+        bool exact_impedance,
+        bool keep_L_0,
+        const algebra::TableShape& table_shape);
   std::int64_t bytes() const;
   /// Makes room for the face correction.
   void allow_face_correction();
-  bool has_face_correction() const { return gradients.size() > 0; }
+  bool has_face_correction() const { return !gradients.empty(); }
   /// Unknowns per node, as reported: v, u, F, H, J, A, S as stored.
   int unknowns_per_node() const;
 };

@@ -9,7 +9,7 @@
 #include "common/algebra/layout.hpp"
 #include "common/physics/wave_speeds.hpp"
 #include "common/scheme/face_correction.hpp"
-#include "common/scheme/gather.hpp"
+#include "common/scheme/pair_access.hpp"
 #include "common/scheme/pointwise.hpp"
 #include "common/scheme/sweep_graph.hpp"
 #include "common/scheme/update.hpp"
@@ -38,69 +38,59 @@ using StrainRateFunction = void (*)(const StrainRateSweep<Dim, Material>& sweep,
                                     std::int64_t end,
                                     std::int64_t chunk);
 
+/// sum_b (v_b - v_a) (x) C_ab over the pairs of a unit, lane by lane.
+template <InstructionSet isa, Arrangement arrangement, int Dim>
+DIPTYCH_INLINE void sum_gradients(const SweepGraph<Dim>& graph,
+                                  const NodeTable& velocity,
+                                  std::int64_t unit,
+                                  Lanes (&sum)[Dim * Dim]) {
+  const std::int64_t begin = graph.row[unit], end = graph.row[unit + 1];
+  const StrainGeometry<Dim>* geometry = graph.strain.data() + graph.first[unit];
+  for (std::int64_t chunk = begin; chunk < end; ++chunk, ++geometry) {
+    prefetch(geometry + chunks_ahead);
+    const auto v = vector_pairs_of<isa, arrangement>(graph, velocity, unit, chunk);
+#pragma GCC unroll 3
+    for (int i = 0; i < Dim; ++i) {
+      const Lanes jump = v.neighbour(i) - v.own(i);
+#pragma GCC unroll 3
+      for (int j = 0; j < Dim; ++j)
+        sum[i * Dim + j] += jump * algebra::load(geometry->C_ab[j]);
+    }
+  }
+}
+
 /// dF/dt of the eight nodes of block b, into state.L.
 template <InstructionSet isa, int Dim>
 DIPTYCH_INLINE void strain_rates_of_block(const SweepGraph<Dim>& graph,
                                           State<Dim>& state,
                                           std::int64_t b) {
-  constexpr int stride = vector_stride<Dim>;
-  const double* velocity = state.velocity.data();
   double* L = state.L.block(b);
+  if (graph.shape.arrangement == Arrangement::runs) {
+    Lanes sum[Dim * Dim] = {};
+    sum_gradients<isa, Arrangement::runs>(graph, state.velocity, b, sum);
+    const Lanes scale = 0.5 * algebra::load(graph.inverse_Omega.data() + b * n_lanes);
+    for (int k = 0; k < Dim * Dim; ++k)
+      algebra::store(L + k * n_lanes, scale * sum[k]);
+    return;
+  }
   for (int lane = 0; lane < n_lanes; ++lane) {
     const std::int64_t a = b * n_lanes + lane;
     Lanes sum[Dim * Dim] = {};
-    const Neighbours* neighbours = graph.neighbours.data() + graph.row[a];
-    const StrainGeometry<Dim>* geometry = graph.strain.data() + graph.first[a];
-    const std::int64_t n_chunks = graph.row[a + 1] - graph.row[a];
-    for (std::int64_t c = 0; c < n_chunks; ++c) {
-      prefetch(geometry + c + chunks_ahead);
-      Lanes v[4];
-      gather_nodes<isa, Dim, stride>(velocity, neighbours[c], v);
-#pragma GCC unroll 3
-      for (int i = 0; i < Dim; ++i) {
-        const Lanes jump = v[i] - velocity[a * stride + i];
-#pragma GCC unroll 3
-        for (int j = 0; j < Dim; ++j)
-          sum[i * Dim + j] += jump * algebra::load(geometry[c].C_ab[j]);
-      }
-    }
-    const double half_inverse_Omega = 0.5 * graph.inverse_Omega[a];
-    for (int k = 0; k < Dim * Dim; ++k) {
-      L[k * n_lanes + lane] = half_inverse_Omega * algebra::lane_sum(sum[k]);
-    }
+    sum_gradients<isa, Arrangement::rows>(graph, state.velocity, a, sum);
+    const double scale = 0.5 * graph.inverse_Omega[a];
+    for (int k = 0; k < Dim * Dim; ++k)
+      L[k * n_lanes + lane] = scale * algebra::lane_sum(sum[k]);
   }
 }
 
-/// Writes component c of the records of block b.
+/// Writes the in-plane part of a tensor of block b to components c.. of a table.
 template <int Dim>
-DIPTYCH_INLINE void put_in_records(State<Dim>& state, std::int64_t b, int c, const Lanes& value) {
-  double* record = state.records.data() + b * n_lanes * state.record_stride + c;
-  for (int lane = 0; lane < n_lanes; ++lane)
-    record[lane * state.record_stride] = value[lane];
-}
-
-template <int Dim>
-DIPTYCH_INLINE void put_tensor_in_records(State<Dim>& state,
-                                          std::int64_t b,
-                                          int c,
-                                          const Tensor<Lanes>& value) {
-  for (int i = 0; i < Dim; ++i)
-    for (int j = 0; j < Dim; ++j)
-      put_in_records(state, b, c + i * Dim + j, value(i, j));
-}
-
-/// Writes the in-plane part of a tensor of block b to an array of rows.
-template <int Dim>
-DIPTYCH_INLINE void put_tensor(double* rows,
-                               int stride,
+DIPTYCH_INLINE void put_tensor(NodeTable& table,
                                std::int64_t b,
+                               int c,
                                const Tensor<Lanes>& value) {
-  double* row = rows + b * n_lanes * stride;
-  for (int k = 0; k < Dim * Dim; ++k) {
-    for (int lane = 0; lane < n_lanes; ++lane) {
-      row[lane * stride + k] = value(k / Dim, k % Dim)[lane];
-    }
-  }
+  for (int k = 0; k < Dim * Dim; ++k)
+    table.put(b, c + k, value(k / Dim, k % Dim));
 }
 
 /// Fills the records of block b: what the momentum sweep reads of a neighbour.
@@ -112,34 +102,27 @@ DIPTYCH_INLINE void write_records(State<Dim>& state,
                                   const Tensor<Lanes>& P,
                                   bool exact_impedance) {
   using Record = NodeRecord<Dim>;
-  constexpr int stride = vector_stride<Dim>;
-  const double* velocity = state.velocity.data() + b * n_lanes * stride;
-  for (int i = 0; i < Dim; ++i) {
-    Lanes v;
-    for (int lane = 0; lane < n_lanes; ++lane)
-      v[lane] = velocity[lane * stride + i];
-    put_in_records(state, b, Record::v + i, v);
-  }
+  for (int i = 0; i < Dim; ++i)
+    state.records.put(b, Record::v + i, algebra::load(state.v.block(b) + i * n_lanes));
   if (state.has_face_correction()) {
-    put_tensor<Dim>(state.stresses.data(), tensor_stride<Dim>, b,
-                    P);  // P' follows in a sweep of its own
+    put_tensor<Dim>(state.stresses, b, 0, P);  // P' follows in a sweep of its own
   } else {
-    put_tensor_in_records(state, b, Record::P, P);
+    put_tensor<Dim>(state.records, b, Record::P, P);
   }
-  put_tensor_in_records(state, b, Record::L, algebra::load_tensor<Dim>(state.L.block(b), 0));
-  put_tensor_in_records(state, b, Record::H, X.H);
+  put_tensor<Dim>(state.records, b, Record::L, algebra::load_tensor<Dim>(state.L.block(b), 0));
+  put_tensor<Dim>(state.records, b, Record::H, X.H);
   if (!exact_impedance) return;
-  put_tensor_in_records(state, b, Record::F, X.F);
+  put_tensor<Dim>(state.records, b, Record::F, X.F);
   constexpr int order_A[6] = {0, 1, Dim == 3 ? 2 : 3, 3, 4, 5};
   for (int k = 0; k < algebra::Layout<Dim>::n_A; ++k) {
-    put_in_records(state, b, Record::A_tot + k, response.A_tot.s[order_A[k]]);
+    state.records.put(b, Record::A_tot + k, response.A_tot.s[order_A[k]]);
   }
   constexpr int order_S[6] = {0, 1, Dim == 3 ? 2 : 3, Dim == 3 ? 3 : 2, 4, 5};
   for (int k = 0; k < algebra::Layout<Dim>::n_S; ++k) {
-    put_in_records(state, b, Record::S_tot + k, response.S_tot.s[order_S[k]]);
+    state.records.put(b, Record::S_tot + k, response.S_tot.s[order_S[k]]);
   }
-  put_in_records(state, b, Record::W_JJ, response.W_JJ);
-  put_in_records(state, b, Record::W_FJ, response.W_FJ);
+  state.records.put(b, Record::W_JJ, response.W_JJ);
+  state.records.put(b, Record::W_FJ, response.W_FJ);
 }
 
 /// One block of the sweep. @return sum of the viscous dissipation over the block [W]
@@ -176,8 +159,8 @@ DIPTYCH_INLINE double evaluate_block(const StrainRateSweep<Dim, Material>& sweep
   write_records(state, b, X, response, P, sweep.exact_impedance);
   const double rho_R = sweep.model.rho_R;
   const auto speeds = physics::speed_bounds(response, X, rho_R, has_H);
-  put_in_records(state, b, NodeRecord<Dim>::z_p, rho_R * speeds.c_p);
-  put_in_records(state, b, NodeRecord<Dim>::z_s, rho_R * speeds.c_s);
+  state.records.put(b, NodeRecord<Dim>::z_p, rho_R * speeds.c_p);
+  state.records.put(b, NodeRecord<Dim>::z_s, rho_R * speeds.c_s);
   return algebra::lane_sum(dissipation * algebra::load(sweep.graph.Omega.data() + b * n_lanes));
 }
 

@@ -1,8 +1,10 @@
 #include "common/scheme/sweep_graph.hpp"
 
+#include "common/scheme/pair_runs.hpp"
 #include "common/scheme/row_classes.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace diptych::scheme {
 
@@ -10,50 +12,101 @@ using algebra::n_lanes;
 
 namespace {
 
+/// Runs take half the time of rows for a chunk: they pay from half full chunks on.
+constexpr double least_filling = 0.6;
+
 std::int64_t chunks_of(std::int64_t n_pairs) {
   return (n_pairs + n_lanes - 1) / n_lanes;
 }
 
-template <int Dim>
-void set_nodes(const PairGraph& graph, SweepGraph<Dim>& sweep) {
-  for (std::int64_t a = 0; a < sweep.n_nodes; ++a) {
-    sweep.Omega[a] = graph.Omega[a];
-    sweep.inverse_Omega[a] = 1 / graph.Omega[a];
-    for (int i = 0; i < Dim; ++i)
-      sweep.X[a * vector_stride<Dim> + i] = graph.X[a][i];
+/// The pairs of the chunks of one unit (a node in rows, a block in runs), lane by lane, -1: none.
+using Lay = std::vector<std::int64_t>;
+
+/// Lays out units one by one.
+class Layouts {
+ public:
+  virtual ~Layouts() = default;
+  virtual std::int64_t n_units() const = 0;
+  virtual void lay(std::int64_t unit, Lay& pairs) const = 0;
+};
+
+class RowLayouts : public Layouts {
+ public:
+  RowLayouts(const PairGraph& graph, const RowClasses& classes)
+      : graph_(graph), classes_(classes) {}
+  std::int64_t n_units() const override { return graph_.n_nodes(); }
+  void lay(std::int64_t a, Lay& pairs) const override {
+    const std::int64_t n = graph_.row[a + 1] - graph_.row[a];
+    pairs.assign(static_cast<size_t>(chunks_of(n) * n_lanes), -1);
+    std::copy_n(classes_.order.begin() + graph_.row[a], n, pairs.begin());
+  }
+
+ private:
+  const PairGraph& graph_;
+  const RowClasses& classes_;
+};
+
+class RunLayouts : public Layouts {
+ public:
+  RunLayouts(const PairGraph& graph, const PairRuns& runs) : graph_(graph), runs_(runs) {}
+  std::int64_t n_units() const override { return static_cast<std::int64_t>(runs_.row.size()) - 1; }
+  void lay(std::int64_t b, Lay& pairs) const override { pairs_of_block(graph_, runs_, b, pairs); }
+
+ private:
+  const PairGraph& graph_;
+  const PairRuns& runs_;
+};
+
+/// C_ab and C_ba of the lanes of a unit, zero where there is no pair.
+void geometry_of(const PairGraph& graph,
+                 const RowClasses& classes,
+                 const Lay& pairs,
+                 std::vector<Vec3>& C) {
+  C.assign(2 * pairs.size(), Vec3::Zero());
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    if (pairs[k] < 0) continue;
+    C[2 * k] = classes.C[pairs[k]];
+    C[2 * k + 1] = classes.C[graph.reverse[pairs[k]]];
   }
 }
 
-/// Rows of chunks with the neighbours in the order of the classes.
-template <int Dim>
-void set_rows(const PairGraph& graph, const RowClasses& classes, SweepGraph<Dim>& sweep) {
-  const std::int64_t n = sweep.n_blocks * n_lanes;
-  for (std::int64_t a = 0; a < n; ++a) {
-    sweep.row[a + 1] =
-        sweep.row[a] + (a < sweep.n_nodes ? chunks_of(graph.row[a + 1] - graph.row[a]) : 0);
+std::uint64_t hash_of(const std::vector<Vec3>& C) {
+  Hash hash;
+  for (const Vec3& c : C) {
+    for (int i = 0; i < 3; ++i) {
+      std::uint64_t word;
+      std::memcpy(&word, &c[i], sizeof word);
+      hash.add(word);
+    }
   }
-  sweep.neighbours = algebra::AlignedArray<Neighbours>(sweep.row[n]);
-  for (std::int64_t a = 0; a < sweep.n_nodes; ++a) {
-    std::int32_t* node = sweep.neighbours[sweep.row[a]].node;
-    std::fill(node, node + (sweep.row[a + 1] - sweep.row[a]) * n_lanes,
-              static_cast<std::int32_t>(a));
-    for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k)
-      node[k - graph.row[a]] = graph.neighbour[classes.order[k]];
-  }
+  return hash.value();
 }
 
-/// Geometry of one class, from the row of its representative, into the chunks from `first` on.
+/// Units with the same bits of geometry.
+EqualGroups group_units(const PairGraph& graph, const RowClasses& classes, const Layouts& layouts) {
+  std::vector<std::uint64_t> hash(static_cast<size_t>(layouts.n_units()));
+  Lay pairs;
+  std::vector<Vec3> one, other;
+  for (std::int64_t u = 0; u < layouts.n_units(); ++u) {
+    layouts.lay(u, pairs);
+    geometry_of(graph, classes, pairs, one);
+    hash[u] = hash_of(one);
+  }
+  return group_equal(hash, [&](std::int32_t u, std::int32_t v) {
+    layouts.lay(u, pairs);
+    geometry_of(graph, classes, pairs, one);
+    layouts.lay(v, pairs);
+    geometry_of(graph, classes, pairs, other);
+    return one == other;
+  });
+}
+
 template <int Dim>
-void set_class(const PairGraph& graph,
-               const RowClasses& classes,
-               std::int64_t a,
-               std::int64_t first,
-               SweepGraph<Dim>& sweep) {
-  for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k) {
-    const std::int64_t position = k - graph.row[a], chunk = first + position / n_lanes;
-    const int lane = static_cast<int>(position % n_lanes);
-    const Vec3& C_ab = classes.C[classes.order[k]];
-    const Vec3& C_ba = classes.C[graph.reverse[classes.order[k]]];
+void set_chunks(const std::vector<Vec3>& C, std::int64_t first, SweepGraph<Dim>& sweep) {
+  for (size_t k = 0; k < C.size() / 2; ++k) {
+    const std::int64_t chunk = first + static_cast<std::int64_t>(k) / n_lanes;
+    const auto lane = static_cast<int>(k % n_lanes);
+    const Vec3 &C_ab = C[2 * k], &C_ba = C[2 * k + 1];
     const Vec3 S_ab = 0.5 * (C_ab - C_ba);
     for (int i = 0; i < Dim; ++i) {
       sweep.strain[chunk].C_ab[i][lane] = C_ab[i];
@@ -64,20 +117,39 @@ void set_class(const PairGraph& graph,
   }
 }
 
+/// Geometry of every group once, and where each unit finds it.
 template <int Dim>
-void set_geometry(const PairGraph& graph, const RowClasses& classes, SweepGraph<Dim>& sweep) {
-  std::vector<std::int64_t> first(classes.representative.size() + 1, 0);
-  for (size_t c = 0; c + 1 < first.size(); ++c) {
-    const std::int32_t a = classes.representative[c];
-    first[c + 1] = first[c] + chunks_of(graph.row[a + 1] - graph.row[a]);
+void set_geometry(const PairGraph& graph,
+                  const RowClasses& classes,
+                  const Layouts& layouts,
+                  SweepGraph<Dim>& sweep) {
+  const EqualGroups groups = group_units(graph, classes, layouts);
+  std::vector<std::int64_t> first(1, 0);
+  Lay pairs;
+  for (const std::int32_t u : groups.representative) {
+    layouts.lay(u, pairs);
+    first.push_back(first.back() + static_cast<std::int64_t>(pairs.size()) / n_lanes);
   }
   sweep.strain = algebra::AlignedArray<StrainGeometry<Dim>>(first.back());
   sweep.force = algebra::AlignedArray<ForceGeometry<Dim>>(first.back());
   sweep.face = algebra::AlignedArray<FaceGeometry<Dim>>(first.back());
-  for (size_t c = 0; c + 1 < first.size(); ++c)
-    set_class(graph, classes, classes.representative[c], first[c], sweep);
+  std::vector<Vec3> C;
+  for (size_t g = 0; g < groups.representative.size(); ++g) {
+    layouts.lay(groups.representative[g], pairs);
+    geometry_of(graph, classes, pairs, C);
+    set_chunks(C, first[g], sweep);
+  }
+  for (std::int64_t u = 0; u < layouts.n_units(); ++u)
+    sweep.first[u] = first[groups.of[u]];
+}
+
+template <int Dim>
+void set_nodes(const PairGraph& graph, const RowClasses& classes, SweepGraph<Dim>& sweep) {
   for (std::int64_t a = 0; a < sweep.n_nodes; ++a) {
-    sweep.first[a] = first[classes.of_row[a]];
+    sweep.Omega[a] = graph.Omega[a];
+    sweep.inverse_Omega[a] = 1 / graph.Omega[a];
+    for (int i = 0; i < Dim; ++i)
+      sweep.X.at(a, i) = graph.X[a][i];
     for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k) {
       for (int i = 0; i < Dim; ++i)
         sweep.C_sum.at(a, i) += classes.C[classes.order[k]][i];
@@ -85,29 +157,71 @@ void set_geometry(const PairGraph& graph, const RowClasses& classes, SweepGraph<
   }
 }
 
+template <int Dim>
+void set_rows(const PairGraph& graph, const RowClasses& classes, SweepGraph<Dim>& sweep) {
+  const std::int64_t n = sweep.n_blocks * n_lanes;
+  sweep.row = algebra::AlignedArray<std::int64_t>(n + 1);
+  for (std::int64_t a = 0; a < n; ++a) {
+    sweep.row[a + 1] =
+        sweep.row[a] + (a < sweep.n_nodes ? chunks_of(graph.row[a + 1] - graph.row[a]) : 0);
+  }
+  sweep.neighbours = algebra::AlignedArray<Neighbours>(sweep.row[n]);
+  for (std::int64_t a = 0; a < sweep.n_nodes; ++a) {
+    std::int32_t* node = sweep.neighbours.data()[sweep.row[a]].node;
+    std::fill_n(node, (sweep.row[a + 1] - sweep.row[a]) * n_lanes, static_cast<std::int32_t>(a));
+    for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k)
+      node[k - graph.row[a]] = graph.neighbour[classes.order[k]];
+  }
+  sweep.first = algebra::AlignedArray<std::int64_t>(n);
+  set_geometry(graph, classes, RowLayouts(graph, classes), sweep);
+}
+
+template <int Dim>
+void set_runs(const PairGraph& graph,
+              const RowClasses& classes,
+              const PairRuns& runs,
+              SweepGraph<Dim>& sweep) {
+  sweep.shape = {Arrangement::runs, runs.reach + n_lanes};
+  sweep.row = algebra::AlignedArray<std::int64_t>(sweep.n_blocks + 1);
+  std::copy(runs.row.begin(), runs.row.end(), sweep.row.data());
+  sweep.offset = algebra::AlignedArray<std::int32_t>(runs.row.back());
+  std::copy(runs.offset.begin(), runs.offset.end(), sweep.offset.data());
+  sweep.first = algebra::AlignedArray<std::int64_t>(sweep.n_blocks);
+  set_geometry(graph, classes, RunLayouts(graph, runs), sweep);
+}
+
+Arrangement best_arrangement(const PairGraph& graph) {
+  return find_runs(graph).filling >= least_filling ? Arrangement::runs : Arrangement::rows;
+}
+
 }  // namespace
 
 template <int Dim>
-SweepGraph<Dim>::SweepGraph(const PairGraph& graph)
+SweepGraph<Dim>::SweepGraph(const PairGraph& graph) : SweepGraph(graph, best_arrangement(graph)) {}
+
+template <int Dim>
+SweepGraph<Dim>::SweepGraph(const PairGraph& graph, Arrangement arrangement)
     : n_nodes(graph.n_nodes()),
       n_blocks(algebra::n_blocks_of(graph.n_nodes())),
       n_pairs(graph.n_pairs()),
-      row(n_blocks * n_lanes + 1),
-      first(n_blocks * n_lanes),
-      X(n_blocks * n_lanes * vector_stride<Dim> + 4),  // gathers read four doubles of every row
       inverse_Omega(n_blocks * n_lanes),
       Omega(n_blocks * n_lanes),
       C_sum(graph.n_nodes(), Dim) {
   const RowClasses classes = classify_rows(graph);
-  set_nodes(graph, *this);
-  set_rows(graph, classes, *this);
-  set_geometry(graph, classes, *this);
+  if (arrangement == Arrangement::runs) {
+    set_runs(graph, classes, find_runs(graph), *this);
+  } else {
+    set_rows(graph, classes, *this);
+  }
+  X = algebra::NodeTable(n_nodes, Dim, vector_stride<Dim>, shape);
+  set_nodes(graph, classes, *this);
 }
 
 template <int Dim>
 std::int64_t SweepGraph<Dim>::bytes() const {
-  return row.bytes() + neighbours.bytes() + first.bytes() + strain.bytes() + force.bytes() +
-         face.bytes() + X.bytes() + inverse_Omega.bytes() + Omega.bytes() + C_sum.bytes();
+  return row.bytes() + neighbours.bytes() + offset.bytes() + first.bytes() + strain.bytes() +
+         force.bytes() + face.bytes() + X.bytes() + inverse_Omega.bytes() + Omega.bytes() +
+         C_sum.bytes();
 }
 
 template struct SweepGraph<2>;

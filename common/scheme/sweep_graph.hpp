@@ -1,22 +1,30 @@
 #pragma once
-/// The pair graph as the sweeps read it: each node's row padded to chunks of eight pairs (a lane
-/// each). Padding pairs the node with itself, with zero area.
+/// The pair graph as the sweeps read it: chunks of eight pairs, a lane each, in one of two
+/// arrangements (algebra/node_table.hpp).
 ///
-/// Geometry stands once for all nodes whose rows are translates of each other (row_classes.hpp): on
-/// lattices it stays in the cache, elsewhere it is a stream of memory beside the neighbours. X_b -
-/// X_a is made from the positions, which are gathered like the velocities. Per pair in 3-D the
-/// strain-rate sweep streams 28 bytes at most and the momentum sweep 44; 4 where all is shared.
-/// What only scales and directs the dissipation (S_ab and its length) is kept in single precision:
-/// S_ba = -S_ab holds exactly, and the jump that it multiplies is exact, so no identity is touched.
+/// rows  A chunk holds eight pairs of one node; the eight neighbours are gathered. For any graph.
+/// runs  A chunk holds, for the eight nodes a..a+7 of a block, their pairs with the nodes at the
+///       same offset in the numbering, b..b+7: no gather, no sum over lanes. Where a node has no
+///       such neighbour its C_ab and C_ba are zero. Taken where chunks are full enough: lattices in
+///       their natural numbering, for both methods and all element types.
+///
+/// Geometry stands once for all rows (runs: blocks) that have the same (row_classes.hpp); on
+/// lattices it stays in the cache, elsewhere it is a stream of memory. X_b - X_a is made from the
+/// positions. Per pair in 3-D the strain-rate sweep streams 28 bytes at most and the momentum sweep
+/// 44; 4 where all is shared. What only scales and directs the dissipation (S_ab and its length) is
+/// kept in single precision: S_ba = -S_ab holds exactly, and the jump that it multiplies is exact,
+/// so no identity is touched.
 
-#include "common/algebra/field.hpp"
+#include "common/algebra/node_table.hpp"
 #include "common/scheme/pair_graph.hpp"
 
 #include <cstdint>
 
 namespace diptych::scheme {
 
-/// v or X of a node, padded to four (3-D) or two doubles, for gathers.
+using algebra::Arrangement;
+
+/// Row of v or X in a table of rows: four (3-D) or two doubles.
 template <int Dim>
 inline constexpr int vector_stride = Dim == 3 ? 4 : 2;
 
@@ -25,7 +33,7 @@ struct Neighbours {
   std::int32_t node[algebra::n_lanes];
 };
 
-/// Of the same pairs: for the strain rates,
+/// Of eight pairs: for the strain rates,
 template <int Dim>
 struct StrainGeometry {
   double C_ab[Dim][algebra::n_lanes];  ///< m^2
@@ -47,18 +55,22 @@ struct FaceGeometry {
 template <int Dim>
 struct SweepGraph {
   std::int64_t n_nodes = 0, n_blocks = 0, n_pairs = 0;
-  algebra::AlignedArray<std::int64_t> row;       ///< [n_blocks * 8 + 1] into neighbours
-  algebra::AlignedArray<Neighbours> neighbours;  ///< by row
-  algebra::AlignedArray<std::int64_t> first;     ///< [n_blocks * 8] into the geometry
+  algebra::TableShape shape;                     ///< of the tables that sweeps of this graph read
+  algebra::AlignedArray<std::int64_t> row;       ///< into chunks; by node (rows) or block (runs)
+  algebra::AlignedArray<Neighbours> neighbours;  ///< rows: of each chunk; padded with the node
+  algebra::AlignedArray<std::int32_t> offset;    ///< runs: b - a of each chunk
+  algebra::AlignedArray<std::int64_t> first;     ///< into the geometry; by node or block
   algebra::AlignedArray<StrainGeometry<Dim>> strain;
   algebra::AlignedArray<ForceGeometry<Dim>> force;
   algebra::AlignedArray<FaceGeometry<Dim>> face;
-  algebra::AlignedArray<double> X;              ///< [n_nodes][vector_stride] m
+  algebra::NodeTable X;                         ///< m
   algebra::AlignedArray<double> inverse_Omega;  ///< [n_blocks * 8] 1/m^3, 0 in the padding
   algebra::AlignedArray<double> Omega;          ///< [n_blocks * 8] m^3, 0 in the padding
   algebra::BlockField C_sum;                    ///< [n_nodes][Dim] sum_b C_ab
 
   explicit SweepGraph(const PairGraph& graph);
+  /// In an arrangement of choice, for tests and measurements.
+  SweepGraph(const PairGraph& graph, Arrangement arrangement);
   std::int64_t bytes() const;
 };
 
@@ -67,7 +79,7 @@ struct SweepGraph {
 inline constexpr std::int64_t chunks_ahead = 8;
 
 template <class Chunk>
-__attribute__((always_inline)) inline void prefetch(const Chunk* chunk) {
+DIPTYCH_INLINE void prefetch(const Chunk* chunk) {
   const char* bytes = reinterpret_cast<const char*>(chunk);
 #pragma GCC unroll 8
   for (size_t i = 0; i < sizeof(Chunk); i += 64)

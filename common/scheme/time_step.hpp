@@ -40,7 +40,7 @@ double largest_speed(const State<Dim>& state, double rho_R, std::int64_t begin, 
       end * algebra::n_lanes < state.n_nodes ? end * algebra::n_lanes : state.n_nodes;
   double largest = 0;
   for (std::int64_t a = begin * algebra::n_lanes; a < last; ++a) {
-    const double z_p = state.records[a * state.record_stride + NodeRecord<Dim>::z_p];
+    const double z_p = state.records.at(a, NodeRecord<Dim>::z_p);
     largest = z_p > largest || z_p != z_p ? z_p : largest;
   }
   return largest / rho_R;

@@ -91,13 +91,8 @@ DIPTYCH_CLONES void kick(State<Dim>& state,
 template <int Dim>
 DIPTYCH_CLONES void publish_velocity(State<Dim>& state, std::int64_t begin, std::int64_t end) {
   for (std::int64_t b = begin; b < end; ++b) {
-    double* velocity = state.velocity.data() + b * n_lanes * vector_stride<Dim>;
-    for (int i = 0; i < Dim; ++i) {
-      const double* v = state.v.block(b) + i * n_lanes;
-      for (int lane = 0; lane < n_lanes; ++lane) {
-        velocity[lane * vector_stride<Dim> + i] = v[lane];
-      }
-    }
+    for (int i = 0; i < Dim; ++i)
+      state.velocity.put(b, i, algebra::load(state.v.block(b) + i * n_lanes));
   }
 }
 

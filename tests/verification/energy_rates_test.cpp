@@ -57,7 +57,8 @@ class LoadedBody {
       : graph_(tests::graph_of(method, mesh())),
         pairs_(graph_),
         kappa_f_(kappa_f),
-        state_(graph_.n_nodes(), n_branches, true, scheme::Unknowns::FHJ, false, false),
+        state_(
+            graph_.n_nodes(), n_branches, true, scheme::Unknowns::FHJ, false, false, pairs_.shape),
         chunks_(static_cast<size_t>(parallel::n_chunks_of(pairs_.n_blocks))),
         boundary_(graph_, conditions(), body_force, true) {
     model_.material = {1.3e6, 0.7e6, 4e6};

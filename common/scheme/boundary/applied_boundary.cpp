@@ -212,7 +212,7 @@ Impulse AppliedBoundary::overwrite(State<Dim>& state, double rho_R) const {
       if (has_velocities_) after += target_[k];
       for (int i = 0; i < Dim; ++i) {
         state.v.at(c.node, i) = after[i];
-        state.velocity[c.node * vector_stride<Dim> + i] = after[i];
+        state.velocity.at(c.node, i) = after[i];
       }
       if constexpr (Dim == 2) after[2] = 0;
       const Vec3 impulse = rho_R * c.Omega * (after - before);

@@ -17,31 +17,36 @@ using algebra::Vec3;
 const std::string corrected_cube =
     tests::spinning_cube + std::string("[scheme]\nface_correction = \"1/6\"\n");
 
+constexpr scheme::Arrangement both[] = {scheme::Arrangement::rows, scheme::Arrangement::runs};
+
 class FaceCorrection : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Both, FaceCorrection, testing::Values("sph", "fvm"));
 
-/// One instruction set is enough: the sweeps are compared with each other in sweeps_test.cpp.
+/// kappa_f = 1. One instruction set is enough: sweeps_test.cpp compares them.
+/// @return Omega_a times the change
 std::vector<Mat3> correction(const scheme::SweepGraph<3>& pairs,
                              scheme::Side side,
                              const std::vector<Mat3>& tensors) {
   constexpr auto isa = scheme::InstructionSet::baseline;
-  std::vector<double> rows(tensors.size() * 12 + 12);
-  for (size_t a = 0; a < tensors.size(); ++a) {
+  algebra::NodeTable table(pairs.n_nodes, 9, scheme::tensor_stride<3>, pairs.shape);
+  const auto n = static_cast<std::int64_t>(tensors.size());
+  for (std::int64_t a = 0; a < n; ++a) {
     for (int k = 0; k < 9; ++k)
-      rows[12 * a + k] = tensors[a](k / 3, k % 3);
+      table.at(a, k) = tensors[a](k / 3, k % 3);
   }
   std::vector<Mat3> result(tensors.size());
-  for (size_t a = 0; a < tensors.size(); ++a) {
-    double sum[9];
+  for (std::int64_t b = 0; b < pairs.n_blocks; ++b) {
+    algebra::Lanes corrected[9];
     if (side == scheme::Side::rates) {
-      scheme::correction_of_node<isa, scheme::Side::rates>(pairs, rows.data(),
-                                                           static_cast<std::int64_t>(a), sum);
+      scheme::corrected_block<isa, scheme::Side::rates>(pairs, table, 1, b, corrected);
     } else {
-      scheme::correction_of_node<isa, scheme::Side::stress>(pairs, rows.data(),
-                                                            static_cast<std::int64_t>(a), sum);
+      scheme::corrected_block<isa, scheme::Side::stress>(pairs, table, 1, b, corrected);
     }
-    for (int k = 0; k < 9; ++k)
-      result[a](k / 3, k % 3) = sum[k];
+    for (std::int64_t a = b * 8; a < std::min(n, b * 8 + 8); ++a) {
+      for (int k = 0; k < 9; ++k) {
+        result[a](k / 3, k % 3) = pairs.Omega[a] * (corrected[k][a % 8] - tensors[a](k / 3, k % 3));
+      }
+    }
   }
   return result;
 }
@@ -50,7 +55,6 @@ TEST_P(FaceCorrection, StressSideIsTheTransposeOfTheRateSide) {
   const auto graph = tests::graph_of(
       GetParam(),
       meshes::box(meshes::CellType::hexahedron, Vec3::Zero(), Vec3(1, 2, 1), {4, 5, 3}));
-  const scheme::SweepGraph<3> pairs(graph);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1, 1);
   std::vector<Mat3> L(graph.X.size()), P(graph.X.size());
@@ -60,16 +64,19 @@ TEST_P(FaceCorrection, StressSideIsTheTransposeOfTheRateSide) {
       P[a](k / 3, k % 3) = uniform(random);
     }
   }
-  const auto BL = correction(pairs, scheme::Side::rates, L);
-  const auto BP = correction(pairs, scheme::Side::stress, P);
-  double left = 0, right = 0, size = 0;
-  for (size_t a = 0; a < L.size(); ++a) {
-    left += P[a].cwiseProduct(BL[a]).sum();
-    right += BP[a].cwiseProduct(L[a]).sum();
-    size += P[a].norm() * BL[a].norm();
+  for (const scheme::Arrangement arrangement : both) {
+    const scheme::SweepGraph<3> pairs(graph, arrangement);
+    const auto BL = correction(pairs, scheme::Side::rates, L);
+    const auto BP = correction(pairs, scheme::Side::stress, P);
+    double left = 0, right = 0, size = 0;
+    for (size_t a = 0; a < L.size(); ++a) {
+      left += P[a].cwiseProduct(BL[a]).sum();
+      right += BP[a].cwiseProduct(L[a]).sum();
+      size += P[a].norm() * BL[a].norm();
+    }
+    EXPECT_GT(size, 0);
+    EXPECT_NEAR(left, right, 1e-13 * size);  // sums of some thousand products
   }
-  EXPECT_GT(size, 0);
-  EXPECT_NEAR(left, right, 1e-13 * size);  // sums of some thousand products
 }
 
 TEST(FrequencyFactor, IsTheMaximumOfTheSymbol) {
@@ -86,10 +93,11 @@ TEST(FrequencyFactor, IsTheMaximumOfTheSymbol) {
 TEST_P(FaceCorrection, LeavesLinearFieldsAlone) {
   const auto graph = tests::graph_of(
       GetParam(), meshes::box(meshes::CellType::hexahedron, Vec3::Zero(), Vec3::Ones(), {4, 4, 4}));
-  const scheme::SweepGraph<3> pairs(graph);
   const std::vector<Mat3> uniform(graph.X.size(), Mat3::Random());
-  for (const Mat3& change : correction(pairs, scheme::Side::rates, uniform)) {
-    EXPECT_EQ(change.norm(), 0);
+  for (const scheme::Arrangement arrangement : both) {
+    const scheme::SweepGraph<3> pairs(graph, arrangement);
+    for (const Mat3& change : correction(pairs, scheme::Side::rates, uniform))
+      EXPECT_EQ(change.norm(), 0);
   }
 }
 

@@ -15,24 +15,29 @@ namespace diptych {
 namespace {
 
 using algebra::Vec3;
+using scheme::Arrangement;
 using scheme::DissipationKind;
 using Material = physics::MooneyRivlin;
 
 /// A random finite deformation and velocity on a graph, evaluated once.
 class RandomBody {
  public:
-  RandomBody(const std::string& method, DissipationKind kind, bool affine = false)
+  RandomBody(const std::string& method,
+             DissipationKind kind,
+             Arrangement arrangement = Arrangement::runs,
+             bool affine = false)
       : graph_(tests::graph_of(
             method,
             meshes::box(meshes::CellType::hexahedron, Vec3::Zero(), Vec3::Ones(), {5, 4, 3}))),
-        pairs(graph_),
+        pairs(graph_, arrangement),
         kind_(kind),
         state(graph_.n_nodes(),
               1,
               true,
               scheme::Unknowns::F,
               kind.impedance == scheme::Impedance::exact,
-              false),
+              false,
+              pairs.shape),
         chunks_(static_cast<size_t>(parallel::n_chunks_of(pairs.n_blocks))) {
     model.material = {1.3e6, 0.7e6, 4e6};
     model.rho_R = 1100;
@@ -96,8 +101,8 @@ class RandomBody {
     double power = 0;
     for (std::int64_t a = 0; a < graph_.n_nodes(); ++a) {
       for (int k = 0; k < 9; ++k) {
-        power += graph_.Omega[a] * state.L.at(a, k) *
-                 state.records[a * state.record_stride + scheme::NodeRecord<3>::P + k];
+        power +=
+            graph_.Omega[a] * state.L.at(a, k) * state.records.at(a, scheme::NodeRecord<3>::P + k);
       }
     }
     return power;
@@ -141,13 +146,14 @@ constexpr DissipationKind limited_exact{
 constexpr DissipationKind plain{scheme::Reconstruction::none, scheme::PairLimiter::none,
                                 scheme::Impedance::isotropic};
 
-class Sweeps : public testing::TestWithParam<std::tuple<const char*, DissipationKind>> {};
+class Sweeps
+    : public testing::TestWithParam<std::tuple<const char*, DissipationKind, Arrangement>> {};
 
 // 400 random nodes with entries of order one: sums of about 1e4 products, rounding about 1e-14.
 constexpr double rounding = 1e-12;
 
 TEST_P(Sweeps, InternalForcesSumToZero) {
-  RandomBody body(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  RandomBody body(std::get<0>(GetParam()), std::get<1>(GetParam()), std::get<2>(GetParam()));
   body.evaluate();
   Vec3 sum = Vec3::Zero();
   double scale = 0;
@@ -160,7 +166,7 @@ TEST_P(Sweeps, InternalForcesSumToZero) {
 }
 
 TEST_P(Sweeps, PowerOfForcesIsStressPowerPlusDissipation) {
-  RandomBody body(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  RandomBody body(std::get<0>(GetParam()), std::get<1>(GetParam()), std::get<2>(GetParam()));
   body.evaluate();
   double power = 0;
   for (std::int64_t a = 0; a < body.graph().n_nodes(); ++a) {
@@ -177,14 +183,49 @@ INSTANTIATE_TEST_SUITE_P(
     Sweeps,
     testing::Combine(
         testing::Values("sph", "fvm"),
-        testing::Values(isotropic, exact, limited, barth_jespersen, venkatakrishnan, plain)));
+        testing::Values(isotropic, exact, limited, barth_jespersen, venkatakrishnan, plain),
+        testing::Values(Arrangement::rows, Arrangement::runs)));
 
 class Methods : public testing::TestWithParam<const char*> {};
+
+/// Forces and velocity gradients of all nodes.
+std::vector<double> results(const RandomBody& body) {
+  std::vector<double> all;
+  for (std::int64_t a = 0; a < body.graph().n_nodes(); ++a) {
+    for (int i = 0; i < 3; ++i)
+      all.push_back(body.state.T.at(a, i));
+    for (int k = 0; k < 9; ++k)
+      all.push_back(body.state.L.at(a, k));
+  }
+  return all;
+}
+
+double largest(const std::vector<double>& values) {
+  double most = 0;
+  for (const double value : values)
+    most = std::max(most, std::abs(value));
+  return most;
+}
+
+TEST_P(Methods, ArrangementsAgree) {
+  for (const DissipationKind& kind : {isotropic, exact, venkatakrishnan, plain}) {
+    RandomBody rows(GetParam(), kind, Arrangement::rows), runs(GetParam(), kind, Arrangement::runs);
+    rows.evaluate();
+    runs.evaluate();
+    const auto one = results(rows), other = results(runs);
+    for (size_t k = 0; k < one.size(); ++k)
+      ASSERT_NEAR(one[k], other[k], rounding * largest(one));
+    EXPECT_NEAR(rows.numerical_power(), runs.numerical_power(),
+                rounding * std::abs(rows.numerical_power()));
+    EXPECT_NEAR(rows.rate[0], runs.rate[0], rounding * rows.rate[0]);
+  }
+}
 
 TEST_P(Methods, AffineVelocityDissipatesNothing) {
   for (const DissipationKind& kind :
        {isotropic, exact, limited, barth_jespersen, venkatakrishnan}) {
-    RandomBody affine(GetParam(), kind, true), rough(GetParam(), plain, true);
+    RandomBody affine(GetParam(), kind, Arrangement::runs, true),
+        rough(GetParam(), plain, Arrangement::runs, true);
     affine.evaluate();
     rough.evaluate();
     EXPECT_GT(rough.numerical_power(), 0);
@@ -212,38 +253,24 @@ TEST_P(Methods, DissipationIsProportionalToItsFactor) {
 
 TEST_P(Methods, CompiledFormsAgree) {
 #if defined(DIPTYCH_MULTIVERSION)
-  const auto forces = [](RandomBody& body) {
-    std::vector<double> all;
-    for (std::int64_t a = 0; a < body.graph().n_nodes(); ++a) {
-      for (int i = 0; i < 3; ++i)
-        all.push_back(body.state.T.at(a, i));
-      for (int k = 0; k < 9; ++k)
-        all.push_back(body.state.L.at(a, k));
+  for (const Arrangement arrangement : {Arrangement::rows, Arrangement::runs}) {
+    RandomBody body(GetParam(), isotropic, arrangement);
+    body.evaluate(scheme::strain_rate_sweep_baseline<3, Material>,
+                  scheme::momentum_sweep_baseline<3, isotropic, true>);
+    const auto baseline = results(body);
+    const auto here = algebra::instruction_set();
+    if (here == algebra::InstructionSet::baseline) return;  // one form only on this processor
+    body.evaluate(scheme::strain_rate_sweep_avx2<3, Material>,
+                  scheme::momentum_sweep_avx2<3, isotropic, true>);
+    const auto avx2 = results(body);
+    for (size_t k = 0; k < avx2.size(); ++k) {
+      ASSERT_NEAR(avx2[k], baseline[k], rounding * largest(baseline));
     }
-    return all;
-  };
-  const auto largest = [](const std::vector<double>& values) {
-    double most = 0;
-    for (const double value : values)
-      most = std::max(most, std::abs(value));
-    return most;
-  };
-  RandomBody body(GetParam(), isotropic);
-  body.evaluate(scheme::strain_rate_sweep_baseline<3, Material>,
-                scheme::momentum_sweep_baseline<3, isotropic, true>);
-  const auto baseline = forces(body);
-  const auto here = algebra::instruction_set();
-  if (here == algebra::InstructionSet::baseline) return;  // one form only on this processor
-  body.evaluate(scheme::strain_rate_sweep_avx2<3, Material>,
-                scheme::momentum_sweep_avx2<3, isotropic, true>);
-  const auto avx2 = forces(body);
-  for (size_t k = 0; k < avx2.size(); ++k) {
-    ASSERT_NEAR(avx2[k], baseline[k], rounding * largest(baseline));
+    if (here != algebra::InstructionSet::avx512) continue;
+    body.evaluate(scheme::strain_rate_sweep_avx512<3, Material>,
+                  scheme::momentum_sweep_avx512<3, isotropic, true>);
+    EXPECT_EQ(results(body), avx2) << "AVX2 and AVX-512 promise the same bits";
   }
-  if (here != algebra::InstructionSet::avx512) return;
-  body.evaluate(scheme::strain_rate_sweep_avx512<3, Material>,
-                scheme::momentum_sweep_avx512<3, isotropic, true>);
-  EXPECT_EQ(forces(body), avx2) << "AVX2 and AVX-512 promise the same bits";
 #endif
 }
 

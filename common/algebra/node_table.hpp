@@ -1,0 +1,79 @@
+#pragma once
+/// What pair sweeps read of neighbours: n components per node, in the arrangement that suits the
+/// graph. `rows`: the components of a node side by side, for neighbours anywhere; eight of them are
+/// gathered and transposed. `runs`: the nodes of a component side by side, for graphs in which
+/// eight consecutive nodes have eight consecutive neighbours (numbered lattices); these are one
+/// load.
+
+#include "common/algebra/field.hpp"
+
+namespace diptych::algebra {
+
+enum class Arrangement { rows, runs };
+
+/// How tables of a graph are arranged.
+struct TableShape {
+  Arrangement arrangement = Arrangement::rows;
+  std::int64_t guard = 0;  ///< runs: nodes that may be read before the first and after the last
+};
+
+class NodeTable {
+ public:
+  NodeTable() = default;
+  /// @param row_stride  length of a row, at least n_components
+  NodeTable(std::int64_t n_nodes, int n_components, int row_stride, const TableShape& shape)
+      : arrangement_(shape.arrangement) {
+    const std::int64_t n = n_blocks_of(n_nodes) * n_lanes;
+    if (arrangement_ == Arrangement::rows) {
+      node_stride_ = row_stride;
+      data_ = AlignedArray<double>(n * row_stride + 4);  // gathers read four doubles at a time
+      return;
+    }
+    const std::int64_t guard = n_blocks_of(shape.guard) * n_lanes;
+    component_stride_ = n + 2 * guard;
+    if (component_stride_ / n_lanes % 2 == 0) component_stride_ += n_lanes;  // not all in one set
+    data_ = AlignedArray<double>(component_stride_ * n_components);
+    first_ = guard;
+  }
+
+  Arrangement arrangement() const { return arrangement_; }
+  bool empty() const { return data_.size() == 0; }
+  std::int64_t bytes() const { return data_.bytes(); }
+
+  double& at(std::int64_t node, int component) {
+    return data_[first_ + node * node_stride_ + component * component_stride_];
+  }
+  double at(std::int64_t node, int component) const {
+    return data_[first_ + node * node_stride_ + component * component_stride_];
+  }
+  /// Component 0 of node 0; from here node and component count by their strides.
+  const double* origin() const { return data_.data() + first_; }
+  std::int64_t component_stride() const { return component_stride_; }  ///< 1 in rows
+
+  /// Component c of the eight nodes of block b.
+  DIPTYCH_INLINE Lanes get(std::int64_t b, int c) const {
+    const double* p = origin() + b * n_lanes * node_stride_ + c * component_stride_;
+    if (arrangement_ == Arrangement::runs) return load(p);
+    Lanes value;
+    for (int lane = 0; lane < n_lanes; ++lane)
+      value[lane] = p[lane * node_stride_];
+    return value;
+  }
+  /// Sets component c of the eight nodes of block b.
+  DIPTYCH_INLINE void put(std::int64_t b, int c, const Lanes& value) {
+    double* p = data_.data() + first_ + b * n_lanes * node_stride_ + c * component_stride_;
+    if (arrangement_ == Arrangement::runs) {
+      store(p, value);
+      return;
+    }
+    for (int lane = 0; lane < n_lanes; ++lane)
+      p[lane * node_stride_] = value[lane];
+  }
+
+ private:
+  Arrangement arrangement_ = Arrangement::rows;
+  std::int64_t node_stride_ = 1, component_stride_ = 1, first_ = 0;
+  AlignedArray<double> data_;
+};
+
+}  // namespace diptych::algebra

@@ -1,0 +1,94 @@
+#pragma once
+/// How sweeps read a table at the eight pairs of a chunk, the same for both arrangements:
+///   pairs.neighbour(c)   component c of the nodes b, one per lane
+///   pairs.own(c)         component c of the node a (rows: a number) or nodes a (runs: lanes)
+/// A unit is what a row of chunks belongs to: a node in rows, a block of eight in runs.
+
+#include "common/scheme/gather.hpp"
+#include "common/scheme/sweep_graph.hpp"
+
+namespace diptych::scheme {
+
+using algebra::NodeTable;
+
+/// Eight neighbours of one node, gathered.
+template <InstructionSet isa, int n, int stride>
+class GatheredPairs {
+ public:
+  template <int Dim>
+  DIPTYCH_INLINE GatheredPairs(const SweepGraph<Dim>& graph,
+                               const NodeTable& table,
+                               std::int64_t a,
+                               std::int64_t chunk)
+      : own_(table.origin() + a * stride) {
+    const double* row[n_lanes];
+    for (int l = 0; l < n_lanes; ++l) {
+      row[l] = table.origin() +
+               static_cast<std::int64_t>(graph.neighbours.data()[chunk].node[l]) * stride;
+    }
+    gather<isa, n>(row, values_);
+  }
+  DIPTYCH_INLINE Lanes neighbour(int c) const { return values_[c]; }
+  DIPTYCH_INLINE double own(int c) const { return own_[c]; }
+
+ private:
+  Lanes values_[(n + 3) / 4 * 4];
+  const double* own_;
+};
+
+/// A neighbour of each of eight nodes, side by side.
+class RunPairs {
+ public:
+  template <int Dim>
+  DIPTYCH_INLINE RunPairs(const SweepGraph<Dim>& graph,
+                          const NodeTable& table,
+                          std::int64_t b,
+                          std::int64_t chunk)
+      : own_(table.origin() + b * n_lanes),
+        neighbour_(own_ + graph.offset.data()[chunk]),
+        stride_(table.component_stride()) {}
+  DIPTYCH_INLINE Lanes neighbour(int c) const { return algebra::load(neighbour_ + c * stride_); }
+  DIPTYCH_INLINE Lanes own(int c) const { return algebra::load(own_ + c * stride_); }
+
+ private:
+  const double *own_, *neighbour_;
+  std::int64_t stride_;
+};
+
+/// Asks for what the next blocks will be the first to read: the run farthest ahead. The processor
+/// does not follow as many streams as there are components.
+template <int n, int Dim>
+DIPTYCH_INLINE void prefetch_last_run(const SweepGraph<Dim>& graph,
+                                      const NodeTable& table,
+                                      std::int64_t b) {
+  if (graph.row[b] == graph.row[b + 1]) return;
+  const double* ahead = table.origin() + (b + 2) * n_lanes + graph.offset[graph.row[b + 1] - 1];
+#pragma GCC unroll 8
+  for (int c = 0; c < n; ++c)
+    __builtin_prefetch(ahead + c * table.component_stride());
+}
+
+/// @tparam n       components that are read
+/// @tparam stride  of the rows of the table
+template <InstructionSet isa, Arrangement arrangement, int n, int stride, int Dim>
+DIPTYCH_INLINE auto pairs_of(const SweepGraph<Dim>& graph,
+                             const NodeTable& table,
+                             std::int64_t unit,
+                             std::int64_t chunk) {
+  if constexpr (arrangement == Arrangement::rows) {
+    return GatheredPairs<isa, n, stride>(graph, table, unit, chunk);
+  } else {
+    return RunPairs(graph, table, unit, chunk);
+  }
+}
+
+/// The same of a table of vectors.
+template <InstructionSet isa, Arrangement arrangement, int Dim>
+DIPTYCH_INLINE auto vector_pairs_of(const SweepGraph<Dim>& graph,
+                                    const NodeTable& table,
+                                    std::int64_t unit,
+                                    std::int64_t chunk) {
+  return pairs_of<isa, arrangement, Dim, vector_stride<Dim>>(graph, table, unit, chunk);
+}
+
+}  // namespace diptych::scheme
