@@ -3,6 +3,7 @@
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_list.hpp"
 #include "benchmarks/harness/convergence.hpp"
+#include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/material_report.hpp"
 #include "benchmarks/harness/option_costs.hpp"
 #include "benchmarks/harness/regress.hpp"
@@ -76,12 +77,6 @@ harness::StudyOptions study_options(const Arguments& arguments, const run::Case&
   return options;
 }
 
-int exit_code_of_study() {
-  if (!harness::interrupt_requested()) return 0;
-  std::fputs("diptych: interrupted; what had been computed is written\n", stderr);
-  return static_cast<int>(base::ExitCode::interrupted);
-}
-
 void write_report(const run::Case& setup,
                   const harness::Study& study,
                   const std::string& dir,
@@ -98,7 +93,7 @@ int run_verb(const Arguments& arguments) {
   for (const auto& summary : study.runs)
     print(harness::run_table(summary) + "\n");
   print(fmt::format("output: {}\n", options.directory));
-  return exit_code_of_study();
+  return harness::exit_code_of_study(harness::begin_again(options.directory));
 }
 
 int compare_verb(Arguments arguments) {
@@ -111,7 +106,7 @@ int compare_verb(Arguments arguments) {
     print(harness::comparison_table(study.runs[0], study.runs[1], study.differences));
     write_report(setup, study, options.directory);
   }
-  return exit_code_of_study();
+  return harness::exit_code_of_study(harness::begin_again(options.directory));
 }
 
 /// What is written and printed of the levels that are finished.
@@ -121,6 +116,7 @@ void show_convergence(const run::Case& setup,
                       const std::string& directory) {
   std::vector<harness::LevelRecord> records;
   for (size_t i = 0; i < study.runs.size(); ++i) {
+    if (study.runs[i].status == "interrupted") continue;
     const std::string file = (std::filesystem::path(study.directories[i]) / "history.csv").string();
     records.push_back({study.runs[i], io::history_columns_from_csv(io::read_file(file), file)});
   }
@@ -163,7 +159,7 @@ int converge_verb(const Arguments& arguments) {
     print(fmt::format("taken over, not run again: {}\n", directory));
   if (!study.taken_over.empty()) print("\n");
   show_convergence(setup, arguments, study, options.directory);
-  return exit_code_of_study();
+  return harness::exit_code_of_study(harness::go_on_from(options.directory));
 }
 
 int verify_verb(const Arguments& arguments) {
@@ -208,7 +204,7 @@ int regress_verb(const Arguments& arguments) {
   request.threads = arguments.threads;
   request.quiet = arguments.quiet;
   harness::regress(request);
-  return exit_code_of_study();
+  return harness::exit_code_of_study("the same command begins again, nothing is recorded");
 }
 
 int study_verb(const Arguments& arguments) {
@@ -220,11 +216,14 @@ int study_verb(const Arguments& arguments) {
   request.threads = arguments.threads;
   request.quiet = arguments.quiet;
   request.directory = directory_of(arguments, run::read_case(request.case_file));
+  request.fresh = arguments.fresh;
   if (arguments.stability)
     harness::study_stability(request);
   else
     harness::study_work_precision(request);
-  return exit_code_of_study();
+  return harness::exit_code_of_study(
+      arguments.stability ? "the limits above are in stability.csv; the same command begins again"
+                          : harness::go_on_from(request.directory));
 }
 
 int cost_verb(const Arguments& arguments) {
@@ -235,7 +234,7 @@ int cost_verb(const Arguments& arguments) {
   const std::string file = (std::filesystem::path(folder) / "option_costs.csv").string();
   io::write_file_atomically(file, harness::cost_csv(table));
   print("output: " + file + "\n");
-  return exit_code_of_study();
+  return harness::exit_code_of_study("the rows above are written; the same command begins again");
 }
 
 int check_verb(const Arguments& arguments) {
@@ -313,6 +312,7 @@ void add_study_options(CLI::App* verb, Arguments& arguments) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   verb->add_option("--levels", arguments.study.n_levels, "number of levels, from --level on");
   verb->add_option("--repeats", arguments.study.repeats, "timings of every run (default 3)");
+  verb->add_flag("--fresh", arguments.fresh, "run finished runs again too");
   verb->add_option("--field", arguments.study.field, "whose error is shown, such as stress");
   verb->add_flag("--stability", arguments.stability,
                  "find the largest stable time step by bisection");
@@ -427,8 +427,7 @@ int dispatch(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   harness::limit_spinning(argv);
-  std::signal(SIGINT, [](int) { harness::request_interrupt(); });
-  std::signal(SIGTERM, [](int) { harness::request_interrupt(); });
+  harness::catch_interrupts();
   std::signal(SIGPIPE, SIG_IGN);
   try {
     return dispatch(argc, argv);

@@ -1,5 +1,6 @@
 #include "benchmarks/harness/progress.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -25,16 +26,15 @@ Progress::Progress(std::string label, double end_time, bool quiet)
       quiet_(quiet),
       on_terminal_(isatty(STDERR_FILENO) != 0),
       start_(Clock::now()),
-      last_(start_) {}
+      last_(start_),
+      pause_(on_terminal_ ? 0.25 : 2) {}
 
 Progress::~Progress() {
   finish();
 }
 
-bool Progress::due(double time) const {
-  if (quiet_) return false;
-  if (on_terminal_) return seconds_since(last_) > 0.25;
-  return seconds_since(start_) > 2 && time / end_time_ >= next_fraction_;
+bool Progress::due() const {
+  return !quiet_ && seconds_since(last_) > pause_;
 }
 
 void Progress::show(double time, std::int64_t step, double dt, double energy_residual) {
@@ -47,8 +47,7 @@ void Progress::show(double time, std::int64_t step, double dt, double energy_res
   std::fflush(stderr);
   line_open_ = on_terminal_;
   last_ = Clock::now();
-  while (next_fraction_ <= fraction)
-    next_fraction_ += 0.1;
+  if (!on_terminal_) pause_ = std::min(2 * pause_, 1800.0);
 }
 
 void Progress::finish() {

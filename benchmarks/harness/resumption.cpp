@@ -29,6 +29,8 @@ std::optional<FinishedRun> finished_run(const run::Case& setup, const RunOptions
   try {
     run.summary = io::summary_from_json(io::read_file(summary.string()), summary.string());
     run.history = io::history_from_csv(io::read_file(history.string()), history.string());
+    const std::string exact = (fs::path(options.directory) / "exact.csv").string();
+    if (fs::exists(exact, error)) run.exact = io::columns_from_csv(io::read_file(exact), exact);
   } catch (const base::InputError&) {
     return std::nullopt;  // of another version, or cut off: the run is made again
   }

@@ -19,6 +19,7 @@ std::string input_hash(const run::Case& setup, const std::vector<NodeMeasure>& m
 struct FinishedRun {
   io::RunSummary summary;
   std::vector<io::HistoryRow> history;
+  std::vector<io::HistoryColumn> exact;  ///< empty where the case has no exact solution
 };
 std::optional<FinishedRun> finished_run(const run::Case& setup, const RunOptions& options);
 

@@ -1,6 +1,8 @@
 #include "benchmarks/harness/run_case.hpp"
 
 #include "benchmarks/harness/backends.hpp"
+#include "benchmarks/harness/energy_record.hpp"
+#include "benchmarks/harness/exact_record.hpp"
 #include "benchmarks/harness/progress.hpp"
 #include "benchmarks/harness/provenance.hpp"
 #include "benchmarks/harness/quantities.hpp"
@@ -9,6 +11,7 @@
 #include "common/base/error.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/run/exact_errors.hpp"
+#include "common/run/field_norms.hpp"
 #include "common/run/probes.hpp"
 
 #include <algorithm>
@@ -29,30 +32,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Budget of a run relative to the largest energy that it has held.
-class EnergyRecord {
- public:
-  explicit EnergyRecord(const scheme::Balance& initial)
-      : initial_(initial.kinetic + initial.strain), scale_(initial_) {}
-
-  io::EnergySummary at(const scheme::Balance& now, const scheme::Audit& audit) {
-    io::EnergySummary e;
-    e.kinetic = now.kinetic;
-    e.strain = now.strain;
-    e.external_work = audit.external_work;
-    e.numerical_dissipation = audit.numerical_dissipation;
-    e.viscous_dissipation = audit.viscous_dissipation;
-    scale_ = std::max({scale_, now.kinetic + now.strain, std::abs(audit.external_work)});
-    const double residual = now.kinetic + now.strain - initial_ - audit.external_work +
-                            audit.numerical_dissipation + audit.viscous_dissipation;
-    e.relative_residual = scale_ > 0 ? residual / scale_ : residual;
-    return e;
-  }
-
- private:
-  double initial_, scale_;
-};
-
 /// Writes, counts and measures at the output times of a run.
 class Recorder {
  public:
@@ -66,6 +45,7 @@ class Recorder {
         result_(result),
         errors_(setup, result.graph, solver),
         probes_(setup.probes, result.graph),
+        exact_(setup, result.graph, probes_),
         initial_(solver.balance()),
         energy_(initial_) {
     if (!options.directory.empty() && options.fields && setup.output.fields) {
@@ -97,9 +77,13 @@ class Recorder {
     update_drifts(balance, audit);
     const bool last = solver_.time() >= setup_.time.end;
     const bool keeps_shape = shapes_ && shapes_->wants(result_.history.size() - 1);
-    if (!errors_.available() && !writer_ && !keeps_shape && !last) return;
+    if (!errors_.available() && !writer_ && !keeps_shape && !options_.scales && !last) return;
     run::Snapshot snapshot = solver_.snapshot();
-    if (errors_.available()) errors_.measure(snapshot);
+    if (options_.scales) raise_scales(run::field_norms(result_.graph, snapshot));
+    if (errors_.available()) {
+      errors_.measure(snapshot);
+      exact_.take(errors_.exact());
+    }
     if (writer_) write_fields(snapshot);
     if (keeps_shape) shapes_->take(snapshot, row.time);
     result_.final_state = std::move(snapshot);
@@ -123,6 +107,11 @@ class Recorder {
     s.angular_momentum_drift = angular_drift_;
     s.quantities = quantities_of(setup_.probes, result_);
     if (shapes_) result_.shapes = shapes_->record();
+    result_.exact = exact_.columns();
+    if (options_.scales) {
+      for (const auto& [field, norm] : errors_.scales())  // of errors too, where there are any
+        result_.scales[field] = norm;
+    }
     for (const io::HistoryRow& row : result_.history) {
       s.involution_H = std::max(s.involution_H, row.involution_H);
       s.involution_J = std::max(s.involution_J, row.involution_J);
@@ -130,6 +119,11 @@ class Recorder {
   }
 
  private:
+  void raise_scales(const std::map<std::string, double>& norms) {
+    for (const auto& [field, norm] : norms)
+      result_.scales[field] = std::max(result_.scales[field], norm);
+  }
+
   /// Largest change of momentum beyond the impulse of loads and constraints, relative to sum |p|.
   void update_drifts(const scheme::Balance& now, const scheme::Audit& audit) {
     momentum_scale_ = std::max(momentum_scale_, now.momentum_scale);
@@ -188,6 +182,7 @@ class Recorder {
   RunResult& result_;
   run::ExactErrors errors_;
   run::Probes probes_;
+  ExactRecord exact_;
   scheme::Balance initial_;
   EnergyRecord energy_;
   std::unique_ptr<io::FieldWriter> writer_;
@@ -244,7 +239,7 @@ void advance(const run::Case& setup,
       s.dt_max = std::max(s.dt_max, report.dt);
       s.min_jacobian = std::min(s.min_jacobian, report.least_J);
       recorder.record_step(report);
-      if (progress.due(solver.time())) {
+      if (progress.due()) {
         progress.show(solver.time(), report.step, report.dt, recorder.energy_residual());
       }
       if (setup.time.max_steps > 0 && report.step >= setup.time.max_steps) break;
@@ -273,6 +268,10 @@ void write_record(const run::Case& setup, const RunOptions& options, const RunRe
   const std::filesystem::path directory = options.directory;
   io::write_file_atomically((directory / "history.csv").string(),
                             io::history_csv(result.history, probe_columns(setup, false)));
+  std::filesystem::remove(directory / "exact.csv");  // of an earlier run of another case
+  if (!result.exact.empty()) {
+    io::write_file_atomically((directory / "exact.csv").string(), io::columns_csv(result.exact));
+  }
   const std::vector<std::string> stepped = probe_columns(setup, true);
   if (!stepped.empty()) {
     io::write_file_atomically((directory / "steps.csv").string(),

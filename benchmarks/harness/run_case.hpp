@@ -17,20 +17,23 @@ namespace diptych::harness {
 struct RunOptions {
   std::string method = "fvm";
   int level = 0;
-  int threads = 0;                    ///< 0: all processors
-  std::string directory;              ///< of this run; empty: nothing is written
-  bool fields = true;                 ///< write field frames (besides output.fields of the case)
-  bool quiet = false;                 ///< no progress
-  bool shapes = false;                ///< keep deformed surfaces for a report
+  int threads = 0;        ///< 0: all processors
+  std::string directory;  ///< of this run; empty: nothing is written
+  bool fields = true;     ///< write field frames (besides output.fields of the case)
+  bool quiet = false;     ///< no progress
+  bool shapes = false;    ///< keep deformed surfaces for a report
+  bool scales = false;    ///< find the largest norms of the fields over the output times
   std::vector<NodeMeasure> measures;  ///< of the final state, for summary.json
 };
 
 struct RunResult {
   io::RunSummary summary;
   std::vector<io::HistoryRow> history;
-  std::vector<io::StepRow> steps;  ///< of the probes with every_step
-  run::Snapshot final_state;       ///< in the numbering of `mesh`
-  report::ShapeRecord shapes;      ///< where they were asked for
+  std::vector<io::StepRow> steps;        ///< of the probes with every_step
+  std::vector<io::HistoryColumn> exact;  ///< what the exact solution gives at the output times
+  std::map<std::string, double> scales;  ///< field: largest L2 norm, exact where errors have one
+  run::Snapshot final_state;             ///< in the numbering of `mesh`
+  report::ShapeRecord shapes;            ///< where they were asked for
   CaseMesh mesh;
   scheme::PairGraph graph;
 };

@@ -2,8 +2,9 @@
 
 #include "benchmarks/harness/resumption.hpp"
 #include "common/base/text.hpp"
-#include "common/run/exact_errors.hpp"
+#include "common/run/field_norms.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -12,20 +13,16 @@ namespace diptych::harness {
 
 namespace {
 
-/// Differences of the final states of two runs on the same nodes.
+/// Differences of the final states of two runs on the same nodes, relative to the largest norms
+/// that errors are relative to as well.
 std::map<std::string, double> differences_of(const RunResult& a, const RunResult& b) {
-  const auto deviation = [](std::vector<run::Mat3> F) {
-    for (run::Mat3& M : F)
-      M -= run::Mat3::Identity();
-    return F;
-  };
-  const run::Snapshot &s = a.final_state, &t = b.final_state;
-  if (s.u.empty() || t.u.empty()) return {};
-  return {
-      {"displacement", run::relative_difference(a.graph, s.u, t.u)},
-      {"velocity", run::relative_difference(a.graph, s.v, t.v)},
-      {"deformation_gradient", run::relative_difference(a.graph, deviation(s.F), deviation(t.F))},
-      {"stress", run::relative_difference(a.graph, s.P, t.P)}};
+  if (a.final_state.u.empty() || b.final_state.u.empty()) return {};
+  auto differences = run::difference_norms(a.graph, a.final_state, b.final_state);
+  for (auto& [field, difference] : differences) {
+    const double scale = std::max(a.scales.at(field), b.scales.at(field));
+    if (scale > 0) difference /= scale;
+  }
+  return differences;
 }
 
 std::string run_directory(const StudyOptions& options, int level, const std::string& method) {
@@ -50,22 +47,26 @@ Study run_study(const run::Case& setup, const StudyOptions& options) {
       run_options.fields = options.fields;
       run_options.quiet = options.quiet;
       run_options.shapes = options.shapes && level == options.levels.back();
+      run_options.scales = options.methods.size() == 2 && level == options.levels.back();
       const auto finished = options.resume ? finished_run(setup, run_options) : std::nullopt;
       study.directories.push_back(run_options.directory);
       if (finished) {
         study.runs.push_back(finished->summary);
         study.histories[method] = finished->history;
+        study.exact[method] = finished->exact;
         study.taken_over.push_back(run_options.directory);
         continue;
       }
       results.push_back(run_case(setup, run_options));
       study.runs.push_back(results.back().summary);
       study.histories[method] = results.back().history;
+      study.exact[method] = results.back().exact;
       if (run_options.shapes) study.shapes[method] = std::move(results.back().shapes);
       if (interrupt_requested()) return study;
     }
-    study.differences.clear();  // of the finest level only, and only where both were run now
-    if (results.size() == 2) study.differences = differences_of(results[0], results[1]);
+    // of the finest level only, and only where both were run now
+    if (results.size() == 2 && level == options.levels.back())
+      study.differences = differences_of(results[0], results[1]);
   }
   return study;
 }
@@ -109,6 +110,18 @@ void add_quantities(const MethodConvergence& method, report::StudyReport& report
   }
 }
 
+/// What probes and energies are drawn against: the exact solution as one of the methods met it, and
+/// the values from elsewhere.
+report::References references_of(const run::Case& setup, const Study& study) {
+  report::References references;
+  for (const auto& [method, columns] : study.exact) {
+    if (!columns.empty()) references.exact = columns;
+  }
+  for (const run::ReferenceCase& one : setup.references)
+    references.points.push_back({one.probe, one.source, one.points});
+  return references;
+}
+
 report::StudyReport report_of(const run::Case& setup,
                               const Study& study,
                               const std::vector<MethodConvergence>& convergence) {
@@ -121,6 +134,7 @@ report::StudyReport report_of(const run::Case& setup,
   report.runs = study.runs;
   report.histories = study.histories;
   report.differences = study.differences;
+  report.references = references_of(setup, study);
   report.shapes = study.shapes;
   for (const MethodConvergence& method : convergence)
     add_quantities(method, report);

@@ -25,10 +25,12 @@ struct StudyOptions {
 struct Study {
   std::vector<io::RunSummary> runs;  ///< level by level, methods in the order of the options
   std::map<std::string, std::vector<io::HistoryRow>> histories;  ///< method: finest level
+  std::map<std::string, std::vector<io::HistoryColumn>> exact;   ///< method: finest level
   std::vector<std::string> directories;                          ///< of each run
   std::vector<std::string> taken_over;                           ///< directories of such runs
   std::map<std::string, report::ShapeRecord> shapes;             ///< method: finest level
-  std::map<std::string, double> differences;  ///< field: relative L2 at the nodes, finest level
+  std::map<std::string, double> differences;  ///< field: L2 at the nodes at the end, finest level,
+                                              ///< over its largest norm at any output time
 };
 
 /// Runs all methods on all levels; stops after an interrupt.

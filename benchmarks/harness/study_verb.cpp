@@ -2,6 +2,8 @@
 
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_mesh.hpp"
+#include "benchmarks/harness/provenance.hpp"
+#include "benchmarks/harness/resumption.hpp"
 #include "benchmarks/harness/run_case.hpp"
 #include "benchmarks/harness/status_line.hpp"
 #include "benchmarks/harness/variants.hpp"
@@ -17,6 +19,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
+#include <optional>
 
 namespace diptych::harness {
 
@@ -66,6 +69,10 @@ void add_limits(const StudyRequest& request,
 
 void study_stability(const StudyRequest& asked) {
   StudyRequest request = asked;
+  if (request.fresh) {
+    throw base::InputError(
+        "--fresh has no effect with --stability, which keeps no runs; remove it");
+  }
   if (request.integrators.empty()) request.integrators = time::integrator_menu().names();
   for (const std::string& integrator : request.integrators)
     time::integrator_menu().at(integrator);
@@ -92,9 +99,26 @@ void study_stability(const StudyRequest& asked) {
 
 namespace {
 
+/// A run that was finished before, whose times are those of this machine.
+std::optional<io::RunSummary> timed_before(const run::Case& setup, const RunOptions& options) {
+  const auto finished = finished_run(setup, options);
+  if (!finished) return std::nullopt;
+  const io::RunSummary& run = finished->summary;
+  const bool same =
+      run.threads == parallel::n_threads() && run.provenance.cpu == provenance(setup.hash).cpu;
+  return same ? std::optional(run) : std::nullopt;
+}
+
 /// Adds a repetition of one level to a curve. @return false after an interrupt
-bool add_run(const run::Case& setup, const RunOptions& options, bool first, WorkCurve& curve) {
-  const io::RunSummary run = run_case(setup, options).summary;
+bool add_run(const run::Case& setup,
+             const RunOptions& options,
+             bool first,
+             bool fresh,
+             int& n_taken_over,
+             WorkCurve& curve) {
+  const auto before = fresh ? std::nullopt : timed_before(setup, options);
+  if (before) ++n_taken_over;
+  const io::RunSummary run = before ? *before : run_case(setup, options).summary;
   if (interrupt_requested()) return false;
   if (first) {
     curve.points.push_back({run, run.loop_seconds, run.loop_seconds, setup.scheme.face_correction});
@@ -134,7 +158,9 @@ void measure(const StudyRequest& request,
   RunOptions options;
   options.threads = request.threads;
   options.fields = false;
-  options.quiet = true;
+  options.quiet = request.quiet;
+  const std::filesystem::path runs = std::filesystem::path(request.directory) / "runs";
+  int n_taken_over = 0;
   for (options.level = request.level; options.level < request.level + request.n_levels;
        ++options.level) {
     for (int repetition = 0; repetition < request.repeats; ++repetition) {
@@ -143,14 +169,23 @@ void measure(const StudyRequest& request,
         const run::Case& setup = cases[i / request.methods.size()];
         status.show(fmt::format("{} level {}, repetition {} of {}", curves[i].name(), options.level,
                                 repetition + 1, request.repeats));
-        if (!add_run(setup, options, repetition == 0, curves[i])) return;
+        // the very first run tells whether what was asked makes sense: nothing is written before
+        if (!field.empty()) {
+          options.directory = (runs / fmt::format("{}_{}_level_{}_{}", input_hash(setup, {}),
+                                                  options.method, options.level, repetition + 1))
+                                  .string();
+        }
+        if (!add_run(setup, options, repetition == 0, request.fresh, n_taken_over, curves[i])) {
+          return;
+        }
         if (!field.empty()) continue;
         field = field_of(request, curves[i].points.back().run);
         io::make_directory(request.directory);  // now that nothing is wrong with what was asked
       }
     }
-    status.keep(fmt::format("level {} done: {} runs", options.level,
-                            request.repeats * static_cast<int>(curves.size())));
+    status.keep(fmt::format("level {} done: {} runs, {} of them taken over", options.level,
+                            request.repeats * static_cast<int>(curves.size()), n_taken_over));
+    n_taken_over = 0;
   }
 }
 

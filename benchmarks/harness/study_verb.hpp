@@ -18,7 +18,7 @@ struct StudyRequest {
   std::string field;  ///< whose error is shown; empty: the first that the case measures
   int threads = 0;
   std::string directory;
-  bool quiet = false;
+  bool quiet = false, fresh = false;
   StabilityOptions stability;
 };
 
@@ -26,7 +26,9 @@ struct StudyRequest {
 void study_stability(const StudyRequest& request);
 
 /// Prints the table, writes DIR/work_precision.csv and DIR/work_precision.html. Repetitions go
-/// round the curves, so that a slow minute of the machine hits all of them.
+/// round the curves, so that a slow minute of the machine hits all of them. Runs are kept in
+/// DIR/runs, and taken over where the same program has finished them with as many threads on the
+/// same kind of processor.
 /// @throws base::InputError where the case has no exact solution
 void study_work_precision(const StudyRequest& request);
 

@@ -138,6 +138,11 @@ std::string comparison_table(const RunSummary& sph,
   }
   text += comparison_line("rel. energy residual", scientific(sph.energy.relative_residual),
                           scientific(fvm.energy.relative_residual), "");
+  if (!difference.empty()) {
+    text +=
+        "errors and SPH-FVM: at the end, relative to the largest norm of the field at any output "
+        "time\n";
+  }
   return text;
 }
 

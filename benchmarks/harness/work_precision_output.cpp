@@ -2,10 +2,11 @@
 
 #include "benchmarks/harness/work_precision.hpp"
 #include "benchmarks/probes/work_counts.hpp"
+#include "postprocess/report/curve_page.hpp"
 #include "postprocess/report/html.hpp"
 #include "postprocess/report/line_plot.hpp"
 #include "postprocess/report/orders.hpp"
-#include "postprocess/report/plain_page.hpp"
+#include "postprocess/report/study_report.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -115,11 +116,13 @@ report::Panel panel_of(const std::vector<WorkCurve>& curves,
                        const std::string& x_label,
                        double (*x)(const WorkPoint&)) {
   report::Panel panel;
+  panel.title = "Error against " + x_label;
   panel.x_label = x_label;
   panel.y_label = "relative L2 error";
   panel.logarithmic = true;
   for (const WorkCurve& curve : curves) {
     report::Curve line;
+    line.name = curve.name();
     for (const WorkPoint& point : curve.points) {
       line.x.push_back(x(point));
       line.y.push_back(point.error(field));
@@ -177,19 +180,17 @@ std::string work_precision_html(const std::string& title,
                                 const std::vector<WorkCurve>& curves,
                                 const std::string& field,
                                 const probes::MachineProbes& machine) {
-  const auto svg = report::svg_plot(
-      "Error of " + report::field_title(field),
+  return report::curve_page(
+      title,
+      fmt::format("Error of {} against cost, both methods; lower and further left is better.",
+                  report::field_title(field)),
       {panel_of(curves, field, "seconds", [](const WorkPoint& p) { return p.least; }),
        panel_of(curves, field, "nodes",
                 [](const WorkPoint& p) { return static_cast<double>(p.run.nodes); }),
        panel_of(curves, field, "pair updates",
-                [](const WorkPoint& p) { return p.pair_updates(); })});
-  std::vector<std::string> names;
-  for (const WorkCurve& curve : curves)
-    names.push_back(curve.name());
-  return report::plain_page(title,
-                            "Error against cost, both methods; lower and further left is better.",
-                            svg, names, work_precision_table(curves, field, machine));
+                [](const WorkPoint& p) { return p.pair_updates(); })},
+      work_precision_table(curves, field, machine),
+      report::chart_script(report::chart_script_path()));
 }
 
 }  // namespace diptych::harness

@@ -6,6 +6,7 @@ packages_build="g++ cmake ninja-build pkg-config libeigen3-dev libhdf5-dev libto
 packages_report="libjs-chart.js"
 packages_tests="libgtest-dev libgmock-dev gmsh"
 packages_pictures="libvtk9-dev libx11-dev xvfb xauth libgl1-mesa-dri"
+packages_python="python3-h5py python3-pandas python3-matplotlib"
 packages_micro="libbenchmark-dev"
 packages_instructions="valgrind"
 packages_format="clang-format-14"

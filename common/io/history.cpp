@@ -249,10 +249,10 @@ std::vector<HistoryRow> history_from_csv(const std::string& text, const std::str
   return rows;
 }
 
-std::vector<HistoryColumn> history_columns_from_csv(const std::string& text,
-                                                    const std::string& path) {
-  CsvReader file(text, path);
-  const std::vector<std::string> header = checked_header(file);
+namespace {
+
+/// The lines below the header.
+std::vector<HistoryColumn> columns_under(const std::vector<std::string>& header, CsvReader& file) {
   std::vector<HistoryColumn> columns;
   for (const std::string& title : header) {
     const size_t bracket = title.rfind(" [");
@@ -268,6 +268,40 @@ std::vector<HistoryColumn> history_columns_from_csv(const std::string& text,
       column.values.push_back(reader.number());
   }
   return columns;
+}
+
+}  // namespace
+
+std::vector<HistoryColumn> history_columns_from_csv(const std::string& text,
+                                                    const std::string& path) {
+  CsvReader file(text, path);
+  const std::vector<std::string> header = checked_header(file);
+  return columns_under(header, file);
+}
+
+std::vector<HistoryColumn> columns_from_csv(const std::string& text, const std::string& path) {
+  CsvReader file(text, path);
+  if (file.at_end()) file.fail("the file is empty");
+  const std::vector<std::string> header = file.record();
+  return columns_under(header, file);
+}
+
+std::string columns_csv(const std::vector<HistoryColumn>& columns) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  for (size_t k = 0; k < columns.size(); ++k) {
+    const HistoryColumn& column = columns[k];
+    fmt::format_to(out, "{}{}", k > 0 ? "," : "",
+                   quoted(fmt::format("{} [{}]", column.name, column.unit)));
+  }
+  text.push_back('\n');
+  const size_t n_rows = columns.empty() ? 0 : columns.front().values.size();
+  for (size_t i = 0; i < n_rows; ++i) {
+    for (size_t k = 0; k < columns.size(); ++k)
+      fmt::format_to(out, "{}{:.17g}", k > 0 ? "," : "", columns[k].values.at(i));
+    text.push_back('\n');
+  }
+  return fmt::to_string(text);
 }
 
 std::vector<std::string> probe_names_from_csv(const std::string& text, const std::string& path) {

@@ -121,4 +121,9 @@ struct HistoryColumn {
 std::vector<HistoryColumn> history_columns_from_csv(const std::string& text,
                                                     const std::string& path);
 
+/// exact.csv: what the exact solution of the case gives at the output times; columns as those of
+/// history.csv, "time [s]" first, only those that are known.
+std::string columns_csv(const std::vector<HistoryColumn>& columns);
+std::vector<HistoryColumn> columns_from_csv(const std::string& text, const std::string& path);
+
 }  // namespace diptych::io

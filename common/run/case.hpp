@@ -104,6 +104,13 @@ struct ProbeCase {
   std::string column() const { return name + " [" + unit + "]"; }
 };
 
+/// [[reference]]: values of a probe from elsewhere, which a report draws as points.
+struct ReferenceCase {
+  std::string probe;                          ///< name of a probe of the case
+  std::string source;                         ///< where they are from
+  std::vector<std::array<double, 2>> points;  ///< s, unit of the probe
+};
+
 /// [scheme]
 struct SchemeCase {
   std::string unknowns = "FHJ";           ///< F, FJ or FHJ
@@ -152,6 +159,7 @@ struct Case {
   TimeCase time;
   OutputCase output;
   std::vector<ProbeCase> probes;
+  std::vector<ReferenceCase> references;
   SchemeCase scheme;
   SphCase sph;
   FvmCase fvm;

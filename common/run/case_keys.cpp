@@ -79,6 +79,9 @@ constexpr std::array section_table{
     Section{"probe", true,
             "A quantity of interest: a column of history.csv, an entry of summary.json, a value in "
             "each field file."},
+    Section{"reference", true,
+            "Values of a probe from elsewhere (literature, another code): the report draws them as "
+            "points beside the curves of both methods."},
     Section{"scheme", false, "The scheme that both methods share."},
     Section{"sph", false, "What only SPH needs."},
     Section{"fvm", false, "What only the finite volumes need."},
@@ -269,6 +272,18 @@ constexpr std::array key_table{
     key("probe.oscillation", flag, "-", "false", "", any,
         "Read period, logarithmic decrement and mean of an oscillation from its values.",
         "true"),
+
+    key("reference.probe", text, "-", "", required, any, "Name of the probe that they belong to.",
+        "\"tip deflection\""),
+    key("reference.value", number, "that of the probe", "", "or reference.file", any,
+        "One value.", "14.735"),
+    key("reference.time", number, "s", "", "with value", at_least(0), "Its time.", "0.08"),
+    key("reference.file", path, "-", "", "or reference.value", any,
+        "CSV file beside the case file: a line of names, then lines of time (s) and value (in the "
+        "unit of the probe).", "\"reference.csv\""),
+    key("reference.source", text, "-", "", required, any,
+        "Where they are from, as the report shall name it.",
+        "\"solids4foam/solid-benchmarks\""),
 
     choice("scheme.unknowns", "\"FHJ\"", "", menus::unknowns,
            "Strain measures with evolution equations of their own; the others follow from F.",

@@ -7,6 +7,7 @@
 #include "common/run/case_keys.hpp"
 #include "common/run/case_material.hpp"
 #include "common/run/case_probes.hpp"
+#include "common/run/case_references.hpp"
 #include "common/run/case_values.hpp"
 
 #include <algorithm>
@@ -330,6 +331,8 @@ void read_sections(Sections& sections, const fs::path& folder, Case& c) {
   c.output.frames = static_cast<int>(sections.section("output").integer("frames"));
   c.output.fields = sections.section("output").flag("fields");
   c.probes = read_probes(sections.entries(sections.table("probe"), "probe"), sections.vocabulary);
+  c.references =
+      read_references(sections.entries(sections.table("reference"), "reference"), c.probes, folder);
   c.scheme = read_scheme(sections.section("scheme"));
   c.sph.kernel = sections.section("sph").menu_name("kernel");
   c.sph.kappa = sections.section("sph").number("kappa");

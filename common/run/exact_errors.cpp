@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace diptych::run {
 
@@ -98,8 +99,10 @@ Snapshot ExactErrors::exact_snapshot(double t) const {
 }
 
 void ExactErrors::measure(const Snapshot& s) {
-  const std::optional<Snapshot> known = solver_.exact_state(s.time);
-  const Snapshot exact = known ? *known : exact_snapshot(s.time);
+  std::optional<Snapshot> known = solver_.exact_state(s.time);
+  exact_ = known ? std::move(*known) : exact_snapshot(s.time);
+  exact_.time = s.time;
+  const Snapshot& exact = exact_;
   using Vectors = std::vector<std::vector<Vec3>>;
   using Tensors = std::vector<std::vector<Mat3>>;
   const Vec3 zero = Vec3::Zero();
@@ -136,35 +139,11 @@ std::map<std::string, io::ErrorNorms> ExactErrors::relative() const {
   return result;
 }
 
-namespace {
-
-template <class Field>
-double relative_difference_of(const scheme::PairGraph& graph,
-                              const std::vector<Field>& first,
-                              const std::vector<Field>& second,
-                              const Field& rest) {
-  double difference = 0, norm_first = 0, norm_second = 0;
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
-    difference += graph.Omega[a] * (first[a] - second[a]).squaredNorm();
-    norm_first += graph.Omega[a] * (first[a] - rest).squaredNorm();
-    norm_second += graph.Omega[a] * (second[a] - rest).squaredNorm();
-  }
-  const double scale = std::max(norm_first, norm_second);
-  return scale > 0 ? std::sqrt(difference / scale) : std::sqrt(difference);
-}
-
-}  // namespace
-
-double relative_difference(const scheme::PairGraph& graph,
-                           const std::vector<Mat3>& first,
-                           const std::vector<Mat3>& second) {
-  return relative_difference_of<Mat3>(graph, first, second, Mat3::Zero());
-}
-
-double relative_difference(const scheme::PairGraph& graph,
-                           const std::vector<Vec3>& first,
-                           const std::vector<Vec3>& second) {
-  return relative_difference_of<Vec3>(graph, first, second, Vec3::Zero());
+std::map<std::string, double> ExactErrors::scales() const {
+  std::map<std::string, double> result;
+  for (const auto& [name, norms] : norms_)
+    result[name] = norms.scale.l2;
+  return result;
 }
 
 }  // namespace diptych::run

@@ -26,6 +26,11 @@ class ExactErrors {
   void measure(const Snapshot& snapshot);
   /// Norms of the last snapshot by field name, relative to the scales seen so far.
   std::map<std::string, io::ErrorNorms> relative() const;
+  /// The largest L2 norm of each exact field so far.
+  std::map<std::string, double> scales() const;
+  /// The exact fields at the time of the last snapshot; those that the case does not give are
+  /// empty.
+  const Snapshot& exact() const { return exact_; }
   /// Size of the error at each node in the last snapshot by field name, absolute.
   const std::map<std::string, std::vector<double>>& nodal() const { return nodal_; }
 
@@ -44,16 +49,9 @@ class ExactErrors {
   const Case& setup_;
   const scheme::PairGraph& graph_;
   const Solver& solver_;
+  Snapshot exact_;
   std::map<std::string, Norms> norms_;
   std::map<std::string, std::vector<double>> nodal_;
 };
-
-/// L2 norm over nodes of the difference of two fields relative to the larger of their own norms.
-double relative_difference(const scheme::PairGraph& graph,
-                           const std::vector<Mat3>& first,
-                           const std::vector<Mat3>& second);
-double relative_difference(const scheme::PairGraph& graph,
-                           const std::vector<algebra::Vec3>& first,
-                           const std::vector<algebra::Vec3>& second);
 
 }  // namespace diptych::run

@@ -4,6 +4,7 @@
 #include "common/run/boundary_group.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <fmt/format.h>
 #include <iterator>
 #include <map>
@@ -29,6 +30,28 @@ std::int32_t nearest_node(const ProbeCase& probe, const scheme::PairGraph& graph
         graph.X[nearest][2]));
   }
   return static_cast<std::int32_t>(nearest);
+}
+
+/// Whether these fields hold all that the quantity of a probe reads.
+bool gives(const Snapshot& fields, const ProbeCase& probe) {
+  if (probe.kind == "reaction") return false;
+  const std::vector<std::string> names = probe.fields->names();
+  const std::string text = probe.quantity.text();
+  const auto in_name = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+  };
+  for (size_t begin = 0, end = 0; begin < text.size(); begin = end) {
+    for (end = begin + 1; in_name(text[begin]) && end < text.size() && in_name(text[end]);)
+      ++end;
+    const std::string name = text.substr(begin, end - begin);
+    if (std::find(names.begin(), names.end(), name) == names.end()) continue;
+    const bool is_stress = name[0] == 's' || name == "mises" || name == "p";
+    if (name[0] == 'u' && fields.u.empty()) return false;
+    if (name[0] == 'v' && fields.v.empty()) return false;
+    if ((name[0] == 'F' || name[0] == 'J' || is_stress) && fields.F.empty()) return false;
+    if ((name[0] == 'P' || is_stress) && fields.P.empty()) return false;
+  }
+  return true;
 }
 
 NodeValues node_of(const Snapshot& s, size_t k) {
@@ -99,6 +122,29 @@ std::vector<double> Probes::evaluate(const Selection& selection, Solver& solver)
       values.push_back(placed.probe.quantity(X_[static_cast<size_t>(node)], snapshot.time));
     }
     results.push_back(reduced(placed.probe.kind, values, placed.weights));
+  }
+  return results;
+}
+
+std::vector<std::optional<double>> Probes::exact_values(const Snapshot& exact) const {
+  std::vector<std::optional<double>> results;
+  for (const PlacedProbe& placed : all_.probes) {
+    if (!gives(exact, placed.probe)) {
+      results.emplace_back();
+      continue;
+    }
+    std::vector<double> values;
+    for (const std::int32_t node : placed.nodes) {
+      const auto a = static_cast<size_t>(node);
+      NodeValues fields;
+      if (!exact.u.empty()) fields.u = exact.u[a];
+      if (!exact.v.empty()) fields.v = exact.v[a];
+      if (!exact.F.empty()) fields.F = exact.F[a], fields.J = exact.J[a];
+      if (!exact.P.empty()) fields.P = exact.P[a];
+      placed.probe.fields->set(fields);
+      values.push_back(placed.probe.quantity(X_[a], exact.time));
+    }
+    results.emplace_back(reduced(placed.probe.kind, values, placed.weights));
   }
   return results;
 }

@@ -6,6 +6,8 @@
 #include "common/run/case.hpp"
 #include "common/run/solver.hpp"
 
+#include <optional>
+
 namespace diptych::run {
 
 class Probes {
@@ -18,6 +20,9 @@ class Probes {
 
   /// Of all probes, in the order of the case.
   std::vector<double> values(Solver& solver) const { return evaluate(all_, solver); }
+  /// Of all probes in exact fields at every node; nothing where the exact solution does not give
+  /// what the probe reads, as the force of a support.
+  std::vector<std::optional<double>> exact_values(const Snapshot& exact) const;
   /// Of those with every_step.
   std::vector<double> stepped_values(Solver& solver) const { return evaluate(stepped_, solver); }
 

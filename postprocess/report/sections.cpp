@@ -86,8 +86,10 @@ std::string difference_table(const StudyReport& study) {
         fmt::format("<tr><th scope=\"row\">{} <i>{}</i></th>{}</tr>\n", escaped(field_title(field)),
                     escaped(field_symbol(field)), cell(scientific_html(found->second)));
   }
-  return "<h3>How far the two methods are apart</h3>\n<p>Relative L<sub>2</sub> difference of the "
-         "nodal values at the end, finest level.</p>\n" +
+  return "<h3>How far the two methods are apart</h3>\n<p>L<sub>2</sub> norm of SPH − finite "
+         "volume over the nodes at the end, finest level, relative to the largest norm of the "
+         "field "
+         "at any output time, as the errors are.</p>\n" +
          table(heading_cell("field") + heading_cell("difference"), rows);
 }
 
@@ -123,18 +125,16 @@ std::string header_section(const StudyReport& study) {
   }
   return fmt::format(
       "<header>\n<p class=\"kicker\">Diptych · {}</p>\n<h1>{}</h1>\n<p class=\"lead\">{}</p>\n"
-      "<ul class=\"methods\">\n{}</ul>\n</header>\n",
+      "<ul class=\"methods\">\n{}</ul>\n{}</header>\n",
       escaped(distinct(study.runs, [](const RunSummary& run) { return run.case_name; })),
-      escaped(study.title), escaped(study.description), methods);
+      escaped(study.title), escaped(study.description), methods, plot_hint());
 }
 
 std::string verdict_section(const StudyReport& study) {
   const auto n_passed = std::count_if(study.acceptance.begin(), study.acceptance.end(),
                                       [](const AcceptanceLine& line) { return line.passed; });
   const auto n_all = static_cast<std::ptrdiff_t>(study.acceptance.size());
-  if (n_all == 0) {
-    return section("verdict", "Verdict", "<p>No bounds were asked of this study.</p>\n");
-  }
+  if (n_all == 0) return "";
   const std::string sentence =
       n_passed == n_all
           ? (n_all == 1 ? "The bound is met" : fmt::format("All {} bounds are met", n_all))
@@ -183,13 +183,17 @@ std::string cost_section(const StudyReport& study) {
 
 std::string convergence_section(const StudyReport& study) {
   const std::vector<std::string> fields = fields_of(study.runs);
-  if (fields.empty()) return "";
+  const auto methods = methods_of(study.runs);
+  const bool has_levels = std::any_of(
+      methods.begin(), methods.end(),
+      [&](const std::string& method) { return runs_of(study.runs, method).size() > 1; });
+  if (fields.empty() || !has_levels) return "";
   std::string head = heading_cell("method") + heading_cell("level") + heading_cell("spacing [m]");
   for (const std::string& field : fields) {
     head += heading_cell(field_heading(field)) + heading_cell("order");
   }
   std::string rows;
-  for (const std::string& method : methods_of(study.runs)) {
+  for (const std::string& method : methods) {
     rows += order_rows(runs_of(study.runs, method), fields);
   }
   return section("convergence", "Error against spacing",

@@ -28,6 +28,9 @@ size_t row_stride(size_t n_rows);
 /// A sentence on that where it leaves some out.
 std::string stride_note(const StudyReport& study);
 
+/// Energies and momenta that the exact solution gives besides the probes.
+std::vector<io::HistoryColumn> exact_others(const StudyReport& study);
+
 /// Finest runs of the methods that have the study's probes.
 std::vector<io::RunSummary> probed_runs(const StudyReport& study);
 

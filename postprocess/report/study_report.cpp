@@ -5,7 +5,9 @@
 #include "postprocess/report/html.hpp"
 #include "postprocess/report/orders.hpp"
 #include "postprocess/report/sections.hpp"
+#include "postprocess/report/sections/parts.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -26,15 +28,26 @@ Json run_json(const io::RunSummary& run) {
           {"errors", errors}};
 }
 
+/// A column of history.csv that the exact solution of a case may have as well.
+std::optional<double> value_of(const io::HistoryRow& row, const std::string& column) {
+  if (column == "kinetic energy") return row.energy.kinetic;
+  for (size_t i = 0; i < 3; ++i) {
+    if (column == std::string("linear momentum ") + "xyz"[i]) return row.linear_momentum[i];
+  }
+  return std::nullopt;
+}
+
 /// Energies in joule and probes over time as columns. "supplied" is the energy at the start and the
 /// work since; "residual" what of it is not accounted for.
-Json history_json(const std::vector<io::HistoryRow>& rows) {
+Json history_json(const std::vector<io::HistoryRow>& rows,
+                  const std::vector<io::HistoryColumn>& others) {
   Json columns = Json::object();
   for (const char* name : {"time", "kinetic", "strain", "viscous", "numerical", "work", "supplied",
                            "residual", "relative"}) {
     columns[name] = Json::array();
   }
   columns["probes"] = Json::array();
+  columns["others"] = Json::array();
   const auto accounted = [](const io::EnergySummary& e) {
     return e.kinetic + e.strain + e.viscous_dissipation + e.numerical_dissipation;
   };
@@ -55,6 +68,8 @@ Json history_json(const std::vector<io::HistoryRow>& rows) {
     columns["relative"].push_back(e.relative_residual);
     for (size_t k = 0; k < row.probes.size(); ++k)
       columns["probes"][k].push_back(row.probes[k]);
+    for (size_t k = 0; k < others.size(); ++k)
+      columns["others"][k].push_back(*value_of(row, others[k].name));
   }
   return columns;
 }
@@ -67,6 +82,34 @@ Json probes_json(const StudyReport& study) {
   for (const io::QuantitySummary& quantity : runs.front().quantities)
     probes.push_back({{"name", quantity.name}, {"unit", quantity.unit}});
   return probes;
+}
+
+/// The exact solution at the instants of the curves: null where there is none.
+Json exact_json(const StudyReport& study) {
+  const std::vector<io::HistoryColumn>& columns = study.references.exact;
+  if (columns.empty()) return nullptr;
+  const size_t n_rows = columns.front().values.size(), stride = row_stride(n_rows);
+  const auto values = [&](const io::HistoryColumn& column) {
+    Json kept = Json::array();
+    for (size_t i = 0; i < n_rows; ++i) {
+      if (i % stride == 0 || i + 1 == n_rows) kept.push_back(column.values.at(i));
+    }
+    return kept;
+  };
+  Json probes = Json::object(), others = Json::array();
+  for (const io::HistoryColumn& other : exact_others(study))
+    others.push_back({{"name", other.name}, {"unit", other.unit}, {"values", values(other)}});
+  for (const io::HistoryColumn& column : columns) {
+    if (column.name != "time") probes[column.name] = values(column);
+  }
+  return {{"time", values(columns.front())}, {"probes", probes}, {"others", others}};
+}
+
+Json references_json(const StudyReport& study) {
+  Json references = Json::array();
+  for (const ReferencePoints& one : study.references.points)
+    references.push_back({{"probe", one.probe}, {"points", one.points}});
+  return references;
 }
 
 Json quantities_json(const StudyReport& study) {
@@ -96,7 +139,9 @@ std::string data_json(const StudyReport& study) {
       runs.push_back(run_json(run));
     Json entry = {{"name", method}, {"title", method_title(method)}, {"runs", runs}};
     const auto history = study.histories.find(method);
-    if (history != study.histories.end()) entry["history"] = history_json(history->second);
+    if (history != study.histories.end()) {
+      entry["history"] = history_json(history->second, exact_others(study));
+    }
     methods.push_back(entry);
   }
   Json fields = Json::object();
@@ -105,6 +150,8 @@ std::string data_json(const StudyReport& study) {
   const Json study_json = {{"methods", methods},
                            {"fields", fields},
                            {"probes", probes_json(study)},
+                           {"exact", exact_json(study)},
+                           {"references", references_json(study)},
                            {"quantities", quantities_json(study)},
                            {"shapes", shapes_json(study.shapes)}};
   return study_json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -112,30 +159,25 @@ std::string data_json(const StudyReport& study) {
 
 }  // namespace
 
+std::vector<io::HistoryColumn> exact_others(const StudyReport& study) {
+  std::vector<io::HistoryColumn> others;
+  for (const io::HistoryColumn& column : study.references.exact) {
+    if (!value_of({}, column.name)) continue;
+    const auto is_same = [&](const io::HistoryColumn& one) { return one.name == column.name; };
+    if (std::none_of(others.begin(), others.end(), is_same)) others.push_back(column);
+  }
+  return others;
+}
+
 std::string report_html(const StudyReport& study, const std::string& chart_script) {
-  std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-      "style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">\n"
-      "<link rel=\"icon\" "
-      "href=\"data:,\">\n<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n",
-      escaped(study.title), style_css);
+  std::string html = page_head(study.title);
   html += header_section(study);
   html += "<main>\n";
   html += verdict_section(study) + panels_section(study) + shapes_section(study) +
           probes_section(study) + cost_section(study) + convergence_section(study) +
           quantities_section(study) + energy_section(study) + runs_section(study) +
           provenance_section(study);
-  html +=
-      "</main>\n<noscript><p class=\"warning\">The charts need JavaScript; the tables do "
-      "not.</p></noscript>\n";
-  html += fmt::format("<script type=\"application/json\" id=\"study\">{}</script>\n",
-                      json_safe(data_json(study)));
-  html += "<script>" + script_safe(chart_script) + "</script>\n";
-  html += "<script>" + script_safe(page_js) + "</script>\n</body>\n</html>\n";
-  return html;
+  return html + "</main>\n" + page_scripts(data_json(study), chart_script, page_js);
 }
 
 std::string chart_script_path() {

@@ -10,6 +10,7 @@
 #include "postprocess/report/grid_convergence.hpp"
 #include "postprocess/report/shapes.hpp"
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,13 +39,27 @@ struct GridSeries {
   std::optional<GridConvergence> estimate;  ///< of the finest level: three grids or more
 };
 
+/// Values of a probe from elsewhere.
+struct ReferencePoints {
+  std::string probe, source;
+  std::vector<std::array<double, 2>> points;  ///< s, unit of the probe
+};
+
+/// What the curves of both methods are held against.
+struct References {
+  std::vector<io::HistoryColumn> exact;  ///< time first, names as in history.csv; may be empty
+  std::vector<ReferencePoints> points;
+};
+
 struct StudyReport {
   std::string title, description;
   std::vector<std::string> material;  ///< lines of text: law, constants with units, branches
   std::vector<io::RunSummary> runs;   ///< any methods and levels, in any order
   std::map<std::string, std::vector<io::HistoryRow>> histories;  ///< method: finest level
   std::vector<AcceptanceLine> acceptance;
-  std::map<std::string, double> differences;  ///< field: relative L2 between the methods
+  std::map<std::string, double> differences;  ///< field: L2 between the methods at the end, over
+                                              ///< its largest norm at any output time
+  References references;
   std::map<std::string, ShapeRecord> shapes;  ///< method: deformed surfaces of the finest level
   /// name and unit of a scalar: its values on the levels of each method
   std::map<std::pair<std::string, std::string>, std::vector<GridSeries>> quantities;

@@ -104,7 +104,7 @@ TEST(Verbs, StudySetsErrorAgainstCost) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_THAT(outcome.text, AllOf(HasSubstr("Gflop/s"), HasSubstr("seconds at equal error"),
                                   HasSubstr("SPH face_correction=1/6")));
-  EXPECT_THAT(text_of(folder.path() / "out" / "work_precision.html"), HasSubstr("<svg"));
+  EXPECT_THAT(text_of(folder.path() / "out" / "work_precision.html"), HasSubstr("<canvas"));
   const std::string csv = text_of(folder.path() / "out" / "work_precision.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 2 * 2);
 }

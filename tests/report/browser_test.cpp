@@ -1,43 +1,25 @@
 /// The page in a browser: no error on the console, every canvas drawn, hovering tells values, no
 /// wider than a phone. Needs headless Chromium; skipped where there is none.
 
-#include "common/io/run_record.hpp"
-#include "postprocess/report/html.hpp"
+#include "tests/report/browser.hpp"
+
+#include "postprocess/report/curve_page.hpp"
 #include "postprocess/report/study_report.hpp"
-#include "tests/common/io/scratch.hpp"
-#include "tests/report/decoded.hpp"
 #include "tests/report/sample_study.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace diptych::report {
 namespace {
 
-/// Ahead of the page's own scripts: collects what a console would show, and gives frames by the
-/// clock, which a browser that runs ahead of time does not.
-const char* const listening = R"(<script>
-const faults = [];
-Element.prototype.setPointerCapture = () => {};  // refuses pointers that no hand moves
-window.requestAnimationFrame = (paint) => setTimeout(() => paint(performance.now()), 16);
-addEventListener('error', (event) => faults.push(event.message));
-addEventListener('unhandledrejection', (event) => faults.push(String(event.reason)));
-addEventListener('securitypolicyviolation', (event) => faults.push(event.violatedDirective));
-['error', 'warn'].forEach((kind) => { console[kind] = (...all) => faults.push(all.join(' ')); });
-</script>)";
+using test::chromium;
+using test::seen_in;
+using test::with_witness;
 
-/// After them: moves the pointer over every canvas and writes down what happens.
+/// Moves the pointer over every canvas and writes down what happens.
 const char* const looking = R"(<script>
-const wait = (ms) => new Promise((done) => { setTimeout(done, ms); });
-const painted = () => new Promise((done) => { requestAnimationFrame(() => requestAnimationFrame(done)); });
-const over = (canvas, kind, type, { x, y }) => {
-  const box = canvas.getBoundingClientRect();
-  canvas.dispatchEvent(new kind(type, { bubbles: true, clientX: box.left + x, clientY: box.top + y }));
-};
 const pixels = (canvas) => {
   const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
   return new Set(new Uint32Array(data.buffer)).size;
@@ -73,45 +55,9 @@ addEventListener('load', async () => {
   await painted();
   Object.assign(seen, { before, after: document.getElementById('shape-time').textContent, faults,
     width: document.documentElement.clientWidth, needed: document.documentElement.scrollWidth });
-  const note = document.createElement('pre');
-  note.textContent = `SEEN${btoa(unescape(encodeURIComponent(JSON.stringify(seen))))}SEEN`;
-  parent.document.body.append(note);
+  report(seen);
 });
 </script>)";
-
-std::string chromium() {
-  for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
-    if (std::system(fmt::format("command -v {} > /dev/null 2>&1", name).c_str()) == 0) return name;
-  }
-  return {};
-}
-
-std::string with_witness(std::string html) {
-  html.insert(html.find("<title>"), listening);
-  html.insert(html.rfind("</body>"), looking);
-  return html;
-}
-
-/// Decodes what the page has seen of itself.
-nlohmann::json seen_in(const std::string& page, int width) {
-  const test::Scratch folder;
-  // Chromium's own windows are 500 pixels wide or more
-  io::write_file_atomically(folder / "page.html",
-                            fmt::format("<meta charset=\"utf-8\"><iframe style=\"width: {}px; "
-                                        "height: 900px\" srcdoc=\"{}\"></iframe>",
-                                        width, escaped(page)));
-  const std::string dom = folder / "dom.html";
-  const std::string command = fmt::format(
-      "timeout 100 {} --headless --no-sandbox --disable-gpu --user-data-dir='{}' "
-      "--virtual-time-budget=20000 --dump-dom 'file://{}' > '{}' 2> /dev/null",
-      chromium(), folder / "profile", folder / "page.html", dom);
-  if (std::system(command.c_str()) != 0) return {};
-  const std::string text = io::read_file(dom);
-  const size_t from = text.find("<pre>SEEN"), to = text.find("SEEN</pre>");
-  if (from == std::string::npos || to == std::string::npos) return {};
-  const auto bytes = test::decoded(text.substr(from + 9, to - from - 9));
-  return nlohmann::json::parse(bytes);
-}
 
 TEST(Browser, DrawsEveryCanvasAndTellsValuesWithoutAnError) {
   if (chromium().empty()) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
@@ -119,16 +65,17 @@ TEST(Browser, DrawsEveryCanvasAndTellsValuesWithoutAnError) {
     GTEST_SKIP() << "no Chart.js here: apt-get install libjs-chart.js";
   }
   const std::string page = report_html(test::full_study(), chart_script(chart_script_path()));
-  const nlohmann::json seen = seen_in(with_witness(page), 390);
+  const nlohmann::json seen = seen_in(with_witness(page, looking), 390);
   ASSERT_TRUE(seen.is_object()) << "the page did not get to its end";
   EXPECT_EQ(seen["faults"], nlohmann::json::array());
-  EXPECT_EQ(seen["colours"].size(), 11u);  // 3 shapes, 2 probes, cost, 2 convergence, 2 + 1 energy
+  EXPECT_EQ(seen["colours"].size(),
+            12u);  // 3 shapes, kinetic energy, 2 probes, cost, 2 convergence, 2 + 1 energy
   for (const auto& [id, colours] : seen["colours"].items())
     EXPECT_GT(colours.get<int>(), 5) << id << " is blank";
   EXPECT_EQ(seen["readings"].size(), 3u);
   for (const auto& [id, reading] : seen["readings"].items())
     EXPECT_NE(reading.get<std::string>().find("Finite volume"), std::string::npos) << id;
-  EXPECT_EQ(seen["tips"].size(), 8u);
+  EXPECT_EQ(seen["tips"].size(), 9u);
   for (const auto& [id, tip] : seen["tips"].items())
     EXPECT_NE(tip.get<std::string>(), "") << id << " tells nothing";
   EXPECT_NE(seen["tips"]["probe-0"].get<std::string>().find(" m"), std::string::npos);
@@ -141,9 +88,98 @@ TEST(Browser, DrawsEveryCanvasAndTellsValuesWithoutAnError) {
 TEST(Browser, WouldShowAnError) {
   if (chromium().empty()) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
   const std::string broken = report_html(test::full_study(), "/* Chart.js v3. without Chart */");
-  const nlohmann::json seen = seen_in(with_witness(broken), 390);
+  const nlohmann::json seen = seen_in(with_witness(broken, looking), 390);
   ASSERT_TRUE(seen.is_object());
   EXPECT_NE(seen["faults"].dump().find("Chart is not defined"), std::string::npos);
+}
+
+/// Zooms every chart in each way and goes back, hides a series and shows it; notes what did not
+/// work.
+const char* const zooming = R"(<script>
+const ranges = ({ scales: { x, y } }) => [x.min, x.max, y.min, y.max];
+const same = (a, b) => a.every((value, i) => Math.abs(value - b[i]) <= 1e-9 * Math.abs(b[i] - b[i ^ 1]));
+const within = ([a, b, c, d], [A, B, C, D]) => a >= A && b <= B && c >= C && d <= D && (b - a < 0.9 * (B - A)) && (d - c < 0.9 * (D - C));
+addEventListener('load', async () => {
+  await wait(300);
+  const failed = [], zoomed = [];
+  for (const canvas of document.querySelectorAll('.plot canvas')) {
+    const chart = () => Chart.getChart(canvas);
+    const expect = (condition, what) => { if (!condition) failed.push(`${canvas.id}: ${what}`); };
+    const { left, right, top, bottom } = chart().chartArea;
+    const at = (s, t) => ({ x: left + s * (right - left), y: top + t * (bottom - top) });
+    const mouse = { pointerId: 1, pointerType: 'mouse', button: 0 };
+    const all = ranges(chart());
+    const button = canvas.parentNode.querySelector('.whole');
+    const goesBack = (how) => expect(same(ranges(chart()), all) && button.hidden, `${how} does not show all`);
+    const drag = (from, to) => {
+      over(canvas, PointerEvent, 'pointerdown', from, mouse);
+      over(canvas, PointerEvent, 'pointermove', to, mouse);
+      over(canvas, PointerEvent, 'pointerup', to, mouse);
+    };
+    drag(at(0.3, 0.3), at(0.6, 0.7));
+    expect(within(ranges(chart()), all) && !button.hidden, 'dragging does not zoom');
+    for (const scale of Object.values(chart().scales)) {
+      expect(scale.ticks.filter(({ label }) => label !== '').length > 1, `no labels on ${scale.axis} when zoomed`);
+    }
+    over(canvas, MouseEvent, 'dblclick', at(0.5, 0.5));
+    goesBack('double click');
+    drag(at(0.3, 0.5), at(0.6, 0.51));
+    expect(ranges(chart())[1] < all[1] && same(ranges(chart()).slice(2), all.slice(2)), 'a flat drag does not keep y');
+    button.click();
+    goesBack('the button');
+    const key = (name) => canvas.dispatchEvent(new KeyboardEvent('keydown', { key: name, cancelable: true }));
+    expect(canvas.tabIndex === 0, 'no place for the keyboard');
+    expect(key('ArrowRight'), 'an arrow does not scroll the page');
+    key('+');
+    const larger = ranges(chart());
+    expect(within(larger, all), '+ does not zoom');
+    key('ArrowRight');
+    expect(ranges(chart())[0] > larger[0] && same(ranges(chart()).slice(2), larger.slice(2)), 'ArrowRight does not move');
+    key('0');
+    goesBack('0');
+    expect(!over(canvas, WheelEvent, 'wheel', at(0.5, 0.5), { deltaY: -100 }).defaultPrevented, 'the page does not scroll');
+    const wheel = over(canvas, WheelEvent, 'wheel', at(0.5, 0.5), { deltaY: -100, ctrlKey: true });
+    expect(wheel.defaultPrevented && within(ranges(chart()), all), 'the wheel does not zoom');
+    over(canvas, WheelEvent, 'wheel', at(0.5, 0.5), { deltaY: 100, ctrlKey: true });
+    goesBack('the wheel');
+    const finger = (pointerId) => ({ pointerId, pointerType: 'touch' });
+    over(canvas, PointerEvent, 'pointerdown', at(0.45, 0.5), finger(2));
+    over(canvas, PointerEvent, 'pointerdown', at(0.55, 0.5), finger(3));
+    over(canvas, PointerEvent, 'pointermove', at(0.3, 0.5), finger(2));
+    over(canvas, PointerEvent, 'pointermove', at(0.7, 0.5), finger(3));
+    expect(within(ranges(chart()), all), 'two fingers do not zoom');
+    [2, 3].forEach((id) => over(canvas, PointerEvent, 'pointerup', at(0.5, 0.5), finger(id)));
+    key('Escape');
+    goesBack('Escape');
+    const [first] = canvas.closest('figure').querySelectorAll('.legend button');
+    first.click();
+    expect(!chart().isDatasetVisible(0) && first.getAttribute('aria-pressed') === 'false', 'the legend hides nothing');
+    first.click();
+    expect(chart().isDatasetVisible(0) && first.getAttribute('aria-pressed') === 'true', 'the legend shows nothing');
+    zoomed.push(canvas.id);
+  }
+  report({ faults, failed, zoomed });
+});
+</script>)";
+
+void expect_zooms(const std::string& page, size_t n_plots) {
+  const nlohmann::json seen = seen_in(with_witness(page, zooming), 390);
+  ASSERT_TRUE(seen.is_object()) << "the page did not get to its end";
+  EXPECT_EQ(seen["faults"], nlohmann::json::array());
+  EXPECT_EQ(seen["failed"], nlohmann::json::array());
+  EXPECT_EQ(seen["zoomed"].size(), n_plots);
+}
+
+TEST(Browser, ZoomsEveryPlotAndHidesItsSeries) {
+  if (chromium().empty()) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
+  if (!std::filesystem::exists(chart_script_path())) {
+    GTEST_SKIP() << "no Chart.js here: apt-get install libjs-chart.js";
+  }
+  const std::string script = chart_script(chart_script_path());
+  expect_zooms(report_html(test::full_study(), script),
+               9);  // kinetic, 2 probes, 3 errors, 3 energy
+  const Curve a{"SPH", {0.1, 1, 10}, {1e-2, 1e-3, 1e-4}}, b{"FVM", {0.2, 2, 0}, {1e-2, 1e-3, 1}};
+  expect_zooms(curve_page("Work", "", {{"p", "s", "e", {a, b}}}, "table", script), 1);
 }
 
 }  // namespace

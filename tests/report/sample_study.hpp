@@ -106,6 +106,10 @@ inline report::StudyReport full_study() {
     for (io::HistoryRow& row : rows)
       row.probes = {std::sin(1000 * row.time), row.energy.viscous_dissipation};
   }
+  study.references.exact = {{"time", "s", {0, 0.001, 0.002, 0.003, 0.004}},
+                            {"kinetic energy", "J", {2, 1.5, 1, 0.5, 0}},
+                            {"tip <z>", "m", {0, 0.84, 0.91, 0.14, -0.76}}};
+  study.references.points = {{"tip <z>", "Doe <i>et al.</i>, table 2", {{0.0015, 1}}}};
   study.shapes = sample_shapes(4, 3);
   for (const char* method : {"sph", "fvm"}) {
     const double off = std::string(method) == "sph" ? 0.01 : 0;

@@ -123,6 +123,27 @@ TEST(StudyReport, ShowsProbesShapesAndQuantitiesWhereTheStudyHasThem) {
   EXPECT_EQ(study["shapes"]["times"].size(), 3u);
 }
 
+TEST(StudyReport, SetsTheCurvesAgainstTheExactSolutionAndValuesFromElsewhere) {
+  const std::string html = report_html(test::full_study(), "");
+  EXPECT_THAT(html, HasSubstr("id=\"exact-0\""));
+  EXPECT_THAT(html, HasSubstr("Reference: Doe &lt;i&gt;et al.&lt;/i&gt;, table 2."));
+  EXPECT_THAT(html, HasSubstr("\"tip \\u003cz>\":[0.0,0.84,0.91,0.14,-0.76]"));
+  EXPECT_THAT(
+      html, HasSubstr("\"references\":[{\"probe\":\"tip \\u003cz>\",\"points\":[[0.0015,1.0]]}]"));
+  // kinetic energy of the methods, for the same plot
+  EXPECT_THAT(html, HasSubstr("\"others\":[[2.0,1.5,1.0,0.5,0.0]]"));
+  EXPECT_THAT(report_html(test::sample_study(), ""), HasSubstr("\"exact\":null"));
+}
+
+TEST(StudyReport, HasNoSectionForWhatWasNotAsked) {
+  StudyReport study = sample_study();
+  EXPECT_THAT(page(study), AllOf(HasSubstr("id=\"convergence\""), HasSubstr("id=\"verdict\"")));
+  study.runs = {test::sample_run("sph", 1), test::sample_run("fvm", 1)};  // one level: no orders
+  study.acceptance.clear();
+  EXPECT_THAT(page(study),
+              AllOf(Not(HasSubstr("id=\"convergence\"")), Not(HasSubstr("id=\"verdict\""))));
+}
+
 TEST(StudyReport, StaysBelowFiveMegabytesAtItsBounds) {
   StudyReport study = test::full_study();
   // 6 (n + 1)^2 points, and as many instants as such a surface may have

@@ -1,6 +1,6 @@
 // Errors against cost and against spacing, and scalars with their error bars.
 (() => {
-  const { study, canvas, colour, colourOf, usable, number, logAxis, linearAxis, options, pointMarks, curveOf } = plots;
+  const { study, canvas, colour, colourOf, usable, number, logAxis, linearAxis, options, inPlot, pointMarks, curveOf } = plots;
 
   // Points {x, y} of a method for a field, coarse to fine.
   const pointsOf = (method, field, x) => method.runs
@@ -56,7 +56,7 @@
     const [h0, h1] = [Math.max(...points.map((p) => p.x)), Math.min(...points.map((p) => p.x))];
     const foot = 0.5 * Math.min(...points.filter((p) => p.x < 1.2 * h1).map((p) => p.y));
     return h0 > h1 * 1.01 ? [1, 2].map((order) => ({
-      label: `order ${order}`, type: 'line', pointRadius: 0, pointHitRadius: 0, pointStyle: 'line',
+      label: `order ${order}`, inLegend: false, type: 'line', pointRadius: 0, pointHitRadius: 0, pointStyle: 'line',
       data: [{ x: h1, y: foot }, { x: h0, y: foot * (h0 / h1) ** order }],
       borderColor: colour('soft'), borderDash: [2, 4], borderWidth: 1,
       marks: ['', `order ${order}`], markColor: colour('soft'), markSide: 'right',
@@ -79,7 +79,7 @@
         title: (items) => `${items[0].dataset.label}, level ${items[0].raw.run.level}`,
         label: ({ raw }) => [`error ${number(raw.y)}`, `${number(raw.run.seconds)} s`,
           `spacing ${number(raw.run.spacing)} m`, `${raw.run.nodes.toLocaleString('en')} nodes`],
-      }, { filter: (item) => !item.text.startsWith('order ') }),
+      }),
       plugins: [pointMarks],
     };
   };
@@ -89,10 +89,8 @@
     id: 'errorBars',
     beforeDatasetsDraw(chart) {
       const { ctx, scales: { y } } = chart;
-      ctx.save();
-      ctx.lineWidth = 1.5;
-      chart.data.datasets.forEach((set, index) => set.data.forEach((point, i) => {
-        if (!point.bar) return;
+      inPlot(chart, () => chart.data.datasets.forEach((set, index) => set.data.forEach((point, i) => {
+        if (!point.bar || !chart.isDatasetVisible(index)) return;
         const { x } = chart.getDatasetMeta(index).data[i];
         const [top, foot] = [y.getPixelForValue(point.y + point.bar), y.getPixelForValue(point.y - point.bar)];
         ctx.strokeStyle = set.borderColor;
@@ -101,9 +99,9 @@
           ctx.moveTo(x0, y0);
           ctx.lineTo(x1, y1);
         });
+        ctx.lineWidth = 1.5;
         ctx.stroke();
-      }));
-      ctx.restore();
+      })));
     },
   };
 

@@ -40,30 +40,50 @@
         title: timeTitle,
         label: (item) => `${item.dataset.label}: ${number(item.raw.y)} J`,
         footer: ([item]) => `residual: ${number(history.residual[item.dataIndex])} J`,
-      }, {}, atOneTime),
+      }, atOneTime),
     };
   };
 
-  const overlaid = (values, yText, label) => {
+  // What the curves are held against: the exact solution on top of them, values from elsewhere.
+  const exactCurve = (values) => (values ? [{
+    label: 'exact', data: study.exact.time.map((t, i) => ({ x: t, y: values[i] })), type: 'line',
+    borderColor: colour('ink'), backgroundColor: colour('ink'), borderDash: [2, 4], borderWidth: 1.75,
+    pointRadius: 0, pointStyle: 'line', order: -9,
+  }] : []);
+  const referencePoints = (probe) => study.references.filter((one) => one.probe === probe)
+    .map(({ points }, i, all) => ({
+      label: all.length > 1 ? `reference ${i + 1}` : 'reference', type: 'line', showLine: false,
+      data: points.map(([x, y]) => ({ x, y })),
+      borderColor: colour('ink'), backgroundColor: colour('ink'), borderWidth: 2,
+      pointRadius: 6, pointHoverRadius: 8, pointHitRadius: 10, pointStyle: ['crossRot', 'star', 'triangle'][i % 3], order: -10,
+    }));
+
+  // Both methods in one picture; pointing tells all values at the nearest instant that has any.
+  const overlaid = (values, yText, label, references = []) => {
     const methods = histories.filter((method) => values(method.history));
     return {
       type: 'line',
       data: {
         // dashes over the solid line: both are seen where they coincide
-        datasets: methods.map((method, i) => curveOf(method, asPoints(method.history, values(method.history)), {
+        datasets: [...methods.map((method, i) => curveOf(method, asPoints(method.history, values(method.history)), {
           order: -i, borderWidth: 2, pointRadius: method.history.time.length > 40 ? 0 : 2.5,
-        })),
+        })), ...references],
       },
-      options: options({ x: timeAxis(methods), y: linearAxis(yText) }, { title: timeTitle, label }, {}, atOneTime),
+      options: options({ x: timeAxis(methods), y: linearAxis(yText) }, { title: timeTitle, label },
+        { mode: 'nearest', axis: 'x', intersect: false }),
     };
   };
 
   histories.forEach((method) => plots.add(`energy-${method.name}`, () => energyChart(method)));
   plots.add('residual-chart', () => overlaid((history) => history.relative, 'relative residual',
     (item) => `${item.dataset.label}: ${number(item.raw.y)}`));
-  study.probes.forEach(({ name, unit }, k) => {
-    const suffix = unit === '-' ? '' : ` ${unit}`;
-    plots.add(`probe-${k}`, () => overlaid((history) => history.probes[k], `${name}${unit === '-' ? '' : ` [${unit}]`}`,
-      (item) => `${item.dataset.label}: ${item.raw.y.toPrecision(5)}${suffix}`));
-  });
+  const seriesChart = (id, { name, unit }, values, references) => {
+    const [suffix, brackets] = unit === '-' ? ['', ''] : [` ${unit}`, ` [${unit}]`];
+    plots.add(id, () => overlaid(values, name + brackets,
+      (item) => `${item.dataset.label}: ${item.raw.y.toPrecision(5)}${suffix}`, references()));
+  };
+  study.probes.forEach((probe, k) => seriesChart(`probe-${k}`, probe, (history) => history.probes[k],
+    () => [...exactCurve(study.exact && study.exact.probes[probe.name]), ...referencePoints(probe.name)]));
+  (study.exact ? study.exact.others : []).forEach(({ name, unit, values }, k) => seriesChart(
+    `exact-${k}`, { name, unit }, (history) => history.others[k], () => exactCurve(values)));
 })();

@@ -7,6 +7,7 @@ const plots = (() => {
   const dashes = { sph: [], fvm: [7, 3] };
   const builders = [];  // one per chart: makes its configuration with the colours of the moment
   const painters = [];  // called whenever the page is drawn anew
+  const dressers = [];  // called with every new chart
   let charts = [];
 
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
@@ -20,23 +21,45 @@ const plots = (() => {
     const n = Math.round(Math.log10(x));
     return n === 0 ? '1' : n === 1 ? '10' : '10' + raised(n);
   };
-  const number = (x) => {
+  const number = (x, digits = 3) => {
     if (!Number.isFinite(x)) return 'n/a';
     if (x === 0) return '0';
-    if (Math.abs(x) >= 1e-3 && Math.abs(x) < 1e4) return String(+x.toPrecision(3)).replace('-', '−');
-    const [mantissa, exponent] = x.toExponential(2).split('e');
+    if (Math.abs(x) >= 1e-3 && Math.abs(x) < 1e4) return String(+x.toPrecision(digits)).replace('-', '−');
+    const [mantissa, exponent] = x.toExponential(digits - 1).split('e');
     return `${+mantissa} × 10${raised(+exponent)}`.replace('-', '−');
   };
 
-  // Axes that end at powers of ten and name only those.
+  // Round values from `least` to `most`, about five: steps of 1, 2 or 5 times a power of ten.
+  const roundValues = (least, most) => {
+    const raw = (most - least) / 5;
+    const power = 10 ** Math.floor(Math.log10(raw));
+    const step = power * [1, 2, 5, 10].find((k) => k * power >= raw * (1 - 1e-9));
+    const values = [];
+    for (let k = Math.ceil(least / step - 1e-9); k * step <= most + 1e-9 * step; k += 1) values.push({ value: k * step });
+    return values;
+  };
+
+  // Axes that end at powers of ten and name only those; where less than two of them are in sight, as
+  // after zooming, 1, 2 and 5 times powers of ten or, in a narrow range, round values.
+  const isShort = ({ min, max }) => Math.floor(Math.log10(max) + 1e-9) - Math.ceil(Math.log10(min) - 1e-9) < 1;
+  const shortValues = ({ min, max }) => {
+    if (max / min < 5) return roundValues(min, max);
+    const first = Math.floor(Math.log10(min));
+    return [0, 1, 2].flatMap((k) => [1, 2, 5].map((m) => ({ value: m * 10 ** (first + k) })))
+      .filter(({ value }) => value >= min && value <= max);
+  };
   const logAxis = (text, values) => ({
     type: 'logarithmic',
     min: 10 ** Math.floor(Math.log10(Math.min(...values)) + 1e-9),
     max: 10 ** Math.ceil(Math.log10(Math.max(...values)) - 1e-9 + (isDecade(Math.max(...values)) ? 1 : 0)),
     title: { display: true, text, color: colour('soft') },
+    afterBuildTicks: (axis) => { if (isShort(axis)) axis.ticks = shortValues(axis); },
     ticks: {
       color: colour('soft'), autoSkip: false, maxRotation: 0,
-      callback: (x) => (isDecade(x) ? powerOfTen(x) : ''),
+      callback(x, index, ticks) {
+        if (isShort(this)) return this.max / this.min < 5 ? tickText(x, index, ticks) : number(x);
+        return isDecade(x) ? powerOfTen(x) : '';
+      },
     },
     grid: {
       drawBorder: false, drawTicks: false,
@@ -44,10 +67,17 @@ const plots = (() => {
     },
   });
 
+  // With as many digits as it takes to tell neighbouring ticks apart.
+  const tickText = (x, index, ticks) => {
+    const step = ticks.length > 1 ? Math.abs(ticks[1].value - ticks[0].value) : 0;
+    const size = Math.max(...ticks.map((tick) => Math.abs(tick.value)));
+    const digits = step > 0 ? Math.ceil(Math.log10(size / step) - 1e-9) + 1 : 3;
+    return number(Math.abs(x) < 1e-9 * step ? 0 : x, Math.max(3, Math.min(digits, 12)));
+  };
   const linearAxis = (text, more = {}) => ({
     type: 'linear',
     title: { display: true, text, color: colour('soft') },
-    ticks: { color: colour('soft'), maxTicksLimit: 6, maxRotation: 0, includeBounds: false, callback: number },
+    ticks: { color: colour('soft'), maxTicksLimit: 6, maxRotation: 0, includeBounds: false, callback: tickText },
     grid: { color: colour('grid'), drawBorder: false, drawTicks: false },
     ...more,
   });
@@ -60,37 +90,43 @@ const plots = (() => {
 
   const inOrder = (a, b) => a.datasetIndex - b.datasetIndex;  // whichever is painted last
 
-  const options = (scales, tooltip, legend = {}, interaction = { mode: 'nearest', intersect: true }) => ({
+  const options = (scales, tooltip, interaction = { mode: 'nearest', intersect: true }) => ({
     responsive: true, maintainAspectRatio: false, animation: false,
     layout: { padding: { top: 6, right: 22 } },
     interaction,
     scales,
     plugins: {
-      legend: {
-        position: 'top', align: 'start', onClick: () => {},
-        labels: { color: colour('ink'), usePointStyle: true, boxHeight: 7, padding: 16, sort: inOrder, ...legend },
-      },
+      legend: { display: false },  // scripts/legend.js
       tooltip: { callbacks: tooltip, displayColors: false, padding: 10, itemSort: inOrder },
     },
   });
+
+  // Paints what belongs between the axes and nothing beyond them.
+  const inPlot = (chart, paint) => {
+    const { ctx, chartArea: { left, top, width, height } } = chart;
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(left - 12, top - 12, width + 24, height + 24);
+    ctx.clip();
+    paint();
+    ctx.restore();
+  };
 
   // Writes dataset.marks[i] beside point i.
   const pointMarks = {
     id: 'pointMarks',
     afterDatasetsDraw(chart) {
-      chart.data.datasets.forEach((set, index) => {
+      inPlot(chart, () => chart.data.datasets.forEach((set, index) => {
         (set.marks || []).forEach((mark, i) => {
           const point = chart.getDatasetMeta(index).data[i];
-          if (!point || !mark) return;
+          if (!point || !mark || !chart.isDatasetVisible(index)) return;
           const { ctx } = chart;
-          ctx.save();
           ctx.fillStyle = set.markColor;
           ctx.font = `600 11px ${Chart.defaults.font.family}`;
           ctx.textAlign = set.markSide === 'left' ? 'right' : 'left';
           ctx.fillText(mark, point.x + (set.markSide === 'left' ? -8 : 8), point.y - 7);
-          ctx.restore();
         });
-      });
+      }));
     },
   };
 
@@ -112,6 +148,7 @@ const plots = (() => {
     charts = builders.map(([id, build]) => [canvas(id), build()])
       .filter(([, configuration]) => configuration)
       .map(([place, configuration]) => new Chart(place, configuration));
+    charts.forEach((chart) => dressers.forEach((dress) => dress(chart)));
     painters.forEach((paint) => paint());
   };
   const drawForPrint = (printing) => {
@@ -127,7 +164,7 @@ const plots = (() => {
     draw();
   });
   return {
-    study, canvas, add, painters, colour, colourOf, withAlpha, usable, number,
-    logAxis, linearAxis, timeAxis, options, pointMarks, curveOf,
+    study, canvas, add, painters, dressers, colour, colourOf, withAlpha, usable, number,
+    logAxis, linearAxis, timeAxis, options, inPlot, pointMarks, curveOf,
   };
 })();

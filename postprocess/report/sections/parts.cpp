@@ -1,11 +1,39 @@
 #include "postprocess/report/sections/parts.hpp"
 
+#include "postprocess/report/assets.hpp"
 #include "postprocess/report/html.hpp"
 #include "postprocess/report/orders.hpp"
 
 #include <fmt/format.h>
 
 namespace diptych::report {
+
+std::string page_head(const std::string& title) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+      "style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">\n"
+      "<link rel=\"icon\" "
+      "href=\"data:,\">\n<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n",
+      escaped(title), style_css);
+}
+
+std::string page_scripts(const std::string& json,
+                         const std::string& chart_script,
+                         const std::string& page_script) {
+  return "<noscript><p class=\"warning\">The charts need JavaScript; the tables do "
+         "not.</p></noscript>\n<script type=\"application/json\" id=\"study\">" +
+         json_safe(json) + "</script>\n<script>" + script_safe(chart_script) +
+         "</script>\n<script>" + script_safe(page_script) + "</script>\n</body>\n</html>\n";
+}
+
+std::string plot_hint() {
+  return "<p class=\"hint\" id=\"plot-hint\">Plots of curves: drag over a part to enlarge it, or "
+         "spread two fingers, or click the plot and turn the wheel or press + − and the arrows. A "
+         "double click, 0 or “Show all” goes back. A name in a legend hides its curve.</p>\n";
+}
 
 std::string section(std::string_view id, std::string_view heading, const std::string& body) {
   return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}</section>\n", id, heading, body);

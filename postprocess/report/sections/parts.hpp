@@ -7,6 +7,17 @@
 
 namespace diptych::report {
 
+/// From the first line of a page to <body>.
+std::string page_head(const std::string& title);
+
+/// The end of a page: its numbers, Chart.js, what draws with them.
+std::string page_scripts(const std::string& json,
+                         const std::string& chart_script,
+                         const std::string& page_script);
+
+/// How plots are zoomed and curves hidden; the plots name it as their description.
+std::string plot_hint();
+
 std::string section(std::string_view id, std::string_view heading, const std::string& body);
 
 std::string cell(const std::string& content);

@@ -70,20 +70,53 @@ std::vector<io::RunSummary> probed_runs(const StudyReport& study) {
   return runs;
 }
 
+namespace {
+
+/// Where the points beside the curves of a probe are from.
+std::string sources(const StudyReport& study, const std::string& probe) {
+  std::string text;
+  for (const ReferencePoints& one : study.references.points) {
+    if (one.probe == probe) text += (text.empty() ? "Reference: " : "; ") + escaped(one.source);
+  }
+  return text.empty() ? "" : text + ".";
+}
+
+/// Energies and momenta over time with those of the exact solution.
+std::string other_charts(const StudyReport& study) {
+  std::string html;
+  size_t number = 0;
+  for (const io::HistoryColumn& column : exact_others(study)) {
+    const std::string title = escaped(column.name) + " [" + escaped(column.unit) + "]";
+    html += fmt::format("<div>\n<h3>{}</h3>\n{}</div>\n", title,
+                        chart(fmt::format("exact-{}", number++), title + " over time", ""));
+  }
+  return html;
+}
+
+}  // namespace
+
 std::string probes_section(const StudyReport& study) {
   const std::vector<io::RunSummary> runs = probed_runs(study);
-  if (runs.empty()) return "";
-  std::string html =
-      "<p>Both methods on the finest level. Extremes, period and logarithmic decrement are of the "
-      "recorded values; a probe that the case records at every step has them from there." +
-      stride_note(study) + "</p>\n<div class=\"pair\">\n";
-  for (size_t k = 0; k < runs.front().quantities.size(); ++k) {
-    const std::string title = with_unit(runs.front().quantities[k]);
+  const std::string others = other_charts(study);
+  if (runs.empty() && others.empty()) return "";
+  std::string html = "<p>Both methods on the finest level.";
+  if (!runs.empty()) {
     html +=
-        fmt::format("<div>\n<h3>{}</h3>\n{}{}</div>\n", title,
-                    chart(fmt::format("probe-{}", k), title + " over time", ""), numbers(runs, k));
+        " Extremes, period and logarithmic decrement are of the recorded values; a probe that the "
+        "case records at every step has them from there.";
   }
-  return section("probes", "What the probes saw", html + "</div>\n");
+  if (!others.empty()) html += " Dotted: the exact solution, on the same nodes.";
+  html += stride_note(study) + "</p>\n<div class=\"pair\">\n";
+  for (size_t k = 0; !runs.empty() && k < runs.front().quantities.size(); ++k) {
+    const io::QuantitySummary& quantity = runs.front().quantities[k];
+    const std::string title = with_unit(quantity);
+    html += fmt::format(
+        "<div>\n<h3>{}</h3>\n{}{}</div>\n", title,
+        chart(fmt::format("probe-{}", k), title + " over time", sources(study, quantity.name)),
+        numbers(runs, k));
+  }
+  return section("probes", runs.empty() ? "Against the exact solution" : "What the probes saw",
+                 html + others + "</div>\n");
 }
 
 }  // namespace diptych::report

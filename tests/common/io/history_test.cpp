@@ -105,5 +105,20 @@ TEST(History, RefusesDamageWithItsPlace) {
   EXPECT_THAT(refusal("time [s],step\n"), HasSubstr("column 'dt [s]' is missing"));
 }
 
+TEST(ExactCsv, GivesBackItsColumns) {
+  const std::vector<HistoryColumn> columns{{"time", "s", {0, 0.1}}, {"a, b", "-", {1e-300, -2}}};
+  const std::string text = columns_csv(columns);
+  EXPECT_EQ(text.substr(0, text.find('\n')), "time [s],\"a, b [-]\"");
+  const auto read = columns_from_csv(text, "exact.csv");
+  ASSERT_EQ(read.size(), 2u);
+  for (size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(read[k].name, columns[k].name);
+    EXPECT_EQ(read[k].unit, columns[k].unit);
+    EXPECT_EQ(read[k].values, columns[k].values);
+  }
+  EXPECT_THROW(columns_from_csv(text.substr(0, text.size() - 1), "exact.csv"), base::InputError);
+  EXPECT_THROW(columns_from_csv("", "exact.csv"), base::InputError);
+}
+
 }  // namespace
 }  // namespace diptych::io

@@ -1,0 +1,50 @@
+#include "benchmarks/harness/interruption.hpp"
+
+#include "benchmarks/harness/run_case.hpp"
+#include "common/base/error.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <fmt/format.h>
+#include <string_view>
+#include <unistd.h>
+
+namespace diptych::harness {
+
+namespace {
+
+void end_after_this_step(int) {
+  request_interrupt();
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+  constexpr std::string_view text =
+      "\ndiptych: ending after this step; once more stops at once, unwritten\n";
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, text.data(), text.size());
+}
+
+}  // namespace
+
+void catch_interrupts() {
+  std::signal(SIGINT, end_after_this_step);
+  std::signal(SIGTERM, end_after_this_step);
+}
+
+int exit_code_of_study(const std::string& to_go_on) {
+  if (!interrupt_requested()) return 0;
+  std::fputs(fmt::format("diptych: interrupted; {}\n", to_go_on).c_str(), stderr);
+  return static_cast<int>(base::ExitCode::interrupted);
+}
+
+std::string begin_again(const std::string& directory) {
+  return fmt::format(
+      "what had been computed is in {} (status \"interrupted\")\n"
+      "diptych: the same command begins the run again, at t = 0",
+      directory);
+}
+
+std::string go_on_from(const std::string& directory) {
+  return fmt::format("finished runs are kept in {}\ndiptych: the same command goes on from there",
+                     directory);
+}
+
+}  // namespace diptych::harness

@@ -1,0 +1,28 @@
+// Pages of log-log curves: one chart for each panel of the study.
+(() => {
+  const { study, colour, number, logAxis, options } = plots;
+  const ink = (i) => colour(`curve-${i % 8}`);
+  const shape = (name) => (name.startsWith('FVM') ? 'rectRot' : 'circle');
+  const dash = (name) => (name.startsWith('FVM') ? [7, 3] : []);
+
+  const chartOf = (panel) => {
+    const points = panel.curves.flatMap((curve) => curve.points);
+    if (!points.length) return null;
+    return {
+      type: 'line',
+      data: {
+        datasets: panel.curves.map((curve, i) => ({
+          label: curve.name, data: curve.points, borderColor: ink(i), backgroundColor: ink(i), borderWidth: 2,
+          borderDash: dash(curve.name), pointStyle: shape(curve.name), pointRadius: 5, pointHoverRadius: 7, pointHitRadius: 10,
+        })),
+      },
+      options: options({
+        x: logAxis(panel.x, points.map((p) => p.x)), y: logAxis(panel.y, points.map((p) => p.y)),
+      }, {
+        title: ([item]) => item.dataset.label,
+        label: ({ raw }) => [`${panel.y} ${number(raw.y)}`, `${panel.x} ${number(raw.x)}`],
+      }),
+    };
+  };
+  study.panels.forEach((panel, k) => plots.add(`panel-${k}`, () => chartOf(panel)));
+})();
