@@ -8,6 +8,7 @@
 #include "benchmarks/harness/option_costs.hpp"
 #include "benchmarks/harness/regress.hpp"
 #include "benchmarks/harness/run_table.hpp"
+#include "benchmarks/harness/size_costs.hpp"
 #include "benchmarks/harness/spinning.hpp"
 #include "benchmarks/harness/study.hpp"
 #include "benchmarks/harness/study_verb.hpp"
@@ -40,6 +41,8 @@ struct Arguments {
   int level = 0, levels = 3, threads = 0;
   bool quiet = false, no_fields = false, fresh = false;
   std::vector<std::string> quantities, tables;
+  std::vector<int> sizes;
+  int size_threads = 1;
   std::string page;
   bool check = false, quick = false, stability = false;
   harness::StudyRequest study;
@@ -226,7 +229,21 @@ int study_verb(const Arguments& arguments) {
                           : harness::go_on_from(request.directory));
 }
 
+int size_costs(const Arguments& arguments) {
+  const auto rows =
+      harness::measure_size_costs(arguments.sizes, arguments.size_threads, arguments.quiet);
+  if (rows.empty()) return exit_code_of_study();
+  print(harness::size_text(rows));
+  const std::string folder = arguments.directory.empty() ? "results" : arguments.directory;
+  io::make_directory(folder);
+  const std::string file = (std::filesystem::path(folder) / "size_costs.csv").string();
+  io::write_file_atomically(file, harness::size_csv(rows));
+  print("output: " + file + "\n");
+  return exit_code_of_study();
+}
+
 int cost_verb(const Arguments& arguments) {
+  if (!arguments.sizes.empty()) return size_costs(arguments);
   const auto table = harness::measure_option_costs(20, 12, arguments.quiet);
   print(harness::cost_text(table));
   const std::string folder = arguments.directory.empty() ? "results" : arguments.directory;
@@ -241,13 +258,18 @@ int check_verb(const Arguments& arguments) {
   const run::Case setup = case_of(arguments);
   for (const std::string& method : methods_of(arguments.method)) {
     const auto check = harness::check_case(setup, method, arguments.level);
+    const auto kilobytes = [&](std::int64_t bytes) {
+      return 1e-3 * static_cast<double>(bytes) / static_cast<double>(check.nodes);
+    };
     print(fmt::format(
         "{:4} {} nodes, {} cells, {} pairs ({:.1f} a node, least {}), linear exactness {:.1e}, "
-        "closure {:.1e}\n     first dt {:.4g} s, about {} steps, {:.1f} MB ({:.2f} kB a node)\n",
+        "closure {:.1e}\n     first dt {:.4g} s, about {} steps\n"
+        "     memory a node: {:.2f} kB in arrays of the solver; process {:.2f} kB while running, "
+        "{:.2f} kB while building\n",
         method, check.nodes, check.cells, check.pairs, check.quality.mean_neighbours,
         check.quality.least_neighbours, check.quality.linear_exactness, check.quality.closure,
-        check.dt, check.steps, 1e-6 * static_cast<double>(check.bytes),
-        1e-3 * static_cast<double>(check.bytes) / static_cast<double>(check.nodes)));
+        check.dt, check.steps, kilobytes(check.bytes), kilobytes(check.running_bytes),
+        kilobytes(check.building_bytes)));
   }
   print(setup.name + ": the case is sound\n");
   return 0;
@@ -396,6 +418,11 @@ int dispatch(int argc, char** argv) {
       "material", "strain the case's material alone: stresses, loops, loss of hyperbolicity");
   add_material_options(material, arguments);
   auto* cost = app.add_subcommand("cost", "what each option of the scheme costs per stage");
+  cost->add_option("--sizes", arguments.sizes,
+                   "nodes along the side of a cube, such as 22,47,101: cost, set-up and memory by "
+                   "size instead")
+      ->delimiter(',');
+  cost->add_option("--threads", arguments.size_threads, "with --sizes: default 1");
   cost->add_option("--out", arguments.directory, "output folder (default results)");
   cost->add_flag("--quiet", arguments.quiet, "no progress");
   auto* list = app.add_subcommand("list", "shipped cases");

@@ -1,6 +1,7 @@
 #include "sph/kernel_correction.hpp"
 
 #include "common/base/error.hpp"
+#include "common/parallel/for_chunks.hpp"
 
 #include <fmt/format.h>
 
@@ -38,11 +39,21 @@ void check_neighbours(const scheme::PairGraph& graph, std::int64_t a) {
   }
   spread /= static_cast<double>(end - begin);
   if (d == 2) spread(2, 2) = 1;
+  // the other two eigenvalues are below 1, so none is less than the determinant
+  if (spread.determinant() >= least_spread) return;
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(spread, Eigen::EigenvaluesOnly);
   if (solver.eigenvalues()[0] < least_spread) {
     refuse(graph, a,
            fmt::format("{} neighbours in one {}", end - begin, d == 3 ? "plane" : "line"));
   }
+}
+
+template <class Work>
+void for_particles(const scheme::PairGraph& graph, const Work& work) {
+  parallel::for_chunks(graph.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+    for (std::int64_t a = begin; a < end; ++a)
+      work(a);
+  });
 }
 
 }  // namespace
@@ -51,9 +62,11 @@ void set_corrected_gradients(const Kernel& kernel,
                              const std::vector<double>& h,
                              scheme::PairGraph& graph) {
   const int d = graph.dimension;
-  graph.C.resize(graph.neighbour.size());
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+  // before the parallel loop: the first particle that is refused is the one that is named
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a)
     check_neighbours(graph, a);
+  graph.C.resize(graph.neighbour.size());
+  for_particles(graph, [&](std::int64_t a) {
     Mat3 moment = Mat3::Zero();
     for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
       const std::int32_t b = graph.neighbour[p];
@@ -67,7 +80,7 @@ void set_corrected_gradients(const Kernel& kernel,
     for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
       graph.C[p] = 2 * graph.Omega[a] * (K * graph.C[p]);
     }
-  }
+  });
 }
 
 std::vector<double> linear_kernel_weights(const Kernel& kernel,
@@ -75,7 +88,7 @@ std::vector<double> linear_kernel_weights(const Kernel& kernel,
                                           const scheme::PairGraph& graph) {
   const int d = graph.dimension;
   std::vector<double> w(graph.neighbour.size());
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+  for_particles(graph, [&](std::int64_t a) {
     double zeroth = graph.Omega[a] * kernel.value(0, h[a], d);
     Vec3 first = Vec3::Zero();
     Mat3 second = Mat3::Zero();
@@ -94,7 +107,7 @@ std::vector<double> linear_kernel_weights(const Kernel& kernel,
     for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
       w[p] *= scale * (1 - slope.dot(graph.X[graph.neighbour[p]] - graph.X[a]));
     }
-  }
+  });
   return w;
 }
 

@@ -1,10 +1,11 @@
 #include "sph/neighbours.hpp"
 
+#include "common/parallel/for_each.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <map>
+#include <numeric>
 
 namespace diptych::sph {
 
@@ -34,7 +35,7 @@ struct Octave {
   std::int64_t index(const Cell& c) const { return (c[2] * n[1] + c[1]) * n[0] + c[0]; }
 };
 
-/// Grid cells as wide as the radius, wider where that would leave most of them empty.
+/// Grid cells half as wide as the radius, wider where that would leave most of them empty.
 void set_grid(Octave& octave, const std::vector<Vec3>& X) {
   Vec3 upper = X[octave.particle.front()];
   octave.lower = upper;
@@ -43,7 +44,7 @@ void set_grid(Octave& octave, const std::vector<Vec3>& X) {
     upper = upper.cwiseMax(X[a]);
   }
   const double most = 4.0 * static_cast<double>(octave.particle.size()) + 64;
-  octave.edge = octave.radius;
+  octave.edge = 0.5 * octave.radius;
   const auto count = [&](int i) {
     return std::floor((upper[i] - octave.lower[i]) / octave.edge) + 1;
   };
@@ -65,6 +66,8 @@ void sort_into_grid(Octave& octave, const std::vector<Vec3>& X, const std::vecto
   for (std::int32_t a : octave.particle)
     sorted[next[octave.index(octave.cell_of(X[a]))]++] = a;
   octave.particle = std::move(sorted);
+  octave.X.reserve(octave.particle.size());
+  octave.particle_radius.reserve(octave.particle.size());
   for (std::int32_t a : octave.particle) {
     octave.X.push_back(X[a]);
     octave.particle_radius.push_back(radius[a]);
@@ -72,18 +75,18 @@ void sort_into_grid(Octave& octave, const std::vector<Vec3>& X, const std::vecto
 }
 
 std::vector<Octave> sorted_octaves(const std::vector<Vec3>& X, const std::vector<double>& radius) {
-  std::map<int, Octave> octaves;
+  const auto [least, most] = std::minmax_element(radius.begin(), radius.end());
+  const int first = std::ilogb(*least);
+  std::vector<Octave> octaves(static_cast<size_t>(std::ilogb(*most) - first) + 1);
   for (size_t a = 0; a < X.size(); ++a) {
-    Octave& octave = octaves[std::ilogb(radius[a])];
+    Octave& octave = octaves[std::ilogb(radius[a]) - first];
     octave.particle.push_back(static_cast<std::int32_t>(a));
     octave.radius = std::max(octave.radius, radius[a]);
   }
-  std::vector<Octave> result;
-  for (auto& [power, octave] : octaves) {
+  std::erase_if(octaves, [](const Octave& octave) { return octave.particle.empty(); });
+  for (Octave& octave : octaves)
     sort_into_grid(octave, X, radius);
-    result.push_back(std::move(octave));
-  }
-  return result;
+  return octaves;
 }
 
 void add_from(const Octave& octave,
@@ -108,22 +111,39 @@ void add_from(const Octave& octave,
   }
 }
 
+/// Particles that are searched for by one thread at a time.
+constexpr std::int64_t piece_size = 2048;
+
 }  // namespace
 
 Rows find_neighbours(const std::vector<Vec3>& X, const std::vector<double>& radius) {
+  if (X.empty()) return {{0}, {}};
   const std::vector<Octave> octaves = sorted_octaves(X, radius);
+  const auto n = static_cast<std::int64_t>(X.size());
+  std::vector<std::vector<std::int32_t>> pieces(
+      static_cast<size_t>((n + piece_size - 1) / piece_size));
   Rows rows;
-  rows.row.assign(1, 0);
-  std::vector<std::int32_t> found;
-  for (size_t a = 0; a < X.size(); ++a) {
-    found.clear();
-    for (const Octave& octave : octaves) {
-      add_from(octave, static_cast<std::int32_t>(a), X[a], radius[a], found);
+  rows.row.assign(X.size() + 1, 0);
+  const auto for_pieces = [&](const auto& work) {
+    parallel::for_each(static_cast<std::int64_t>(pieces.size()), [&](std::int64_t i) {
+      work(pieces[i], i * piece_size, std::min(n, (i + 1) * piece_size));
+    });
+  };
+  for_pieces([&](std::vector<std::int32_t>& found, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      const auto first = static_cast<std::ptrdiff_t>(found.size());
+      for (const Octave& octave : octaves)
+        add_from(octave, static_cast<std::int32_t>(a), X[a], radius[a], found);
+      std::sort(found.begin() + first, found.end());
+      rows.row[a + 1] = static_cast<std::int64_t>(found.size()) - first;
     }
-    std::sort(found.begin(), found.end());
-    rows.neighbour.insert(rows.neighbour.end(), found.begin(), found.end());
-    rows.row.push_back(static_cast<std::int64_t>(rows.neighbour.size()));
-  }
+  });
+  std::partial_sum(rows.row.begin(), rows.row.end(), rows.row.begin());
+  rows.neighbour.resize(static_cast<size_t>(rows.row.back()));
+  for_pieces([&](std::vector<std::int32_t>& found, std::int64_t begin, std::int64_t) {
+    std::copy(found.begin(), found.end(), rows.neighbour.begin() + rows.row[begin]);
+    std::vector<std::int32_t>().swap(found);
+  });
   return rows;
 }
 

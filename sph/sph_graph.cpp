@@ -2,6 +2,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/registry.hpp"
+#include "common/parallel/for_chunks.hpp"
 #include "common/scheme/closure_repair.hpp"
 #include "meshes/dual_measure.hpp"
 #include "sph/kernel_correction.hpp"
@@ -44,13 +45,15 @@ void repair_by_gamma(const Kernel& kernel, const std::vector<double>& h, scheme:
 /// gamma's, and the stable step stays that of the kernel without any repair.
 void repair_by_pairs(const Kernel& kernel, const std::vector<double>& h, scheme::PairGraph& graph) {
   std::vector<double> k(graph.neighbour.size());
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
-    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-      const std::int32_t b = graph.neighbour[p];
-      const double r = (graph.X[b] - graph.X[a]).norm(), h_ab = 0.5 * (h[a] + h[b]);
-      k[p] = graph.Omega[a] * graph.Omega[b] * kernel.value(r, h_ab, graph.dimension) / h_ab;
+  parallel::for_chunks(graph.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+        const std::int32_t b = graph.neighbour[p];
+        const double r = (graph.X[b] - graph.X[a]).norm(), h_ab = 0.5 * (h[a] + h[b]);
+        k[p] = graph.Omega[a] * graph.Omega[b] * kernel.value(r, h_ab, graph.dimension) / h_ab;
+      }
     }
-  }
+  });
   scheme::repair_closure_pairs(graph, k);
 }
 

@@ -61,13 +61,4 @@ const std::string& program_hash() {
   return hash;
 }
 
-std::int64_t peak_rss_bytes() {
-  const std::string text = value_of("/proc/self/status", "VmHWM");
-  return text == "unknown" ? 0 : std::stoll(text) * 1024;
-}
-
-void reset_peak_rss() {
-  std::ofstream("/proc/self/clear_refs") << "5";
-}
-
 }  // namespace diptych::harness

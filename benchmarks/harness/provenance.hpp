@@ -10,8 +10,4 @@ io::Provenance provenance(const std::string& case_hash);
 /// Hash of the program that is running: two runs with the same one come from the same code.
 const std::string& program_hash();
 
-/// Largest resident set since the last reset (Linux), bytes.
-std::int64_t peak_rss_bytes();
-void reset_peak_rss();
-
 }  // namespace diptych::harness

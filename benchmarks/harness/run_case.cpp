@@ -3,6 +3,7 @@
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/energy_record.hpp"
 #include "benchmarks/harness/exact_record.hpp"
+#include "benchmarks/harness/memory.hpp"
 #include "benchmarks/harness/progress.hpp"
 #include "benchmarks/harness/provenance.hpp"
 #include "benchmarks/harness/quantities.hpp"
@@ -37,6 +38,7 @@ class Recorder {
  public:
   Recorder(const run::Case& setup,
            const RunOptions& options,
+           const CaseMesh& mesh,
            run::Solver& solver,
            RunResult& result)
       : setup_(setup),
@@ -49,11 +51,11 @@ class Recorder {
         initial_(solver.balance()),
         energy_(initial_) {
     if (!options.directory.empty() && options.fields && setup.output.fields) {
-      writer_ = std::make_unique<io::FieldWriter>(options.directory, visual_mesh(result.mesh));
+      writer_ = std::make_unique<io::FieldWriter>(options.directory, visual_mesh(mesh));
     }
     if (options.shapes) {
       const auto n_outputs = static_cast<size_t>(setup.output.frames) + 1;
-      shapes_ = std::make_unique<ShapeRecorder>(result.mesh.mesh, n_outputs);
+      shapes_ = std::make_unique<ShapeRecorder>(mesh.mesh, n_outputs);
     }
   }
 
@@ -139,7 +141,7 @@ class Recorder {
   }
 
   void write_fields(const run::Snapshot& s) {
-    const auto& order = result_.mesh.order;
+    const auto& order = result_.order;
     const auto vectors = [&](const std::string& name, const std::vector<algebra::Vec3>& field) {
       io::NodeField f{name, 3, std::vector<double>(3 * field.size())};
       for (size_t a = 0; a < field.size(); ++a) {
@@ -315,9 +317,8 @@ RunResult run_case(const run::Case& setup, const RunOptions& options) {
   parallel::set_threads(options.threads);
   RunResult result;
   io::RunSummary& s = result.summary;
-  result.mesh = mesh_of(setup, options.level, std::filesystem::temp_directory_path().string());
-  result.graph = method_menu().at(options.method)(result.mesh.mesh, setup);
-  scheme::validate(result.graph);
+  CaseMesh mesh = mesh_of(setup, options.level, std::filesystem::temp_directory_path().string());
+  result.graph = method_menu().at(options.method)(mesh.mesh, setup);
   const auto solver = run::make_solver(setup, result.graph);
   if (!options.directory.empty()) claim_directory(options.directory);
   s.method = options.method;
@@ -330,7 +331,14 @@ RunResult run_case(const run::Case& setup, const RunOptions& options) {
   s.provenance = provenance(setup.hash);
   s.provenance.input_hash = input_hash(setup, options.measures);
   describe_graph(result.graph, s);
-  Recorder recorder(setup, options, *solver, result);
+  Recorder recorder(setup, options, mesh, *solver, result);
+  // from here on the solver's arrays are all that is needed, and the nodes
+  result.order = std::move(mesh.order);
+  mesh.mesh = {};
+  release_pairs(result.graph);
+  s.solver_bytes = solver->bytes();
+  s.building_rss_bytes = peak_rss_bytes();
+  s.running_rss_bytes = settled_memory();
   announce(options, s);
   s.setup_seconds = seconds_since(start);
   const auto finish = [&] {
@@ -342,7 +350,7 @@ RunResult run_case(const run::Case& setup, const RunOptions& options) {
       s.nanoseconds_per_node_stage =
           1e9 * s.loop_seconds / (static_cast<double>(s.stages) * static_cast<double>(s.nodes));
     }
-    s.state_hash = solver->state_hash(result.mesh.order);
+    s.state_hash = solver->state_hash(result.order);
     recorder.fill(s);
     if (s.status == "done")
       s.measures =
@@ -363,15 +371,20 @@ RunResult run_case(const run::Case& setup, const RunOptions& options) {
 
 CaseCheck check_case(const run::Case& setup, const std::string& method, int level) {
   CaseCheck check;
-  const CaseMesh mesh = mesh_of(setup, level, std::filesystem::temp_directory_path().string());
-  const scheme::PairGraph graph = method_menu().at(method)(mesh.mesh, setup);
-  scheme::validate(graph);
+  const std::int64_t before = settled_memory();
+  reset_peak_rss();
+  CaseMesh mesh = mesh_of(setup, level, std::filesystem::temp_directory_path().string());
+  scheme::PairGraph graph = method_menu().at(method)(mesh.mesh, setup);
   check.quality = scheme::quality(graph);
   check.nodes = graph.n_nodes();
   check.cells = mesh.mesh.n_cells();
   check.pairs = graph.n_pairs();
   const auto solver = run::make_solver(setup, graph);
   check.bytes = solver->bytes();
+  check.building_bytes = peak_rss_bytes() - before;
+  release_pairs(graph);
+  mesh.mesh = {};
+  check.running_bytes = settled_memory() - before;
   const run::StepReport report = solver->step(setup.time.end);
   check.dt = report.dt;
   check.steps = static_cast<std::int64_t>(std::ceil(setup.time.end / report.dt - 1e-9));

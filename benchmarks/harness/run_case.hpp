@@ -34,8 +34,8 @@ struct RunResult {
   std::map<std::string, double> scales;  ///< field: largest L2 norm, exact where errors have one
   run::Snapshot final_state;             ///< in the numbering of `mesh`
   report::ShapeRecord shapes;            ///< where they were asked for
-  CaseMesh mesh;
-  scheme::PairGraph graph;
+  std::vector<std::int32_t> order;       ///< [node] its number in the user's mesh
+  scheme::PairGraph graph;               ///< without its pairs
 };
 
 /// @throws base::InputError, base::EnvironmentError before anything is written;
@@ -44,8 +44,11 @@ RunResult run_case(const run::Case& setup, const RunOptions& options);
 
 /// What `diptych check` tells of a case without running it.
 struct CaseCheck {
-  std::int64_t nodes = 0, cells = 0, pairs = 0, steps = 0, bytes = 0;
-  double dt = 0;  ///< s, of the first step
+  std::int64_t nodes = 0, cells = 0, pairs = 0, steps = 0;
+  std::int64_t bytes = 0;           ///< arrays of the solver
+  std::int64_t running_bytes = 0;   ///< resident set once the solver stands
+  std::int64_t building_bytes = 0;  ///< largest resident set until then
+  double dt = 0;                    ///< s, of the first step
   scheme::GraphQuality quality;
 };
 CaseCheck check_case(const run::Case& setup, const std::string& method, int level);

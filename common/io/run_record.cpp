@@ -217,6 +217,9 @@ void read_size_and_cost(const Section& file, RunSummary& summary) {
   summary.loop_seconds = file.number("loop_seconds");
   summary.nanoseconds_per_node_stage = file.number("nanoseconds_per_node_stage");
   summary.peak_rss_bytes = file.large_count("peak_rss_bytes");
+  summary.solver_bytes = file.large_count("solver_bytes");
+  summary.running_rss_bytes = file.large_count("running_rss_bytes");
+  summary.building_rss_bytes = file.large_count("building_rss_bytes");
   summary.dt_min = file.section("dt").number("min");
   summary.dt_max = file.section("dt").number("max");
   summary.spacing = file.number("spacing");
@@ -305,6 +308,9 @@ std::string to_json(const RunSummary& summary) {
       {"loop_seconds", summary.loop_seconds},
       {"nanoseconds_per_node_stage", summary.nanoseconds_per_node_stage},
       {"peak_rss_bytes", summary.peak_rss_bytes},
+      {"solver_bytes", summary.solver_bytes},
+      {"running_rss_bytes", summary.running_rss_bytes},
+      {"building_rss_bytes", summary.building_rss_bytes},
       {"dt", {{"min", summary.dt_min}, {"max", summary.dt_max}}},
       {"spacing", summary.spacing},
       {"mean_neighbours", summary.mean_neighbours},

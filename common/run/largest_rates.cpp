@@ -1,5 +1,7 @@
 #include "common/run/largest_rates.hpp"
 
+#include "common/algebra/field.hpp"
+#include "common/algebra/four.hpp"
 #include "common/parallel/for_chunks.hpp"
 
 #include <algorithm>
@@ -10,10 +12,14 @@ namespace diptych::run {
 
 namespace {
 
+using algebra::Four;
+using algebra::load_four;
+using algebra::load_three;
+using algebra::sum_three;
 using algebra::Vec3;
 using scheme::PairGraph;
 template <class T>
-using Field = std::vector<T>;
+using Field = algebra::AlignedArray<T>;
 
 constexpr int n_iterations = 16;
 
@@ -28,8 +34,8 @@ void for_nodes(const PairGraph& graph, const Work& work) {
 double dot(double u, double v) {
   return u * v;
 }
-double dot(const Vec3& u, const Vec3& v) {
-  return u.dot(v);
+double dot(const Four& u, const Four& v) {
+  return sum_three(u * v);
 }
 
 template <class T>
@@ -50,9 +56,12 @@ class Noise {
     state_ = state_ * 6364136223846793005U + 1442695040888963407U;
     x = static_cast<double>(state_ >> 11) * 0x1p-52 - 1;
   }
-  void fill(Vec3& x) {
-    for (int i = 0; i < 3; ++i)
-      fill(x[i]);
+  void fill(Four& x) {
+    for (int i = 0; i < 3; ++i) {
+      double value = 0;
+      fill(value);
+      x[i] = value;
+    }
   }
 
  private:
@@ -89,9 +98,8 @@ double lanczos(const PairGraph& graph,
                const std::function<void(const Field<T>& in, Field<T>& out)>& apply) {
   Field<T> before(graph.n_nodes()), now(graph.n_nodes()), next(graph.n_nodes());
   Noise noise;
-  for (T& x : now) {
-    noise.fill(x);
-  }
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a)
+    noise.fill(now[a]);
   std::vector<double> diagonal, beside2;
   const double first_length = std::sqrt(product(graph, now, now));
   double beta = 0;
@@ -116,72 +124,188 @@ double lanczos(const PairGraph& graph,
   return largest_eigenvalue(diagonal, beside2);
 }
 
-/// g <- gradient of u.
-void gradient(const PairGraph& graph, const Field<double>& u, Field<Vec3>& g) {
-  for_nodes(graph, [&](std::int64_t a) {
-    Vec3 sum = Vec3::Zero();
-    for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k)
-      sum += (u[graph.neighbour[k]] - u[a]) * graph.C[k];
-    g[a] = sum / (2 * graph.Omega[a]);
-  });
+/// A vector per pair, and one more number, so that the last is loaded like the others.
+class PairVectors {
+ public:
+  explicit PairVectors(const PairGraph& graph) : data_(3 * graph.n_pairs() + 1) {}
+  double* operator[](std::int64_t k) { return data_.data() + 3 * k; }
+  const double* operator[](std::int64_t k) const { return data_.data() + 3 * k; }
+
+ private:
+  algebra::AlignedArray<double> data_;
+};
+
+/// What the operators stream.
+struct Rows {
+  const std::int64_t* row;
+  const std::int32_t* neighbour;
+  const double* inverse_Omega;  ///< of 2 Omega or 4 Omega
+};
+
+/// out <- the dissipation operator of v; N_ab = S_ab/sqrt|S_ab| with S_ab twice its size.
+DIPTYCH_CLONES void apply_dissipation(const Rows& rows,
+                                      const PairVectors& N,
+                                      double shear_ratio,
+                                      const Four* v,
+                                      Four* out,
+                                      std::int64_t begin,
+                                      std::int64_t end) {
+  for (std::int64_t a = begin; a < end; ++a) {
+    Four sum{};
+    for (std::int64_t k = rows.row[a]; k < rows.row[a + 1]; ++k) {
+      const Four n = load_four(N[k]), jump = v[a] - v[rows.neighbour[k]];
+      const double along = sum_three(n * jump), area = sum_three(n * n);
+      sum += area * shear_ratio * jump + (1 - shear_ratio) * along * n;
+    }
+    out[a] = sum * rows.inverse_Omega[a];
+  }
 }
 
-/// f <- adjoint of the gradient, of p.
-void adjoint(const PairGraph& graph, const Field<Vec3>& p, Field<double>& f) {
-  for_nodes(graph, [&](std::int64_t a) {
-    double sum = 0;
-    for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k)
-      sum += p[graph.neighbour[k]].dot(graph.C[graph.reverse[k]]) - p[a].dot(graph.C[k]);
-    f[a] = sum / (2 * graph.Omega[a]);
-  });
+/// g <- gradient of u.
+DIPTYCH_CLONES void gradient(const Rows& rows,
+                             const Vec3* C,
+                             const double* u,
+                             Four* g,
+                             std::int64_t begin,
+                             std::int64_t end) {
+  for (std::int64_t a = begin; a < end; ++a) {
+    Four sum{};
+    for (std::int64_t k = rows.row[a]; k < rows.row[a + 1]; ++k)
+      sum += (u[rows.neighbour[k]] - u[a]) * load_three(C[k]);
+    g[a] = sum * rows.inverse_Omega[a];
+  }
+}
+
+/// f <- adjoint of the gradient, of p; C_reverse[k] is C_ba of the pair (a,b).
+DIPTYCH_CLONES void adjoint(const Rows& rows,
+                            const Vec3* C,
+                            const PairVectors& C_reverse,
+                            const Four* p,
+                            double* f,
+                            std::int64_t begin,
+                            std::int64_t end) {
+  for (std::int64_t a = begin; a < end; ++a) {
+    Four sum{}, C_sum{};
+    for (std::int64_t k = rows.row[a]; k < rows.row[a + 1]; ++k) {
+      sum += p[rows.neighbour[k]] * load_four(C_reverse[k]);
+      C_sum += load_three(C[k]);
+    }
+    f[a] = sum_three(sum - p[a] * C_sum) * rows.inverse_Omega[a];
+  }
 }
 
 /// corrected <- q + kappa_f/Omega_a sum_b [(q_a - q_b) X_ab] S_ab, or with X and S exchanged.
 template <bool of_stress>
-void correct(const PairGraph& graph, double kappa_f, const Field<Vec3>& q, Field<Vec3>& corrected) {
-  for_nodes(graph, [&](std::int64_t a) {
-    Vec3 sum = Vec3::Zero();
-    for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k) {
-      const std::int32_t b = graph.neighbour[k];
-      const Vec3 S = 0.5 * (graph.C[k] - graph.C[graph.reverse[k]]), X = graph.X[b] - graph.X[a];
-      const Vec3 jump = q[a] - q[b];
-      if constexpr (of_stress) {
-        sum += jump.dot(S) * X;
-      } else {
-        sum += jump.dot(X) * S;
-      }
+DIPTYCH_INLINE void correct(const Rows& rows,
+                            const Vec3* C,
+                            const PairVectors& C_reverse,
+                            const Four* X,
+                            double kappa_f,
+                            const Four* q,
+                            Four* corrected,
+                            std::int64_t begin,
+                            std::int64_t end) {
+  for (std::int64_t a = begin; a < end; ++a) {
+    Four sum{};
+    for (std::int64_t k = rows.row[a]; k < rows.row[a + 1]; ++k) {
+      const std::int32_t b = rows.neighbour[k];
+      const Four S = load_three(C[k]) - load_four(C_reverse[k]);  // twice S_ab
+      const Four X_ab = X[b] - X[a], jump = q[a] - q[b];
+      sum += of_stress ? sum_three(jump * S) * X_ab : sum_three(jump * X_ab) * S;
     }
-    corrected[a] = q[a] + kappa_f / graph.Omega[a] * sum;
+    corrected[a] = q[a] + kappa_f * rows.inverse_Omega[a] * sum;
+  }
+}
+DIPTYCH_CLONES void correct_gradient(const Rows& rows,
+                                     const Vec3* C,
+                                     const PairVectors& C_reverse,
+                                     const Four* X,
+                                     double kappa_f,
+                                     const Four* q,
+                                     Four* corrected,
+                                     std::int64_t begin,
+                                     std::int64_t end) {
+  correct<false>(rows, C, C_reverse, X, kappa_f, q, corrected, begin, end);
+}
+DIPTYCH_CLONES void correct_stress(const Rows& rows,
+                                   const Vec3* C,
+                                   const PairVectors& C_reverse,
+                                   const Four* X,
+                                   double kappa_f,
+                                   const Four* q,
+                                   Four* corrected,
+                                   std::int64_t begin,
+                                   std::int64_t end) {
+  correct<true>(rows, C, C_reverse, X, kappa_f, q, corrected, begin, end);
+}
+
+/// factor / Omega_a
+std::vector<double> inverse_volumes(const PairGraph& graph, double factor) {
+  std::vector<double> inverse(graph.Omega.size());
+  for (size_t a = 0; a < inverse.size(); ++a)
+    inverse[a] = factor / graph.Omega[a];
+  return inverse;
+}
+
+/// work(begin, end) for pieces of all nodes, in parallel.
+template <class Work>
+void for_ranges(const PairGraph& graph, const Work& work) {
+  parallel::for_chunks(graph.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+    work(begin, end);
   });
 }
 
 }  // namespace
 
 double largest_dissipation(const PairGraph& graph, double shear_ratio) {
-  return lanczos<Vec3>(graph, [&](const Field<Vec3>& v, Field<Vec3>& out) {
-    for_nodes(graph, [&](std::int64_t a) {
-      Vec3 sum = Vec3::Zero();
-      for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k) {
-        const Vec3 S = graph.C[k] - graph.C[graph.reverse[k]];  // twice S_ab
-        const double area = S.norm();
-        if (area == 0) continue;
-        const Vec3 jump = v[a] - v[graph.neighbour[k]];
-        sum += area * shear_ratio * jump + (1 - shear_ratio) / area * S.dot(jump) * S;
-      }
-      out[a] = sum / (4 * graph.Omega[a]);
+  PairVectors N(graph);
+  for_nodes(graph, [&](std::int64_t a) {
+    for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k) {
+      const Vec3 S = graph.C[k] - graph.C[graph.reverse[k]];  // twice S_ab
+      const double area = S.norm();
+      if (area > 0) Vec3::Map(N[k]) = S / std::sqrt(area);
+    }
+  });
+  const std::vector<double> inverse = inverse_volumes(graph, 0.25);
+  const Rows rows{graph.row.data(), graph.neighbour.data(), inverse.data()};
+  return lanczos<Four>(graph, [&](const Field<Four>& v, Field<Four>& out) {
+    for_ranges(graph, [&](std::int64_t begin, std::int64_t end) {
+      apply_dissipation(rows, N, shear_ratio, v.data(), out.data(), begin, end);
     });
   });
 }
 
 double largest_frequency(const PairGraph& graph, double kappa_f) {
-  Field<Vec3> g(graph.n_nodes()), corrected(graph.n_nodes());
+  PairVectors C_reverse(graph);
+  for_nodes(graph, [&](std::int64_t a) {
+    for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k)
+      Vec3::Map(C_reverse[k]) = graph.C[graph.reverse[k]];
+  });
+  const std::vector<double> inverse = inverse_volumes(graph, 0.5);
+  const Rows rows{graph.row.data(), graph.neighbour.data(), inverse.data()};
+  const Vec3* C = graph.C.data();
+  Field<Four> X, g(graph.n_nodes()), corrected;
+  if (kappa_f != 0) {
+    X = Field<Four>(graph.n_nodes());
+    corrected = Field<Four>(graph.n_nodes());
+    for_nodes(graph, [&](std::int64_t a) { X[a] = load_three(graph.X[a]); });
+  }
   return std::sqrt(lanczos<double>(graph, [&](const Field<double>& u, Field<double>& out) {
-    gradient(graph, u, g);
+    const auto pass = [&](const auto& work) { for_ranges(graph, work); };
+    pass([&](auto begin, auto end) { gradient(rows, C, u.data(), g.data(), begin, end); });
     if (kappa_f != 0) {
-      correct<false>(graph, kappa_f, g, corrected);
-      correct<true>(graph, kappa_f, corrected, g);
+      pass([&](auto begin, auto end) {
+        correct_gradient(rows, C, C_reverse, X.data(), kappa_f, g.data(), corrected.data(), begin,
+                         end);
+      });
+      pass([&](auto begin, auto end) {
+        correct_stress(rows, C, C_reverse, X.data(), kappa_f, corrected.data(), g.data(), begin,
+                       end);
+      });
     }
-    adjoint(graph, g, out);
+    pass([&](auto begin, auto end) {
+      adjoint(rows, C, C_reverse, g.data(), out.data(), begin, end);
+    });
   }));
 }
 

@@ -1,9 +1,11 @@
 #include "common/scheme/closure_repair.hpp"
 
-#include "common/scheme/conjugate_gradients.hpp"
-#include "common/scheme/spline_levels.hpp"
+#include "common/scheme/closure_correction.hpp"
+#include "common/scheme/pair_correction.hpp"
 
 #include <cmath>
+#include <functional>
+#include <memory>
 
 namespace diptych::scheme {
 
@@ -12,13 +14,15 @@ namespace {
 /// What is missing: A_aN_a + 1/2 sum_b (C_ab - C_ba).
 Field closure_gap(const PairGraph& graph) {
   Field gap = graph.boundary_area;
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
-    Vec3 sum = Vec3::Zero();
-    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-      sum += graph.C[p] - graph.C[graph.reverse[p]];
+  for_each_node(gap.size(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      Vec3 sum = Vec3::Zero();
+      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+        sum += graph.C[p] - graph.C[graph.reverse[p]];
+      }
+      gap[a] += 0.5 * sum;
     }
-    gap[a] += 0.5 * sum;
-  }
+  });
   return gap;
 }
 
@@ -29,21 +33,6 @@ std::vector<double> area_units(const PairGraph& graph) {
   for (size_t a = 0; a < unit.size(); ++a)
     unit[a] = std::pow(graph.Omega[a], power);
   return unit;
-}
-
-/// One of the two corrections: C is changed by a linear function of y, the gap by -S y.
-class Correction {
- public:
-  virtual ~Correction() = default;
-  virtual void apply_S(const Field& y, Field& Sy) = 0;
-  virtual void precondition(const Field& r, Field& z) = 0;
-  virtual void change(const Field& y, std::vector<Vec3>& C) = 0;
-};
-
-void divide(const Field& r, const std::vector<double>& diagonal, Field& z) {
-  for (size_t a = 0; a < r.size(); ++a) {
-    z[a] = diagonal[a] > 0 ? Vec3(r[a] / diagonal[a]) : Vec3(Vec3::Zero());
-  }
 }
 
 /// dC_ab = -2 w_ab gamma_a with gamma = A^T y, which is the gamma of least norm: S = A A^T,
@@ -98,140 +87,36 @@ class RowCorrection : public Correction {
   Field gamma_;
 };
 
-/// M_a^-1 = (sum_b k_ab X_ab (x) X_ab)^-1 of every row; a third direction of its own in 2-D.
-std::vector<Mat3> inverse_second_moments(const PairGraph& graph, const std::vector<double>& k) {
-  std::vector<Mat3> inverse(graph.X.size());
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
-    Mat3 M = Mat3::Zero();
-    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-      const Vec3 X_ab = graph.X[graph.neighbour[p]] - graph.X[a];
-      M += k[p] * X_ab * X_ab.transpose();
-    }
-    if (graph.dimension == 2) M(2, 2) = M.trace();
-    inverse[a] = M.inverse();
-  }
-  return inverse;
-}
-
-/// sum_b k_ab X_ab
-Vec3 first_moment(const PairGraph& graph, const std::vector<double>& k, std::int64_t a) {
-  Vec3 m = Vec3::Zero();
-  for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-    m += k[p] * (graph.X[graph.neighbour[p]] - graph.X[a]);
-  }
-  return m;
-}
-
-/// dC_ab = 1/2 k_ab [lambda_b - lambda_a - (grad lambda)_a X_ab]; the gap changes by -S lambda,
-///   (S lambda)_a = -1/4 sum_b k_ab [2 (lambda_b - lambda_a) - (grad_a + grad_b) X_ab].
-class PairCorrection : public Correction {
- public:
-  PairCorrection(const PairGraph& graph, const std::vector<double>& k)
-      : graph_(graph),
-        k_(k),
-        inverse_(inverse_second_moments(graph, k)),
-        diagonal_(graph.X.size(), 0.0),
-        slope_(graph.X.size()),
-        smooth_(graph, k, inverse_) {
-    for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
-      const Vec3 m = inverse_[a] * first_moment(graph, k, a);
-      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-        const Vec3 X_ab = graph.X[graph.neighbour[p]] - graph.X[a];
-        const double fitted = k[p] * X_ab.dot(inverse_[graph.neighbour[p]] * X_ab);
-        diagonal_[a] += 0.25 * k[p] * (2 - X_ab.dot(m) - fitted);
-      }
-    }
-  }
-  void apply_S(const Field& lambda, Field& S_lambda) override {
-    fit(lambda);
-    const std::vector<Vec3>& X = graph_.X;
-    for_each_node(X.size(), [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t a = begin; a < end; ++a) {
-        Vec3 s = Vec3::Zero();
-        for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
-          const std::int32_t b = graph_.neighbour[p];
-          s += k_[p] * (2 * (lambda[b] - lambda[a]) - (slope_[a] + slope_[b]) * (X[b] - X[a]));
-        }
-        S_lambda[a] = -0.25 * s;
-      }
-    });
-  }
-  void precondition(const Field& r, Field& z) override {
-    divide(r, diagonal_, z);
-    smooth_.add(r, z);
-  }
-  void change(const Field& lambda, std::vector<Vec3>& C) override {
-    fit(lambda);
-    const std::vector<Vec3>& X = graph_.X;
-    for (std::int64_t a = 0; a < graph_.n_nodes(); ++a) {
-      for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
-        const std::int32_t b = graph_.neighbour[p];
-        C[p] += 0.5 * k_[p] * (lambda[b] - lambda[a] - slope_[a] * (X[b] - X[a]));
-      }
-    }
-  }
-
- private:
-  /// slope_[a] = grad lambda, row i the gradient of component i.
-  void fit(const Field& lambda) {
-    const std::vector<Vec3>& X = graph_.X;
-    for_each_node(X.size(), [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t a = begin; a < end; ++a) {
-        Mat3 m = Mat3::Zero();
-        for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
-          const std::int32_t b = graph_.neighbour[p];
-          m += (k_[p] * (lambda[b] - lambda[a])) * (X[b] - X[a]).transpose();
-        }
-        slope_[a] = m * inverse_[a];
-      }
-    });
-  }
-  const PairGraph& graph_;
-  const std::vector<double>& k_;
-  std::vector<Mat3> inverse_;
-  std::vector<double> diagonal_;
-  std::vector<Mat3> slope_;
-  SplineLevels smooth_;
-};
-
-double relative_change(const std::vector<Vec3>& C, const std::vector<Vec3>& C_before) {
-  double change = 0, size = 0;
-  for (size_t p = 0; p < C.size(); ++p) {
-    change += (C[p] - C_before[p]).norm();
-    size += C_before[p].norm();
-  }
-  return change / size;
-}
-
 constexpr int most_passes = 4;
 
+using CorrectionMaker = std::function<std::unique_ptr<Correction>()>;
+
 /// Solves for the gap and applies the correction, again for what round-off left, as long as that
-/// halves it.
-ClosureRepair repair(PairGraph& graph, Correction& correction, const RepairLimits& limits) {
+/// halves it. A graph without a gap, such as that of a box of cells, makes no correction at all.
+ClosureRepair repair(PairGraph& graph, const CorrectionMaker& make, const RepairLimits& limits) {
   ClosureRepair result;
   const std::vector<double> unit = area_units(graph);
-  const AffinePart affine_part(graph.X);
-  const FieldOperator S = [&](const Field& y, Field& Sy) { correction.apply_S(y, Sy); };
-  const FieldOperator inverse = [&](const Field& r, Field& z) { correction.precondition(r, z); };
-  const std::vector<Vec3> C_before = graph.C;
   Field gap = closure_gap(graph), y;
   result.before = result.after = greatest(gap, unit);
+  if (result.before <= limits.closure) return result;
+  const std::unique_ptr<Correction> correction = make();
+  const AffinePart affine_part(graph.X);
+  const FieldOperator S = [&](const Field& in, Field& out) { correction->apply_S(in, out); };
+  const FieldOperator inverse = [&](const Field& r, Field& z) { correction->precondition(r, z); };
   for (int pass = 0; pass < most_passes && !(result.after <= limits.closure); ++pass) {
     const SolveLimits left{0.5 * limits.closure, limits.iterations - result.iterations};
     result.iterations += conjugate_gradients(S, inverse, affine_part, unit, left, gap, y);
-    std::vector<Vec3> C = graph.C;
-    correction.change(y, C);
-    C.swap(graph.C);
+    std::vector<Vec3> C_before = graph.C;
+    correction->change(y, graph.C);
     gap = closure_gap(graph);
     const double before = result.after, after = greatest(gap, unit);
     if (!(after < before)) {
-      C.swap(graph.C);
+      graph.C.swap(C_before);
       break;
     }
     result.after = after;
     if (after > 0.5 * before) break;
   }
-  result.mean_change = relative_change(graph.C, C_before);
   return result;
 }
 
@@ -254,15 +139,15 @@ std::vector<double> moment_free_weights(const PairGraph& graph, const std::vecto
 ClosureRepair repair_closure_rows(PairGraph& graph,
                                   const std::vector<double>& w,
                                   const RepairLimits& limits) {
-  RowCorrection correction(graph, w);
-  return repair(graph, correction, limits);
+  return repair(
+      graph, [&] { return std::make_unique<RowCorrection>(graph, w); }, limits);
 }
 
 ClosureRepair repair_closure_pairs(PairGraph& graph,
                                    const std::vector<double>& k,
                                    const RepairLimits& limits) {
-  PairCorrection correction(graph, k);
-  return repair(graph, correction, limits);
+  return repair(
+      graph, [&] { return std::make_unique<PairCorrection>(graph, k); }, limits);
 }
 
 }  // namespace diptych::scheme

@@ -24,8 +24,7 @@ namespace diptych::scheme {
 struct ClosureRepair {
   double before = 0;
   double after = 0;
-  int iterations = 0;      ///< conjugate gradient steps in all
-  double mean_change = 0;  ///< sum |dC_ab| / sum |C_ab|                                      [-]
+  int iterations = 0;  ///< conjugate gradient steps in all
 };
 
 struct RepairLimits {

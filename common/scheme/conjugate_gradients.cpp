@@ -9,17 +9,43 @@ namespace diptych::scheme {
 namespace {
 
 /// Below this many nodes a loop is too short to be worth the start of threads.
-constexpr size_t least_parallel = 50000;
+constexpr size_t least_parallel = 8192;
 
 /// Steps without progress after which the system has no solution, or round-off is reached.
 constexpr int patience = 500;
 
+/// Sum of what work(begin, end) gives for the chunks of [0, n), with the same bits for every number
+/// of threads.
+template <class T, class Work>
+T sum_of_chunks(size_t n, const Work& work) {
+  const auto end = static_cast<std::int64_t>(n);
+  std::vector<T> parts(static_cast<size_t>(parallel::n_chunks_of(end)));
+  for_each_node(n, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t begin = first; begin < last; begin += parallel::chunk_size)
+      parts[begin / parallel::chunk_size] =
+          work(begin, std::min(last, begin + parallel::chunk_size));
+  });
+  T sum = parts.front();
+  for (size_t i = 1; i < parts.size(); ++i)
+    sum += parts[i];
+  return sum;
+}
+
 /// Component by component.
 Vec3 dot(const Field& x, const Field& y) {
-  Vec3 sum = Vec3::Zero();
-  for (size_t a = 0; a < x.size(); ++a)
-    sum += x[a].cwiseProduct(y[a]);
-  return sum;
+  return sum_of_chunks<Vec3>(x.size(), [&](std::int64_t begin, std::int64_t end) -> Vec3 {
+    Vec3 sum = Vec3::Zero();
+    for (std::int64_t a = begin; a < end; ++a)
+      sum += x[a].cwiseProduct(y[a]);
+    return sum;
+  });
+}
+
+/// to = from in parallel.
+void copy(const Field& from, Field& to) {
+  for_each_node(from.size(), [&](std::int64_t begin, std::int64_t end) {
+    std::copy(from.begin() + begin, from.begin() + end, to.begin() + begin);
+  });
 }
 
 /// x / y by component, 0 where y is: a component that is solved (or absent, z in 2-D) rests.
@@ -54,16 +80,22 @@ AffinePart::AffinePart(const std::vector<Vec3>& X) : X_(X) {
 }
 
 void AffinePart::remove(Field& r) const {
-  Vec3 mean = Vec3::Zero();
-  Mat3 slope = Mat3::Zero();
-  for (size_t a = 0; a < r.size(); ++a) {
-    mean += r[a];
-    slope += r[a] * (X_[a] - centre_).transpose();
-  }
-  mean /= static_cast<double>(r.size());
-  slope = slope * inverse_;
-  for (size_t a = 0; a < r.size(); ++a)
-    r[a] -= mean + slope * (X_[a] - centre_);
+  using Moments = Eigen::Matrix<double, 3, 4>;  // of degree 0, then 1
+  Moments moments =
+      sum_of_chunks<Moments>(r.size(), [&](std::int64_t begin, std::int64_t end) -> Moments {
+        Moments sum = Moments::Zero();
+        for (std::int64_t a = begin; a < end; ++a) {
+          sum.col(0) += r[a];
+          sum.rightCols<3>() += r[a] * (X_[a] - centre_).transpose();
+        }
+        return sum;
+      });
+  const Vec3 mean = moments.col(0) / static_cast<double>(r.size());
+  const Mat3 slope = moments.rightCols<3>() * inverse_;
+  for_each_node(r.size(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a)
+      r[a] -= mean + slope * (X_[a] - centre_);
+  });
 }
 
 int conjugate_gradients(const FieldOperator& S,
@@ -86,23 +118,27 @@ int conjugate_gradients(const FieldOperator& S,
   while (step < limits.steps && residual > limits.residual && step < best_step + patience) {
     S(p, Sp);
     const Vec3 alpha = quotient(rz, dot(p, Sp));
-    for (size_t a = 0; a < n; ++a) {
-      y[a] += alpha.cwiseProduct(p[a]);
-      r[a] -= alpha.cwiseProduct(Sp[a]);
-    }
+    for_each_node(n, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t a = begin; a < end; ++a) {
+        y[a] += alpha.cwiseProduct(p[a]);
+        r[a] -= alpha.cwiseProduct(Sp[a]);
+      }
+    });
     affine_part.remove(r);
     precondition(r, z);
     const Vec3 rz_next = dot(r, z);
     const Vec3 beta = quotient(rz_next, rz);
-    for (size_t a = 0; a < n; ++a)
-      p[a] = z[a] + beta.cwiseProduct(p[a]);
+    for_each_node(n, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t a = begin; a < end; ++a)
+        p[a] = z[a] + beta.cwiseProduct(p[a]);
+    });
     rz = rz_next;
     residual = greatest(r, unit);
     ++step;
     if (residual < 0.7 * best) {
       best = residual;
       best_step = step;
-      best_y = y;
+      copy(y, best_y);
     }
   }
   if (residual > best) y = best_y;
@@ -110,10 +146,21 @@ int conjugate_gradients(const FieldOperator& S,
 }
 
 double greatest(const Field& r, const std::vector<double>& unit) {
-  double result = 0;
-  for (size_t a = 0; a < r.size(); ++a)
-    result = std::max(result, r[a].norm() * unit[a]);
-  return result;
+  struct Largest {
+    double value = 0;
+    Largest& operator+=(const Largest& other) {
+      value = std::max(value, other.value);
+      return *this;
+    }
+  };
+  return sum_of_chunks<Largest>(r.size(),
+                                [&](std::int64_t begin, std::int64_t end) {
+                                  Largest result;
+                                  for (std::int64_t a = begin; a < end; ++a)
+                                    result.value = std::max(result.value, r[a].norm() * unit[a]);
+                                  return result;
+                                })
+      .value;
 }
 
 }  // namespace diptych::scheme

@@ -1,10 +1,12 @@
 #include "common/scheme/pair_graph.hpp"
 
 #include "common/base/error.hpp"
+#include "common/parallel/for_chunks.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace diptych::scheme {
 
@@ -98,29 +100,54 @@ void check_patch(const PairGraph& graph, const BoundaryPatch& patch) {
   }
 }
 
+/// |sum_b 1/2 (X_b - X_a) (x) C_ab / Omega_a - I|
+double linear_error(const PairGraph& graph, std::int64_t a) {
+  Mat3 gradient = Mat3::Zero();
+  for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
+    gradient += (graph.X[graph.neighbour[p]] - graph.X[a]) * graph.C[p].transpose();
+  gradient *= 0.5 / graph.Omega[a];
+  gradient.diagonal().head(graph.dimension).array() -= 1.0;
+  return gradient.norm();
+}
+
+/// |-1/2 sum_b (C_ab - C_ba) - A_a N_a| / h_a^(d-1)
+double closure_error(const PairGraph& graph, std::int64_t a) {
+  Vec3 closure = Vec3::Zero();
+  for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
+    closure -= 0.5 * (graph.C[p] - graph.C[graph.reverse[p]]);
+  const double d = graph.dimension;
+  return (closure - graph.boundary_area[a]).norm() / std::pow(graph.Omega[a], (d - 1) / d);
+}
+
 }  // namespace
 
 GraphQuality quality(const PairGraph& graph) {
-  GraphQuality result;
-  const int d = graph.dimension;
-  std::int64_t least = graph.n_pairs();
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
-    Mat3 gradient = Mat3::Zero();
-    Vec3 closure = Vec3::Zero();
-    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-      gradient += (graph.X[graph.neighbour[p]] - graph.X[a]) * graph.C[p].transpose();
-      closure -= 0.5 * (graph.C[p] - graph.C[graph.reverse[p]]);
-    }
-    gradient *= 0.5 / graph.Omega[a];
-    gradient.diagonal().head(d).array() -= 1.0;
-    const double area = std::pow(graph.Omega[a], (d - 1.0) / d);
-    result.linear_exactness = worst(result.linear_exactness, gradient.norm());
-    result.closure = worst(result.closure, (closure - graph.boundary_area[a]).norm() / area);
-    least = std::min(least, graph.row[a + 1] - graph.row[a]);
+  struct Worst {
+    double linear_exactness = 0, closure = 0;
+    std::int64_t neighbours = std::numeric_limits<std::int64_t>::max();
+  };
+  std::vector<Worst> parts(static_cast<size_t>(parallel::n_chunks_of(graph.n_nodes())));
+  parallel::for_chunks(
+      graph.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
+        Worst& part = parts[chunk];
+        for (std::int64_t a = begin; a < end; ++a) {
+          part.linear_exactness = worst(part.linear_exactness, linear_error(graph, a));
+          part.closure = worst(part.closure, closure_error(graph, a));
+          part.neighbours = std::min(part.neighbours, graph.row[a + 1] - graph.row[a]);
+        }
+      });
+  Worst all;
+  for (const Worst& part : parts) {
+    all.linear_exactness = worst(all.linear_exactness, part.linear_exactness);
+    all.closure = worst(all.closure, part.closure);
+    all.neighbours = std::min(all.neighbours, part.neighbours);
   }
+  GraphQuality result;
+  result.linear_exactness = all.linear_exactness;
+  result.closure = all.closure;
   result.mean_neighbours =
       static_cast<double>(graph.n_pairs()) / static_cast<double>(graph.n_nodes());
-  result.least_neighbours = static_cast<int>(least);
+  result.least_neighbours = static_cast<int>(all.neighbours);
   return result;
 }
 

@@ -1,7 +1,11 @@
 #include "common/scheme/spline_levels.hpp"
 
+#include "common/parallel/for_each.hpp"
+#include "common/scheme/conjugate_gradients.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace diptych::scheme {
 
@@ -41,6 +45,57 @@ void row_moments(const PairGraph& graph,
   T[0] = T[1] - mixed.transpose() * inverse * mixed;
 }
 
+/// Nodes of a cell of the finest grid as one, for the levels above it.
+struct Cluster {
+  Mat6 T[2] = {Mat6::Zero(), Mat6::Zero()};
+  Vec3 moment = Vec3::Zero();
+  double Omega = 0;
+};
+
+/// grid[first...] += w r over the splines of a node, value = {x, y, z} per direction.
+DIPTYCH_CLONES void spread_nodes(const std::int32_t* begin,
+                                 const std::int32_t* end,
+                                 const SplineLevels::NodeSplines* splines,
+                                 const SplineLevels::Index& n,
+                                 int n_z,
+                                 const Vec3* r,
+                                 Four* grid) {
+  for (; begin != end; ++begin) {
+    const SplineLevels::NodeSplines& s = splines[*begin];
+    const Four field = algebra::load_three(r[*begin]);
+    for (int k = 0; k < n_z; ++k) {
+      for (int j = 0; j < 3; ++j) {
+        const Four w = s.value[2][k] * s.value[1][j] * field;
+        Four* g = grid + s.first + (static_cast<std::int64_t>(k) * n[1] + j) * n[0];
+        for (int i = 0; i < 3; ++i)
+          g[i] += s.value[0][i] * w;
+      }
+    }
+  }
+}
+
+/// z += the splines of nodes [begin, end).
+DIPTYCH_CLONES void gather_nodes(std::int64_t begin,
+                                 std::int64_t end,
+                                 const SplineLevels::NodeSplines* splines,
+                                 const SplineLevels::Index& n,
+                                 int n_z,
+                                 const Four* grid,
+                                 Vec3* z) {
+  for (std::int64_t a = begin; a < end; ++a) {
+    const SplineLevels::NodeSplines& s = splines[a];
+    Four sum = algebra::load_three(z[a]);
+    for (int k = 0; k < n_z; ++k) {
+      for (int j = 0; j < 3; ++j) {
+        const Four* g = grid + s.first + (static_cast<std::int64_t>(k) * n[1] + j) * n[0];
+        sum += s.value[2][k] * s.value[1][j] *
+               (s.value[0][0] * g[0] + s.value[0][1] * g[1] + s.value[0][2] * g[2]);
+      }
+    }
+    algebra::store_three(z[a].data(), sum);
+  }
+}
+
 }  // namespace
 
 SplineLevels::SplineLevels(const PairGraph& graph,
@@ -48,15 +103,73 @@ SplineLevels::SplineLevels(const PairGraph& graph,
                            const std::vector<Mat3>& inverse)
     : dimension_(graph.dimension), per_direction_z_(graph.dimension == 3 ? 3 : 1) {
   set_levels(graph);
-  Mat6 T[2];
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
-    row_moments(graph, k, inverse[a], a, T);
-    for (Level& level : levels_)
-      add_energy(level, graph.X[a], graph.Omega[a], T);
-    node_splines_.push_back(splines_at(levels_.front(), graph.X[a]));
-  }
+  place_nodes(graph);
+  Level& finest = levels_.front();
+  const Index cells{finest.n[0] - 2, std::max(1, finest.n[1] - 2), std::max(1, finest.n[2] - 2)};
+  std::vector<Cluster> clusters(static_cast<size_t>(cells[0]) * cells[1] * cells[2]);
+  visit_layers([&](const std::int32_t* begin, const std::int32_t* end) {
+    Mat6 T[2];
+    for (; begin != end; ++begin) {
+      const std::int32_t a = *begin;
+      row_moments(graph, k, inverse[a], a, T);
+      const Splines s = splines_at(finest, graph.X[a]);
+      add_energy(finest, s, graph.Omega[a], T);
+      Cluster& cluster =
+          clusters[(static_cast<size_t>(s.first[2]) * cells[1] + s.first[1]) * cells[0] +
+                   s.first[0]];
+      cluster.T[0] += T[0];
+      cluster.T[1] += T[1];
+      cluster.moment += graph.Omega[a] * graph.X[a];
+      cluster.Omega += graph.Omega[a];
+    }
+  });
+  parallel::for_each(static_cast<std::int64_t>(levels_.size()) - 1, [&](std::int64_t l) {
+    Level& level = levels_[l + 1];
+    for (const Cluster& cluster : clusters) {
+      if (cluster.Omega == 0) continue;
+      add_energy(level, splines_at(level, cluster.moment / cluster.Omega), cluster.Omega,
+                 cluster.T);
+    }
+  });
   for (Level& level : levels_)
     leave_out_unfelt(level);
+}
+
+void SplineLevels::place_nodes(const PairGraph& graph) {
+  const Level& finest = levels_.front();
+  const int across = dimension_ - 1;
+  node_splines_.resize(graph.X.size());
+  std::vector<std::int32_t> layer_of(graph.X.size());
+  for_each_node(graph.X.size(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      const Splines s = splines_at(finest, graph.X[a]);
+      layer_of[a] = s.first[across];
+      node_splines_[a].first =
+          (static_cast<std::int64_t>(s.first[2]) * finest.n[1] + s.first[1]) * finest.n[0] +
+          s.first[0];
+      std::copy(&s.value[0][0], &s.value[0][0] + 9, &node_splines_[a].value[0][0]);
+    }
+  });
+  layer_.assign(static_cast<size_t>(finest.n[across]) - 1, 0);
+  for (const std::int32_t layer : layer_of)
+    ++layer_[layer + 1];
+  std::partial_sum(layer_.begin(), layer_.end(), layer_.begin());
+  std::vector<std::int64_t> next(layer_.begin(), layer_.end() - 1);
+  by_layer_.resize(layer_of.size());
+  for (size_t a = 0; a < layer_of.size(); ++a)
+    by_layer_[next[layer_of[a]]++] = static_cast<std::int32_t>(a);
+}
+
+/// Calls visit with the nodes of every layer, layers that share splines one after another.
+void SplineLevels::visit_layers(
+    const std::function<void(const std::int32_t* begin, const std::int32_t* end)>& visit) const {
+  const auto n_layers = static_cast<std::int64_t>(layer_.size()) - 1;
+  for (int colour = 0; colour < 3; ++colour) {
+    parallel::for_each((n_layers - colour + 2) / 3, [&](std::int64_t i) {
+      const std::int64_t layer = colour + 3 * i;
+      visit(by_layer_.data() + layer_[layer], by_layer_.data() + layer_[layer + 1]);
+    });
+  }
 }
 
 void SplineLevels::leave_out_unfelt(Level& level) {
@@ -98,6 +211,7 @@ void SplineLevels::set_levels(const PairGraph& graph) {
     }
     level.diagonal.assign(static_cast<size_t>(level.size()), 0.0);
     level.uncorrected = level.mass = level.diagonal;
+    level.grid = algebra::AlignedArray<Four>(level.size());
   }
 }
 
@@ -125,8 +239,7 @@ SplineLevels::Splines SplineLevels::splines_at(const Level& level, const Vec3& X
   return s;
 }
 
-void SplineLevels::add_energy(Level& level, const Vec3& X, double Omega, const Mat6 T[2]) {
-  const Splines s = splines_at(level, X);
+void SplineLevels::add_energy(Level& level, const Splines& s, double Omega, const Mat6 T[2]) const {
   for (int z = 0; z < per_direction_z_; ++z) {
     for (int y = 0; y < 3; ++y) {
       for (int x = 0; x < 3; ++x) {
@@ -179,45 +292,34 @@ void SplineLevels::for_each_child(const Level& fine,
   }
 }
 
-void SplineLevels::add(const std::vector<Vec3>& r, std::vector<Vec3>& z) const {
-  std::vector<std::vector<Vec3>> grid(levels_.size());
-  for (size_t l = 0; l < levels_.size(); ++l) {
-    grid[l].assign(static_cast<size_t>(levels_[l].size()), Vec3::Zero());
-  }
-  const auto for_each_spline = [&](size_t a, const auto& visit) {
-    const Splines& s = node_splines_[a];
-    const Index& n = levels_[0].n;
-    for (int k = 0; k < per_direction_z_; ++k) {
-      for (int j = 0; j < 3; ++j) {
-        const double w = s.value[2][k] * s.value[1][j];
-        const std::int64_t first =
-            (static_cast<std::int64_t>(s.first[2] + k) * n[1] + s.first[1] + j) * n[0] + s.first[0];
-        for (int i = 0; i < 3; ++i)
-          visit(grid[0][first + i], w * s.value[0][i]);
-      }
-    }
-  };
-  for (size_t a = 0; a < r.size(); ++a) {
-    for_each_spline(a, [&](Vec3& g, double w) { g += w * r[a]; });
-  }
+void SplineLevels::add(const std::vector<Vec3>& r, std::vector<Vec3>& z) {
+  for (Level& level : levels_)
+    std::fill_n(level.grid.data(), level.grid.size(), Four{});
+  Level& finest = levels_.front();
+  visit_layers([&](const std::int32_t* begin, const std::int32_t* end) {
+    spread_nodes(begin, end, node_splines_.data(), finest.n, per_direction_z_, r.data(),
+                 finest.grid.data());
+  });
   for (size_t l = 1; l < levels_.size(); ++l) {
     for_each_child(levels_[l - 1], levels_[l], [&](std::int64_t f, std::int64_t c, double w) {
-      grid[l][c] += w * grid[l - 1][f];
+      levels_[l].grid[c] += w * levels_[l - 1].grid[f];
     });
   }
   for (size_t l = levels_.size(); l-- > 0;) {
-    for (size_t i = 0; i < grid[l].size(); ++i) {
-      const double diagonal = levels_[l].diagonal[i];
-      grid[l][i] = diagonal > 0 ? Vec3(grid[l][i] / diagonal) : Vec3(Vec3::Zero());
+    Level& level = levels_[l];
+    for (std::int64_t i = 0; i < level.grid.size(); ++i) {
+      const double diagonal = level.diagonal[i];
+      level.grid[i] = diagonal > 0 ? level.grid[i] / diagonal : Four{};
     }
     if (l + 1 == levels_.size()) continue;
-    for_each_child(levels_[l], levels_[l + 1], [&](std::int64_t f, std::int64_t c, double w) {
-      grid[l][f] += w * grid[l + 1][c];
+    for_each_child(level, levels_[l + 1], [&](std::int64_t f, std::int64_t c, double w) {
+      level.grid[f] += w * levels_[l + 1].grid[c];
     });
   }
-  for (size_t a = 0; a < r.size(); ++a) {
-    for_each_spline(a, [&](const Vec3& g, double w) { z[a] += w * g; });
-  }
+  for_each_node(z.size(), [&](std::int64_t begin, std::int64_t end) {
+    gather_nodes(begin, end, node_splines_.data(), finest.n, per_direction_z_, finest.grid.data(),
+                 z.data());
+  });
 }
 
 }  // namespace diptych::scheme

@@ -5,7 +5,6 @@
 
 #include "common/base/registry.hpp"
 
-#include <cmath>
 #include <string>
 
 namespace diptych::sph {
@@ -20,10 +19,11 @@ struct Kernel {
   double sigma(int dimension) const { return dimension == 2 ? sigma_2 : sigma_3; }
   /// W [1/m^d] and dW/dr [1/m^(d+1)]
   double value(double r, double h, int dimension) const {
-    return sigma(dimension) / std::pow(h, dimension) * f(r / h);
+    return sigma(dimension) / (dimension == 2 ? h * h : h * h * h) * f(r / h);
   }
   double slope(double r, double h, int dimension) const {
-    return sigma(dimension) / std::pow(h, dimension + 1) * f_slope(r / h);
+    const double square = h * h;
+    return sigma(dimension) / (dimension == 2 ? square * h : square * square) * f_slope(r / h);
   }
 };
 

@@ -1,6 +1,7 @@
 #include "sph/sph_graph.hpp"
 
 #include "common/base/error.hpp"
+#include "common/parallel/for_chunks.hpp"
 #include "fvm/fvm_graph.hpp"
 #include "sph/kernel_correction.hpp"
 #include "tests/graphs/graph_checks.hpp"
@@ -122,6 +123,22 @@ TEST(SphGraph, RefusesBadOptions) {
   options = {};
   options.repair = "pair";
   EXPECT_THAT(refusal(mesh, options), testing::HasSubstr("did you mean 'pairs'"));
+}
+
+/// More particles than the least number for which the closure uses threads.
+TEST(SphGraph, HasTheSameBitsForEveryNumberOfThreads) {
+  const meshes::Mesh mesh = test_box(CellType::hexahedron, 21, 0.2);
+  std::vector<scheme::PairGraph> graphs;
+  for (const int n : {1, 2, 5}) {
+    parallel::set_threads(n);
+    graphs.push_back(sph::build_graph(mesh, {}));
+  }
+  parallel::set_threads(0);
+  for (const scheme::PairGraph& graph : graphs) {
+    EXPECT_EQ(graph.neighbour, graphs[0].neighbour);
+    EXPECT_EQ(graph.C, graphs[0].C);
+  }
+  EXPECT_LT(scheme::quality(graphs[0]).closure, 1e-12);
 }
 
 }  // namespace

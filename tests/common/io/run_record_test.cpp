@@ -30,6 +30,7 @@ RunSummary full_summary() {
   s.precision = "single", s.integrator = "ssp-rk3", s.status = "interrupted";
   s.end_time = 0.1, s.setup_seconds = 1.0 / 3, s.wall_seconds = 12.5, s.loop_seconds = 11.7;
   s.nanoseconds_per_node_stage = 451.3, s.peak_rss_bytes = 1'234'567'890'123;
+  s.solver_bytes = 234, s.running_rss_bytes = 345, s.building_rss_bytes = 456;
   s.dt_min = 1e-7, s.dt_max = 2e-5, s.spacing = 0.0625, s.mean_neighbours = 50.7;
   s.graph_closure = 1.1e-16, s.graph_linear_exactness = 2.3e-15;
   s.errors["velocity"] = {1e-3, std::nextafter(2e-3, 1), 3e-3};
@@ -79,6 +80,9 @@ TEST(RunRecord, HasTheKeysOfTheContract) {
                               "/loop_seconds",
                               "/nanoseconds_per_node_stage",
                               "/peak_rss_bytes",
+                              "/solver_bytes",
+                              "/running_rss_bytes",
+                              "/building_rss_bytes",
                               "/dt/min",
                               "/dt/max",
                               "/errors/velocity/l1",

@@ -1,0 +1,21 @@
+#pragma once
+/// Memory of the process as the system counts it (Linux), and what a run gives back.
+
+#include "common/scheme/pair_graph.hpp"
+
+#include <cstdint>
+
+namespace diptych::harness {
+
+/// Largest resident set since the last reset, bytes.
+std::int64_t peak_rss_bytes();
+void reset_peak_rss();
+
+/// Resident set after what has been freed has gone back to the system, bytes.
+std::int64_t settled_memory();
+
+/// Frees rows, neighbours, reverse pairs and C_ab, which the solver has made its own of. Nodes,
+/// volumes and boundary stay; n_pairs() is 0 from now on.
+void release_pairs(scheme::PairGraph& graph);
+
+}  // namespace diptych::harness
