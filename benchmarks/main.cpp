@@ -232,14 +232,14 @@ int study_verb(const Arguments& arguments) {
 int size_costs(const Arguments& arguments) {
   const auto rows =
       harness::measure_size_costs(arguments.sizes, arguments.size_threads, arguments.quiet);
-  if (rows.empty()) return exit_code_of_study();
+  if (rows.empty()) return harness::exit_code_of_study();
   print(harness::size_text(rows));
   const std::string folder = arguments.directory.empty() ? "results" : arguments.directory;
   io::make_directory(folder);
   const std::string file = (std::filesystem::path(folder) / "size_costs.csv").string();
   io::write_file_atomically(file, harness::size_csv(rows));
   print("output: " + file + "\n");
-  return exit_code_of_study();
+  return harness::exit_code_of_study();
 }
 
 int cost_verb(const Arguments& arguments) {
