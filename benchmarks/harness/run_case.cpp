@@ -10,6 +10,7 @@
 #include "common/parallel/for_chunks.hpp"
 #include "common/run/exact_errors.hpp"
 #include "common/run/probes.hpp"
+#include "meshes/deformed_cells.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -17,6 +18,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fmt/format.h>
+#include <optional>
 
 namespace diptych::harness {
 
@@ -67,7 +69,8 @@ class Recorder {
         errors_(setup, result.graph, solver),
         probes_(setup.probes, result.graph),
         initial_(solver.balance()),
-        energy_(initial_) {
+        energy_(initial_),
+        cells_(result.mesh.mesh) {
     if (!options.directory.empty() && options.fields && setup.output.fields) {
       writer_ = std::make_unique<io::FieldWriter>(options.directory, visual_mesh(result.mesh));
     }
@@ -95,10 +98,11 @@ class Recorder {
     if (!probes_.empty()) row.probes = probes_.values(solver_);
     result_.history.push_back(row);
     update_drifts(balance, audit);
+    run::Snapshot snapshot = solver_.snapshot();
+    check_cells(snapshot);
     const bool last = solver_.time() >= setup_.time.end;
     const bool keeps_shape = shapes_ && shapes_->wants(result_.history.size() - 1);
     if (!errors_.available() && !writer_ && !keeps_shape && !last) return;
-    run::Snapshot snapshot = solver_.snapshot();
     if (errors_.available()) errors_.measure(snapshot);
     if (writer_) write_fields(snapshot);
     if (keeps_shape) shapes_->take(snapshot, row.time);
@@ -122,6 +126,9 @@ class Recorder {
     s.linear_momentum_drift = linear_drift_;
     s.angular_momentum_drift = angular_drift_;
     s.quantities = quantities_of(setup_.probes, result_);
+    s.least_cell_J = least_cell_J_;
+    s.most_inverted_cells = most_inverted_cells_;
+    s.inverted_from = inverted_from_;
     if (shapes_) result_.shapes = shapes_->record();
     for (const io::HistoryRow& row : result_.history) {
       s.involution_H = std::max(s.involution_H, row.involution_H);
@@ -142,6 +149,15 @@ class Recorder {
         now.angular_momentum - initial_.angular_momentum - audit.impulse.angular;
     linear_drift_ = std::max(linear_drift_, drift(p, momentum_scale_));
     angular_drift_ = std::max(angular_drift_, drift(L, angular_scale_));
+  }
+
+  void check_cells(const run::Snapshot& state) {
+    const auto least = cells_.least(state.u);
+    io::HistoryRow& row = result_.history.back();
+    row.least_cell_J = least.J;
+    least_cell_J_ = std::min(least_cell_J_, least.J);
+    most_inverted_cells_ = std::max(most_inverted_cells_, least.n_inverted);
+    if (least.n_inverted > 0 && !inverted_from_) inverted_from_ = row.time;
   }
 
   void write_fields(const run::Snapshot& s) {
@@ -190,9 +206,13 @@ class Recorder {
   run::Probes probes_;
   scheme::Balance initial_;
   EnergyRecord energy_;
+  meshes::DeformedCells cells_;
   std::unique_ptr<io::FieldWriter> writer_;
   std::unique_ptr<ShapeRecorder> shapes_;
   double momentum_scale_ = 0, angular_scale_ = 0, linear_drift_ = 0, angular_drift_ = 0;
+  double least_cell_J_ = 1e300;
+  std::int64_t most_inverted_cells_ = 0;
+  std::optional<double> inverted_from_;
 };
 
 void describe_graph(const scheme::PairGraph& graph, io::RunSummary& s) {
