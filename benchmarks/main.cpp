@@ -44,7 +44,7 @@ struct Arguments {
   std::vector<int> sizes;
   int size_threads = 1;
   std::string page;
-  bool check = false, quick = false, stability = false;
+  bool check = false, quick = false, stability = false, literature = false;
   harness::StudyRequest study;
   harness::RegressRequest regress;
 };
@@ -107,6 +107,8 @@ int compare_verb(Arguments arguments) {
   const harness::Study study = harness::run_study(setup, options);
   if (study.runs.size() == 2) {
     print(harness::comparison_table(study.runs[0], study.runs[1], study.differences));
+    for (const auto& summary : study.runs)
+      print(harness::inverted_cells_warning(summary));
     write_report(setup, study, options.directory);
   }
   return harness::exit_code_of_study(harness::begin_again(options.directory));
@@ -129,6 +131,8 @@ void show_convergence(const run::Case& setup,
     const std::string table = harness::quantity_table(method);
     if (!table.empty()) print(table + "\n");
   }
+  for (const auto& summary : study.runs)
+    print(harness::inverted_cells_warning(summary));
   if (convergence.empty()) return;
   const auto write = [&](const char* name, const std::string& text) {
     const std::string file = (std::filesystem::path(directory) / name).string();
@@ -167,12 +171,15 @@ int converge_verb(const Arguments& arguments) {
 
 int verify_verb(const Arguments& arguments) {
   std::vector<std::string> names = arguments.tables;
-  if (names.empty()) names = harness::shipped_verification_tables();
+  using Set = harness::VerificationSet;
+  const Set set = arguments.literature ? Set::literature : Set::verification;
+  if (names.empty()) names = harness::shipped_verification_tables(set);
   std::vector<harness::VerificationTable> tables;  // all are read before the first is run
   for (const std::string& name : names)
     tables.push_back(harness::read_verification_table(harness::find_verification_table(name)));
   harness::VerificationOptions options;
-  options.directory = arguments.directory.empty() ? "results/verification" : arguments.directory;
+  const std::string folder = arguments.literature ? "literature" : "verification";
+  options.directory = arguments.directory.empty() ? "results/" + folder : arguments.directory;
   options.threads = arguments.threads;
   options.fresh = arguments.fresh;
   options.quick = arguments.quick;
@@ -190,12 +197,13 @@ int verify_verb(const Arguments& arguments) {
       all_met = all_met && verdict.met;
     results.push_back(*result);
   }
-  const std::string page =
-      arguments.page.empty()
-          ? (std::filesystem::path(options.directory) / "VERIFICATION.md").string()
-          : arguments.page;
+  const std::string page = arguments.page.empty()
+                               ? (std::filesystem::path(options.directory) /
+                                  (arguments.literature ? "LITERATURE.md" : "VERIFICATION.md"))
+                                     .string()
+                               : arguments.page;
   io::write_file_atomically(
-      page, harness::verification_page(results, "benchmarks/verify", options.quick));
+      page, harness::verification_page(results, harness::page_heading(set, options.quick)));
   print(fmt::format("\noutput: {}\n", page));
   if (arguments.check && !all_met) throw base::BoundError("a bound was not met; see above");
   return 0;
@@ -401,6 +409,8 @@ int dispatch(int argc, char** argv) {
   verify->add_option("--out", arguments.directory,
                      "folder of the runs (default results/verification)");
   verify->add_option("--page", arguments.page, "the page to write (default OUT/VERIFICATION.md)");
+  verify->add_flag("--literature", arguments.literature,
+                   "the cases of benchmarks/literature, on a page LITERATURE.md of their own");
   verify->add_option("--threads", arguments.threads, "0: all processors");
   verify->add_flag("--check", arguments.check, "exit code 5 where a bound is not met");
   verify->add_flag("--fresh", arguments.fresh, "run finished runs again too");

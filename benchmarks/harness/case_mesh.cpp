@@ -101,8 +101,14 @@ io::VisualMesh visual_mesh(const CaseMesh& mesh) {
     for (int i = 0; i < 3; ++i)
       visual.points[3 * mesh.order[a] + i] = mesh.mesh.nodes[a][i];
   }
-  for (const std::int32_t node : mesh.mesh.cell_nodes) {
-    visual.connectivity.push_back(mesh.order[node]);
+  // VTK looks at the base of a wedge from outside (normal of 0, 1, 2 away from 3, 4, 5), Gmsh from
+  // inside; all other types agree
+  static constexpr int as_they_are[] = {0, 1, 2, 3, 4, 5, 6, 7}, of_prism[] = {0, 2, 1, 3, 5, 4};
+  for (std::int64_t c = 0; c < mesh.mesh.n_cells(); ++c) {
+    const auto nodes = mesh.mesh.cell(c);
+    const int* local = mesh.mesh.cell_types[c] == meshes::CellType::prism ? of_prism : as_they_are;
+    for (size_t i = 0; i < nodes.size(); ++i)
+      visual.connectivity.push_back(mesh.order[nodes[local[i]]]);
   }
   visual.offsets.assign(mesh.mesh.cell_offsets.begin(), mesh.mesh.cell_offsets.end());
   for (const meshes::CellType type : mesh.mesh.cell_types) {

@@ -19,7 +19,8 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 /// zero to rounding: looked at on demand.
 bool is_on_demand(const std::string& name) {
   static const std::set<std::string> names{
-      "time", "step", "dt", "relative energy residual", "involution H", "involution J"};
+      "time",         "step",         "dt",          "relative energy residual",
+      "involution H", "involution J", "least cell J"};
   return names.count(name) > 0 || name.rfind("linear momentum ", 0) == 0 ||
          name.rfind("angular momentum ", 0) == 0;
 }

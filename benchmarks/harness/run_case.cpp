@@ -14,6 +14,7 @@
 #include "common/run/exact_errors.hpp"
 #include "common/run/field_norms.hpp"
 #include "common/run/probes.hpp"
+#include "meshes/deformed_cells.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -21,6 +22,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fmt/format.h>
+#include <optional>
 
 namespace diptych::harness {
 
@@ -49,7 +51,8 @@ class Recorder {
         probes_(setup.probes, result.graph),
         exact_(setup, result.graph, probes_),
         initial_(solver.balance()),
-        energy_(initial_) {
+        energy_(initial_),
+        cells_(mesh.mesh) {
     if (!options.directory.empty() && options.fields && setup.output.fields) {
       writer_ = std::make_unique<io::FieldWriter>(options.directory, visual_mesh(mesh));
     }
@@ -77,10 +80,9 @@ class Recorder {
     if (!probes_.empty()) row.probes = probes_.values(solver_);
     result_.history.push_back(row);
     update_drifts(balance, audit);
-    const bool last = solver_.time() >= setup_.time.end;
-    const bool keeps_shape = shapes_ && shapes_->wants(result_.history.size() - 1);
-    if (!errors_.available() && !writer_ && !keeps_shape && !options_.scales && !last) return;
     run::Snapshot snapshot = solver_.snapshot();
+    check_cells(snapshot);
+    const bool keeps_shape = shapes_ && shapes_->wants(result_.history.size() - 1);
     if (options_.scales) raise_scales(run::field_norms(result_.graph, snapshot));
     if (errors_.available()) {
       errors_.measure(snapshot);
@@ -108,6 +110,9 @@ class Recorder {
     s.linear_momentum_drift = linear_drift_;
     s.angular_momentum_drift = angular_drift_;
     s.quantities = quantities_of(setup_.probes, result_);
+    s.least_cell_J = least_cell_J_;
+    s.most_inverted_cells = most_inverted_cells_;
+    s.inverted_from = inverted_from_;
     if (shapes_) result_.shapes = shapes_->record();
     result_.exact = exact_.columns();
     if (options_.scales) {
@@ -138,6 +143,15 @@ class Recorder {
         now.angular_momentum - initial_.angular_momentum - audit.impulse.angular;
     linear_drift_ = std::max(linear_drift_, drift(p, momentum_scale_));
     angular_drift_ = std::max(angular_drift_, drift(L, angular_scale_));
+  }
+
+  void check_cells(const run::Snapshot& state) {
+    const auto least = cells_.least(state.u);
+    io::HistoryRow& row = result_.history.back();
+    row.least_cell_J = least.J;
+    least_cell_J_ = std::min(least_cell_J_, least.J);
+    most_inverted_cells_ = std::max(most_inverted_cells_, least.n_inverted);
+    if (least.n_inverted > 0 && !inverted_from_) inverted_from_ = row.time;
   }
 
   void write_fields(const run::Snapshot& s) {
@@ -187,9 +201,13 @@ class Recorder {
   ExactRecord exact_;
   scheme::Balance initial_;
   EnergyRecord energy_;
+  meshes::DeformedCells cells_;
   std::unique_ptr<io::FieldWriter> writer_;
   std::unique_ptr<ShapeRecorder> shapes_;
   double momentum_scale_ = 0, angular_scale_ = 0, linear_drift_ = 0, angular_drift_ = 0;
+  double least_cell_J_ = 1e300;
+  std::int64_t most_inverted_cells_ = 0;
+  std::optional<double> inverted_from_;
 };
 
 void describe_graph(const scheme::PairGraph& graph, io::RunSummary& s) {
@@ -334,7 +352,6 @@ RunResult run_case(const run::Case& setup, const RunOptions& options) {
   Recorder recorder(setup, options, mesh, *solver, result);
   // from here on the solver's arrays are all that is needed, and the nodes
   result.order = std::move(mesh.order);
-  mesh.mesh = {};
   release_pairs(result.graph);
   s.solver_bytes = solver->bytes();
   s.building_rss_bytes = peak_rss_bytes();

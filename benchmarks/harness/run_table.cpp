@@ -6,6 +6,14 @@
 
 namespace diptych::harness {
 
+std::string inverted_cells_warning(const io::RunSummary& s) {
+  if (!s.inverted_from) return "";
+  return fmt::format(
+      "  WARNING: {} level {}: from t = {:.4g} s on cells are inside out (up to {}, least cell J "
+      "{:.3g}):\n  the body has passed through itself between nodes; do not use what comes after\n",
+      s.method, s.level, *s.inverted_from, s.most_inverted_cells, s.least_cell_J);
+}
+
 std::string run_table(const io::RunSummary& s) {
   std::string text =
       fmt::format("{} level {}: {} nodes, {} pairs ({:.1f} a node), {} unknowns a node\n", s.method,
@@ -28,9 +36,9 @@ std::string run_table(const io::RunSummary& s) {
       s.energy.numerical_dissipation, s.energy.relative_residual);
   for (const io::QuantitySummary& quantity : s.quantities)
     text += "  " + quantity_line(quantity) + "\n";
-  text += fmt::format("  status {}, least J {:.6f}, state {}\n", s.status, s.min_jacobian,
-                      s.state_hash);
-  return text;
+  text += fmt::format("  status {}, least J {:.6f} (cells {:.6f}), state {}\n", s.status,
+                      s.min_jacobian, s.least_cell_J, s.state_hash);
+  return text + inverted_cells_warning(s);
 }
 
 }  // namespace diptych::harness

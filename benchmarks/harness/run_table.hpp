@@ -10,4 +10,9 @@ namespace diptych::harness {
 /// A few lines: size, cost, errors, energy.
 std::string run_table(const io::RunSummary& summary);
 
+/// Two lines where cells of the mesh have turned inside out, which no node's J shows; else nothing.
+/// A warning and no breakdown: deformed cells are part of neither method's state, both go on
+/// soundly by their own lights, and the instants before are good.
+std::string inverted_cells_warning(const io::RunSummary& summary);
+
 }  // namespace diptych::harness

@@ -1,6 +1,7 @@
 #pragma once
 /// Verification tables: each is one TOML file of benchmarks/verification that says what is run,
-/// what is shown of it, and what is asked. Adding a table is adding a file. Test:
+/// what is shown of it, and what is asked; those of benchmarks/literature are the cases without an
+/// exact solution, on a page of their own. Adding a table is adding a file. Test:
 /// tests/command_line/verification_test.cpp
 ///
 ///   title, text, note         what it shows and what is asked; what is known where a bound is
@@ -9,7 +10,9 @@
 ///   [parameters]              numbers that expressions may use
 ///   [[measure]]               name, reduce, value, where: numbers of the final state (NodeMeasure)
 ///   [[run]]                   name, case, levels, methods, set; [run.vary] key = one value a row
-///   [[column]]                title, value, order, ratio_to, optional
+///   [[column]]                title, value, order, ratio_to, optional; group: a table of its own
+///   under that heading; estimate: extrapolated from three levels, with error bars and the
+///   agreement of the methods; literature: what is known of it, with its source
 ///   [[bound]]                 columns, runs, and one of least_order, most, least, most_spread
 
 #include "benchmarks/harness/node_measures.hpp"
@@ -38,6 +41,9 @@ struct VerificationColumn {
   bool order = false;        ///< with the observed order beside it
   std::string ratio_to;      ///< name of a run: divided by the value of the same row there
   bool optional = false;     ///< runs without such an error have no value
+  std::string group;         ///< heading of the table that it stands in; empty: the first
+  bool estimate = false;     ///< extrapolated, with error bars
+  std::string literature;    ///< what others have found, and who
 };
 
 struct VerificationBound {
@@ -61,12 +67,14 @@ struct VerificationTable {
 /// @throws base::InputError with file:line:column
 VerificationTable read_verification_table(const std::string& path);
 
-/// Path of a table: a file, or the name of one in the folder of the shipped tables.
+/// Path of a table: a file, or the name of one in the folders of the shipped tables.
 std::string find_verification_table(const std::string& name);
 
-/// Names of the shipped tables, sorted. Folder: the environment variable DIPTYCH_VERIFICATION, or
-/// benchmarks/verification where the program was built.
-std::vector<std::string> shipped_verification_tables();
+enum class VerificationSet { verification, literature };
+
+/// Names of the shipped tables, sorted. Folder: the environment variable DIPTYCH_VERIFICATION
+/// (DIPTYCH_LITERATURE), or benchmarks/verification (literature) where the program was built.
+std::vector<std::string> shipped_verification_tables(VerificationSet set);
 
 /// One row: a run of one method, or how it failed.
 struct VerificationRow {
@@ -112,10 +120,31 @@ std::optional<VerificationResult> verify(const VerificationTable& table,
 /// Values, orders and verdicts of rows whose summaries are there.
 void evaluate(VerificationResult& result);
 
-/// The tables as one page of Markdown. @param command  that makes the page
+/// What stands above the tables of a page.
+struct VerificationPage {
+  std::string title, command, folder;  ///< command: that makes it; folder: where its tables are
+  std::string introduction;            ///< Markdown
+  bool quick = false;
+};
+
+/// The page of a set of tables, after its runs: that of the literature says what the machine can
+/// do.
+VerificationPage page_heading(VerificationSet set, bool quick);
+
+/// The tables as one page of Markdown.
 std::string verification_page(const std::vector<VerificationResult>& results,
-                              const std::string& command,
-                              bool quick);
+                              const VerificationPage& page);
+
+/// Values of the estimate columns of run r on its last levels: extrapolated, order, error bar, and
+/// whether the methods agree within the sum of their bars. Empty where no column asks for it.
+std::string estimates_section(const VerificationResult& result, size_t r);
+
+/// Cells of one line each, aligned; the first is the heading.
+/// @param left  columns that are set flush left; the others are numbers
+std::string markdown_table(const std::vector<std::vector<std::string>>& lines, size_t left);
+
+/// Three digits: 1.23e-04, 0.0594, 1.07, 452; "-" where it is not finite.
+std::string table_number(double value);
 
 /// What a terminal shows of a table: bounds met and those that are not.
 std::string verification_lines(const VerificationResult& result);

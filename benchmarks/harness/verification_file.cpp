@@ -201,7 +201,9 @@ VerificationRun read_run(const Value& value, const Keys& file) {
 }
 
 VerificationColumn read_column(const Value& value, const VerificationTable& table) {
-  const Keys keys(value, "[[column]]", {"title", "value", "order", "ratio_to", "optional"});
+  const Keys keys(
+      value, "[[column]]",
+      {"title", "value", "order", "ratio_to", "optional", "group", "estimate", "literature"});
   VerificationColumn column;
   column.title = keys.text("title");
   column.value = keys.text("value");
@@ -209,6 +211,13 @@ VerificationColumn read_column(const Value& value, const VerificationTable& tabl
   column.order = keys.flag("order");
   column.optional = keys.flag("optional");
   column.ratio_to = keys.text("ratio_to", "");
+  column.group = keys.text("group", "");
+  column.estimate = keys.flag("estimate");
+  column.literature = keys.text("literature", "");
+  if (!column.literature.empty() && !column.estimate) {
+    fail(keys.at("literature").where,
+         "literature stands beside an extrapolated value; add estimate = true");
+  }
   std::vector<std::string> names;
   for (const VerificationRun& entry : table.runs)
     names.push_back(entry.name);
@@ -273,9 +282,11 @@ void check_distinct(const run::SourcePlace& where, const std::vector<std::string
   }
 }
 
-std::string verification_folder() {
-  const char* folder = std::getenv("DIPTYCH_VERIFICATION");
-  return folder != nullptr ? folder : DIPTYCH_VERIFICATION;
+std::string folder_of(VerificationSet set) {
+  const bool literature = set == VerificationSet::literature;
+  const char* folder = std::getenv(literature ? "DIPTYCH_LITERATURE" : "DIPTYCH_VERIFICATION");
+  if (folder != nullptr) return folder;
+  return literature ? DIPTYCH_LITERATURE : DIPTYCH_VERIFICATION;
 }
 
 }  // namespace
@@ -318,10 +329,10 @@ VerificationTable read_verification_table(const std::string& path) {
   return table;
 }
 
-std::vector<std::string> shipped_verification_tables() {
+std::vector<std::string> shipped_verification_tables(VerificationSet set) {
   std::vector<std::string> names;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(verification_folder(), error)) {
+  for (const auto& entry : fs::directory_iterator(folder_of(set), error)) {
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());
@@ -331,11 +342,15 @@ std::vector<std::string> shipped_verification_tables() {
 std::string find_verification_table(const std::string& name) {
   std::error_code error;
   if (fs::is_regular_file(name, error)) return name;
-  const fs::path shipped = fs::path(verification_folder()) / (name + ".toml");
-  if (name.find('/') == std::string::npos && fs::is_regular_file(shipped, error))
-    return shipped.string();
-  throw base::InputError("no verification table '" + name + "'" +
-                         base::suggestion(name, shipped_verification_tables()));
+  std::vector<std::string> known;
+  for (const VerificationSet set : {VerificationSet::verification, VerificationSet::literature}) {
+    const fs::path shipped = fs::path(folder_of(set)) / (name + ".toml");
+    if (name.find('/') == std::string::npos && fs::is_regular_file(shipped, error))
+      return shipped.string();
+    for (const std::string& other : shipped_verification_tables(set))
+      known.push_back(other);
+  }
+  throw base::InputError("no verification table '" + name + "'" + base::suggestion(name, known));
 }
 
 }  // namespace diptych::harness

@@ -11,14 +11,9 @@
 
 namespace diptych::harness {
 
-namespace {
-
-using Cells = std::vector<std::string>;
-
-/// @param left  columns that are set flush left; the others are numbers
-std::string markdown_table(const std::vector<Cells>& lines, size_t left) {
+std::string markdown_table(const std::vector<std::vector<std::string>>& lines, size_t left) {
   std::vector<size_t> width(lines[0].size(), 3);
-  for (const Cells& line : lines) {
+  for (const auto& line : lines) {
     for (size_t c = 0; c < line.size(); ++c)
       width[c] = std::max(width[c], line[c].size());
   }
@@ -37,23 +32,28 @@ std::string markdown_table(const std::vector<Cells>& lines, size_t left) {
   return text;
 }
 
-/// Three digits: 1.23e-04, 0.0594, 1.07, 452.
-std::string number(double value) {
+std::string table_number(double value) {
   if (!std::isfinite(value)) return "-";
   const double size = std::abs(value);
   if (value != 0 && (size < 0.01 || size >= 1e5)) return fmt::format("{:.2e}", value);
   return fmt::format("{:.3g}", value);
 }
 
-std::string values_table(const VerificationResult& result, size_t r) {
+namespace {
+
+using Cells = std::vector<std::string>;
+
+/// The columns of one group; size and steps stand in the first.
+std::string values_table(const VerificationResult& result, size_t r, const std::string& group) {
   const VerificationTable& table = result.table;
   const VerificationRun& entry = table.runs[r];
   const bool varied = !entry.vary.empty();
   Cells head{"method"};
   if (varied) head.push_back("with");
-  for (const char* name : {"level", "h [m]", "nodes", "steps"})
-    head.push_back(name);
+  head.push_back("level");
+  if (group.empty()) head.insert(head.end(), {"h [m]", "nodes", "steps"});
   for (const VerificationColumn& column : table.columns) {
+    if (column.group != group) continue;
     head.push_back(column.title);
     if (column.order) head.push_back("order");
   }
@@ -66,11 +66,14 @@ std::string values_table(const VerificationResult& result, size_t r) {
       if (varied) line.push_back(row.label);
       line.push_back(std::to_string(run.level));
       const bool ran = row.failure.empty();
-      line.push_back(ran ? number(run.spacing) : "-");
-      line.push_back(ran ? std::to_string(run.nodes) : "-");
-      line.push_back(ran ? std::to_string(run.steps) : "failed");
+      if (group.empty()) {
+        line.push_back(ran ? table_number(run.spacing) : "-");
+        line.push_back(ran ? std::to_string(run.nodes) : "-");
+        line.push_back(ran ? std::to_string(run.steps) : "failed");
+      }
       for (size_t c = 0; c < table.columns.size(); ++c) {
-        line.push_back(number(row.value[c]));
+        if (table.columns[c].group != group) continue;
+        line.push_back(table_number(row.value[c]));
         if (table.columns[c].order)
           line.push_back(std::isfinite(row.order[c]) ? fmt::format("{:.2f}", row.order[c]) : "-");
       }
@@ -84,16 +87,29 @@ std::string run_section(const VerificationResult& result, size_t r) {
   const VerificationRun& entry = result.table.runs[r];
   std::string text = fmt::format("**{}** (`{}`", entry.name, entry.case_name);
   if (!entry.set.empty()) text += fmt::format(", with `{}`", fmt::join(entry.set, "`, `"));
-  text += ")\n\n" + values_table(result, r);
+  text += ")\n\n" + values_table(result, r, "");
+  std::vector<std::string> groups{""};
+  for (const VerificationColumn& column : result.table.columns) {
+    if (std::find(groups.begin(), groups.end(), column.group) != groups.end()) continue;
+    groups.push_back(column.group);
+    text += "\n" + column.group + ":\n\n" + values_table(result, r, column.group);
+  }
   for (const VerificationSequence& sequence : result.sequences) {
     if (sequence.run != r) continue;
     for (const VerificationRow& row : sequence.rows) {
       if (!row.failure.empty())
         text += fmt::format("\n{} at level {}: {}\n", report::method_title(sequence.method),
                             row.summary.level, row.failure);
+      if (const auto from = row.summary.inverted_from) {
+        text += fmt::format(
+            "\n{} at level {}: from t = {:.4g} s on cells are inside out (up to {} of them, least "
+            "cell J {:.3g}): what comes after is not to be used.\n",
+            report::method_title(sequence.method), row.summary.level, *from,
+            row.summary.most_inverted_cells, row.summary.least_cell_J);
+      }
     }
   }
-  return text + "\n";
+  return text + estimates_section(result, r) + "\n";
 }
 
 /// A line for each thing asked of a run, the methods beside each other.
@@ -163,19 +179,16 @@ std::string overview(const std::vector<VerificationResult>& results) {
 }  // namespace
 
 std::string verification_page(const std::vector<VerificationResult>& results,
-                              const std::string& command,
-                              bool quick) {
+                              const VerificationPage& page) {
   const io::Provenance p = provenance("");
   std::string text = fmt::format(
-      "# Verification\n\nMade by `{}`{} on {} with commit {} ({}, {}, {}).\nDo not edit: each "
-      "table "
-      "is a file of `benchmarks/verification`, which says what is run and asked.\n\nErrors are "
-      "relative L2 norms at the end of the run, of velocity v, displacement u = x - X, F - I, "
-      "first "
-      "Piola-Kirchhoff\nstress P, and A = C_v^-1 - I, unless a table says otherwise. Orders are "
-      "between a row and the one above. Times are\nthose of one machine on one day.\n\n",
-      command, quick ? " (quick: one level less; bounds are asked of the full tables)" : "",
-      p.date.substr(0, 10), p.commit, p.compiler, p.cpu, p.instruction_set);
+      "# {}\n\nMade by `{}`{} on {} with commit {} ({}, {}, {}).\nDo not edit: each table is a "
+      "file "
+      "of `{}`, which says what is run and asked.\n\n{}\n\n",
+      page.title, page.command,
+      page.quick ? " (quick: one level less; bounds are asked of the full tables)" : "",
+      p.date.substr(0, 10), p.commit, p.compiler, p.cpu, p.instruction_set, page.folder,
+      page.introduction);
   text += overview(results) + "\n";
   for (const auto& result : results)
     text += table_section(result);

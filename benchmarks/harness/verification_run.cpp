@@ -101,6 +101,35 @@ VerificationRow row_of(const VerificationTable& table,
   return row;
 }
 
+/// What a run cost. A pair update is one directed pair in one stage.
+void add_cost(const io::RunSummary& run, std::map<std::string, double>& numbers) {
+  const auto pairs = static_cast<double>(run.pairs), stages = static_cast<double>(run.stages);
+  numbers["pairs"] = pairs;
+  numbers["stages"] = stages;
+  numbers["neighbours"] = run.mean_neighbours;
+  numbers["pair_updates"] = pairs * stages;
+  numbers["ns_per_node_stage"] = run.nanoseconds_per_node_stage;
+  numbers["memory"] = static_cast<double>(run.peak_rss_bytes);
+}
+
+/// A probe "tip displacement" as tip_displacement (at the end), tip_displacement_least, _greatest;
+/// where it oscillates _period, _amplitude, _mean, _decrement, else these are no numbers.
+void add_quantity(const io::QuantitySummary& quantity, std::map<std::string, double>& numbers) {
+  std::string name;
+  for (const char c : quantity.name) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    name += plain ? c : '_';
+  }
+  const bool swings = quantity.n_periods > 0;
+  numbers[name] = quantity.final_value;
+  numbers[name + "_least"] = quantity.least;
+  numbers[name + "_greatest"] = quantity.greatest;
+  numbers[name + "_period"] = swings ? quantity.period : nothing;
+  numbers[name + "_amplitude"] = swings ? quantity.amplitude : nothing;
+  numbers[name + "_mean"] = swings ? quantity.mean : nothing;
+  numbers[name + "_decrement"] = quantity.decrement.value_or(nothing);
+}
+
 /// The numbers of a run under the names that columns use.
 std::map<std::string, double> numbers_of(const VerificationTable& table,
                                          const io::RunSummary& run) {
@@ -126,6 +155,10 @@ std::map<std::string, double> numbers_of(const VerificationTable& table,
   numbers["dt_min"] = run.dt_min;
   numbers["dt_max"] = run.dt_max;
   numbers["min_jacobian"] = run.min_jacobian;
+  numbers["least_cell_J"] = run.least_cell_J;
+  add_cost(run, numbers);
+  for (const io::QuantitySummary& quantity : run.quantities)
+    add_quantity(quantity, numbers);
   numbers["linear_drift"] = run.linear_momentum_drift;
   numbers["angular_drift"] = run.angular_momentum_drift;
   return numbers;

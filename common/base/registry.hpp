@@ -5,6 +5,8 @@
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
 
+#include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,7 +19,11 @@ class Registry {
   /// @param kind what the entries are, for messages ("kernel", "limiter")
   explicit Registry(std::string kind) : kind_(std::move(kind)) {}
 
+  /// @throws std::logic_error where the name stands already: a mistake in the program, and the
+  ///         second entry could never be asked for
   Registry& add(std::string name, Entry entry) {
+    if (std::find(names_.begin(), names_.end(), name) != names_.end())
+      throw std::logic_error(kind_ + " '" + name + "' stands twice in its menu");
     names_.push_back(std::move(name));
     entries_.push_back(std::move(entry));
     return *this;

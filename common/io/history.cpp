@@ -17,7 +17,7 @@ namespace {
 
 /// Columns before the probes, in order. In two dimensions energies and momenta are per metre of
 /// thickness.
-constexpr std::array<std::string_view, 18> fixed_columns{
+constexpr std::array<std::string_view, 19> fixed_columns{
     "time [s]",
     "step",
     "dt [s]",
@@ -36,6 +36,7 @@ constexpr std::array<std::string_view, 18> fixed_columns{
     "min jacobian",
     "involution H",
     "involution J",
+    "least cell J",
 };
 
 /// RFC 4180: a name with a comma, a quote or a line break stands in quotes, its quotes doubled.
@@ -178,6 +179,7 @@ HistoryRow read_row(RowReader& cells) {
   row.min_jacobian = cells.number();
   row.involution_H = cells.number();
   row.involution_J = cells.number();
+  row.least_cell_J = cells.number();
   while (!cells.at_end())
     row.probes.push_back(cells.number());
   return row;
@@ -192,7 +194,7 @@ void append_row(fmt::memory_buffer& text, const HistoryRow& row) {
         energy.external_work, energy.relative_residual, row.linear_momentum[0],
         row.linear_momentum[1], row.linear_momentum[2], row.angular_momentum[0],
         row.angular_momentum[1], row.angular_momentum[2], row.min_jacobian, row.involution_H,
-        row.involution_J}) {
+        row.involution_J, row.least_cell_J}) {
     fmt::format_to(out, ",{:.17g}", value);
   }
   for (const double value : row.probes)

@@ -46,6 +46,12 @@ Json quantity_json(const QuantitySummary& quantity) {
   return json;
 }
 
+Json cells_json(const RunSummary& summary) {
+  Json json = {{"least_J", summary.least_cell_J}, {"most_inverted", summary.most_inverted_cells}};
+  if (summary.inverted_from) json["inverted_from"] = *summary.inverted_from;
+  return json;
+}
+
 Json provenance_json(const Provenance& provenance) {
   return {{"version", provenance.version},   {"commit", provenance.commit},
           {"compiler", provenance.compiler}, {"flags", provenance.flags},
@@ -270,6 +276,10 @@ void read_quality(const Section& file, RunSummary& summary) {
   summary.involution_H = involution.number("H");
   summary.involution_J = involution.number("J");
   summary.min_jacobian = file.number("min_jacobian");
+  const Section cells = file.section("cells");
+  summary.least_cell_J = cells.number("least_J");
+  summary.most_inverted_cells = cells.large_count("most_inverted");
+  if (cells.has("inverted_from")) summary.inverted_from = cells.number("inverted_from");
   summary.quantities = read_quantities(file.section("quantities"));
   summary.state_hash = file.text("state_hash");
 }
@@ -324,6 +334,7 @@ std::string to_json(const RunSummary& summary) {
         {"angular_drift", summary.angular_momentum_drift}}},
       {"involution", {{"H", summary.involution_H}, {"J", summary.involution_J}}},
       {"min_jacobian", summary.min_jacobian},
+      {"cells", cells_json(summary)},
       {"quantities", quantities},
       {"state_hash", summary.state_hash},
       {"provenance", provenance_json(summary.provenance)},

@@ -64,7 +64,11 @@ struct RunSummary {
   EnergySummary energy;
   double linear_momentum_drift = 0, angular_momentum_drift = 0;  ///< largest over the output times
   double involution_H = 0, involution_J = 0;  ///< largest |H - cof F|, |J - det F| over them
-  double min_jacobian = 1;
+  double min_jacobian = 1;                    ///< at the nodes, of all steps
+  // of the cells of the mesh, at the output times: deformed over reference volume
+  double least_cell_J = 1;
+  std::int64_t most_inverted_cells = 0;
+  std::optional<double> inverted_from;      ///< s, the first output time with such cells
   std::vector<QuantitySummary> quantities;  ///< [[probe]] of the case, in its order
   std::string state_hash;
   Provenance provenance;
@@ -72,7 +76,7 @@ struct RunSummary {
 
 /// JSON text with the key names of the contract: method, case, level, ..., dt{min,max},
 /// errors{field{l1,l2,linf}}, energy{...}, momentum{linear_drift,angular_drift}, involution{H,J},
-/// min_jacobian, state_hash, provenance{...}.
+/// min_jacobian, cells{least_J,most_inverted,inverted_from}, state_hash, provenance{...}.
 std::string to_json(const RunSummary& summary);
 
 /// @throws base::InputError on malformed text, a missing key, NaN
@@ -93,6 +97,7 @@ struct HistoryRow {
   double min_jacobian = 1;
   double involution_H = 0;  ///< max |H - cof F|
   double involution_J = 0;  ///< max |J - det F|
+  double least_cell_J = 1;  ///< least deformed over reference volume of a cell
   std::vector<double> probes;
 };
 

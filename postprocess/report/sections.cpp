@@ -237,7 +237,8 @@ std::string runs_section(const StudyReport& study) {
   for (const std::string& field : fields) {
     head += heading_cell("error " + field_heading(field));
   }
-  head += heading_cell("energy residual") + heading_cell("min <i>J</i>");
+  head += heading_cell("energy residual") + heading_cell("min <i>J</i>") +
+          heading_cell("min <i>J</i> of cells");
   std::string rows;
   for (const std::string& method : methods_of(study.runs)) {
     for (const RunSummary& run : runs_of(study.runs, method)) {
@@ -252,8 +253,13 @@ std::string runs_section(const StudyReport& study) {
         const io::ErrorNorms* norms = norms_of(run, field);
         rows += cell(norms == nullptr ? "" : scientific_html(norms->l2));
       }
-      rows += cell(scientific_html(run.energy.relative_residual)) +
-              cell(number_html(run.min_jacobian)) + "</tr>\n";
+      rows +=
+          cell(scientific_html(run.energy.relative_residual)) +
+          cell(number_html(run.min_jacobian)) +
+          cell(run.inverted_from ? fmt::format("<strong>{}</strong> (inside out from {:.3g} s)",
+                                               number_html(run.least_cell_J), *run.inverted_from)
+                                 : number_html(run.least_cell_J)) +
+          "</tr>\n";
     }
   }
   return section("runs", "Every run", table(head, rows));

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,18 @@ TEST(Registry, AFarNameAnswersWithTheWholeMenu) {
 TEST(Registry, NamesAreExact) {
   // suggestions ignore the case, look-up does not: a key is one spelling
   EXPECT_EQ(message_of("Cubic"), "unknown kernel 'Cubic'; did you mean 'cubic'?");
+}
+
+TEST(Registry, ANameThatStandsTwiceIsAMistakeOfTheProgram) {
+  Registry<int> menu = kernels();
+  try {
+    menu.add("quintic", 6);
+    FAIL() << "the second entry could never be asked for";
+  } catch (const std::logic_error& error) {
+    EXPECT_STREQ(error.what(), "kernel 'quintic' stands twice in its menu");
+  }
+  EXPECT_EQ(menu.at("quintic"), 5);
+  EXPECT_EQ(menu.names().size(), 3u);
 }
 
 TEST(Error, EachKindCarriesItsDocumentedExitCode) {

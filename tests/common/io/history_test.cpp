@@ -28,6 +28,7 @@ std::vector<HistoryRow> rows() {
   first.energy = {1e-300, -2.5, std::nextafter(1.0, 2.0), 4, 5, 6e-17};
   first.linear_momentum[2] = -0.0, first.angular_momentum[0] = 1e22;
   first.min_jacobian = 0.7, first.involution_H = 1e-16, first.involution_J = 5e-324;
+  first.least_cell_J = -0.3;
   first.probes = {1.25, -3};
   HistoryRow second = first;
   second.time = 0.2, second.step = 9'000'000'000;
@@ -42,6 +43,7 @@ TEST(History, IsReadBackBitForBit) {
   EXPECT_EQ(read[0].dt, 1.0 / 3);
   EXPECT_EQ(read[0].energy.viscous_dissipation, std::nextafter(1.0, 2.0));
   EXPECT_EQ(read[0].involution_J, 5e-324);
+  EXPECT_EQ(read[0].least_cell_J, -0.3);
   EXPECT_TRUE(std::signbit(read[0].linear_momentum[2]));
   EXPECT_EQ(read[1].step, 9'000'000'000);
   EXPECT_EQ(read[1].probes, (std::vector<double>{1.25, -3}));
@@ -50,13 +52,13 @@ TEST(History, IsReadBackBitForBit) {
 
 TEST(History, IsReadAsColumnsOfAnyName) {
   const auto columns = history_columns_from_csv(history_csv(rows(), names), "history.csv");
-  ASSERT_EQ(columns.size(), 20u);
+  ASSERT_EQ(columns.size(), 21u);
   EXPECT_EQ(columns[0].name, "time");
   EXPECT_EQ(columns[0].unit, "s");
   EXPECT_EQ(columns[1].unit, "-") << "the number of the step";
-  EXPECT_EQ(columns[19].name, "v at (0, 0, \"top\")");
-  EXPECT_EQ(columns[19].unit, "m/s");
-  EXPECT_EQ(columns[18].values, (std::vector<double>{1.25, 1.25}));
+  EXPECT_EQ(columns[20].name, "v at (0, 0, \"top\")");
+  EXPECT_EQ(columns[20].unit, "m/s");
+  EXPECT_EQ(columns[19].values, (std::vector<double>{1.25, 1.25}));
 }
 
 TEST(History, HeaderNamesUnits) {
@@ -100,7 +102,7 @@ TEST(History, RefusesDamageWithItsPlace) {
   EXPECT_THAT(refusal(with("\n0.10000000000000001", "\n1e400")), HasSubstr("expected a number"));
   EXPECT_THAT(refusal(with(",3,", ",3.5,")), HasSubstr("column 'step' holds '3.5'"));
   EXPECT_THAT(refusal(with(",3,", ",-3,")), HasSubstr("expected a whole number >= 0"));
-  EXPECT_THAT(refusal(with(",3,", ",3,,")), HasSubstr("21 values under 20 columns"));
+  EXPECT_THAT(refusal(with(",3,", ",3,,")), HasSubstr("22 values under 21 columns"));
   EXPECT_THAT(refusal(text.substr(0, text.size() - 4)), HasSubstr("cut off"));
   EXPECT_THAT(refusal("time [s],step\n"), HasSubstr("column 'dt [s]' is missing"));
 }

@@ -41,6 +41,7 @@ RunSummary full_summary() {
   s.quantities = {{"tip", "m", 1.25, -0.5, 2.5, 0, 0, 0, 0, std::nullopt},
                   {"swing", "mm", 1, -2, 3, 4, 0.65, 0.1, 2, 0.2}};
   s.involution_H = 9e-7, s.involution_J = 1e-6;
+  s.least_cell_J = -0.25, s.most_inverted_cells = 12;
   s.state_hash = "a1b2";
   s.provenance = {"0.1.0", "c0ffee",     "GCC 12.2", "-O3",  "some cpu",
                   "avx2",  "2026-01-02", "d00d",     "beef", "f00d"};
@@ -59,6 +60,14 @@ TEST(RunRecord, IsReadBackBitForBit) {
   EXPECT_EQ(read.setup_seconds, written.setup_seconds);
   EXPECT_EQ(read.nodes, written.nodes);
   EXPECT_EQ(read.provenance.instruction_set, "avx2");
+}
+
+TEST(RunRecord, SaysSinceWhenCellsAreInvertedOnlyWhereTheyAre) {
+  RunSummary summary = full_summary();
+  EXPECT_FALSE(as_json(summary)["cells"].contains("inverted_from"));
+  EXPECT_FALSE(summary_from_json(to_json(summary), "summary.json").inverted_from);
+  summary.inverted_from = 0.045;
+  EXPECT_EQ(summary_from_json(to_json(summary), "summary.json").inverted_from, 0.045);
 }
 
 TEST(RunRecord, HasTheKeysOfTheContract) {
@@ -101,6 +110,8 @@ TEST(RunRecord, HasTheKeysOfTheContract) {
                               "/involution/H",
                               "/involution/J",
                               "/min_jacobian",
+                              "/cells/least_J",
+                              "/cells/most_inverted",
                               "/state_hash",
                               "/provenance/version",
                               "/provenance/commit",

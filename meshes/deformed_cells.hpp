@@ -1,0 +1,38 @@
+#pragma once
+/// Cells of a deformed mesh: what neither method's state can see. A nodal F is a mean over
+/// neighbours, so every nodal J can be positive while a cell between the nodes has turned inside
+/// out, and with it the body has passed through itself. Test: tests/meshes/deformed_cells_test.cpp
+
+#include "meshes/mesh.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace diptych::meshes {
+
+/// Signed volume of the cell (2-D: area, per unit thickness) with its nodes at x: the integral of
+/// the Jacobian of its shape functions, exact for every first-order cell; negative where most of it
+/// is inside out.
+/// @param x  [n_nodes of the mesh] m
+double signed_volume(const Mesh& mesh, std::int64_t cell, std::span<const Vec3> x);
+
+/// Of all cells, the deformed volume over the volume in the mesh: the mean J of a cell.
+class DeformedCells {
+ public:
+  /// @param mesh  kept by reference; of sound cells (check_cells)
+  explicit DeformedCells(const Mesh& mesh);
+
+  struct Least {
+    double J = 1;                 ///< least ratio of all cells; NaN where a displacement is
+    std::int64_t n_inverted = 0;  ///< cells with a ratio <= 0
+  };
+  /// @param u  [n_nodes] displacements, m
+  Least least(std::span<const Vec3> u) const;
+
+ private:
+  const Mesh& mesh_;
+  std::vector<double> volume_;  // [n_cells] m^3 (m^2 in 2-D)
+};
+
+}  // namespace diptych::meshes

@@ -1,0 +1,85 @@
+/// Cells of a deformed mesh: their J under affine motions, and that an inverted one is seen.
+
+#include "meshes/deformed_cells.hpp"
+
+#include "meshes/generators.hpp"
+#include "tests/meshes/mesh_measures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace diptych::meshes {
+namespace {
+
+const CellType all_types[] = {CellType::triangle, CellType::quadrilateral, CellType::tetrahedron,
+                              CellType::hexahedron, CellType::prism};
+
+Mesh moved_box(CellType type) {
+  Mesh mesh = box(type, {-1, 0, 2}, {1, 1, 3}, {3, 3, 3});
+  perturb_interior(mesh, 0.2, 5);
+  return mesh;
+}
+
+/// An interior node of the box of three cells a side.
+std::int32_t inner_node(const Mesh& mesh) {
+  return mesh.dimension == 2 ? 5 : 21;
+}
+
+TEST(DeformedCells, SignedVolumeIsThatOfTheFaces) {
+  // mesh_measures takes the divergence theorem; both are sums of some ten products
+  for (const CellType type : all_types) {
+    SCOPED_TRACE(name_of(type));
+    const Mesh mesh = moved_box(type);
+    for (std::int64_t c = 0; c < mesh.n_cells(); ++c)
+      EXPECT_NEAR(signed_volume(mesh, c, mesh.nodes), cell_volume(mesh, c), 1e-13);
+  }
+}
+
+TEST(DeformedCells, AnAffineMotionGivesEveryCellItsDeterminant) {
+  for (const CellType type : all_types) {
+    SCOPED_TRACE(name_of(type));
+    const Mesh mesh = moved_box(type);
+    algebra::Mat3 F;
+    F << 1.2, 0.7, 0, -0.3, 0.5, 0, 0, 0, 1;
+    if (mesh.dimension == 3) F(2, 0) = 0.4, F(2, 2) = 1.5;
+    std::vector<Vec3> u;
+    for (const Vec3& X : mesh.nodes)
+      u.push_back(F * X - X + Vec3(1, -2, 0));
+    const auto least = DeformedCells(mesh).least(u);
+    EXPECT_NEAR(least.J, F.determinant(), 1e-12);  // cells of 1e-2, some ten roundings of 1e-16
+    EXPECT_EQ(least.n_inverted, 0);
+    for (size_t a = 0; a < u.size(); ++a)  // mirrored: every cell is inside out
+      u[a] = Vec3(-2 * mesh.nodes[a][0], 0, 0);
+    const auto mirrored = DeformedCells(mesh).least(u);
+    EXPECT_NEAR(mirrored.J, -1, 1e-12);
+    EXPECT_EQ(mirrored.n_inverted, mesh.n_cells());
+  }
+}
+
+TEST(DeformedCells, OneNodeThatPassesThroughALayerIsSeen) {
+  for (const CellType type : all_types) {
+    SCOPED_TRACE(name_of(type));
+    const Mesh mesh = box(type, {0, 0, 0}, {3, 3, 3}, {3, 3, 3});
+    std::vector<Vec3> u(mesh.nodes.size(), Vec3::Zero());
+    const DeformedCells cells(mesh);
+    u[inner_node(mesh)] = {0.5, 0, 0};
+    EXPECT_GT(cells.least(u).J, 0);
+    u[inner_node(mesh)] = {9, 0, 0};  // far enough for the mean over eight nodes as well
+    EXPECT_LT(cells.least(u).J, 0);
+    EXPECT_GT(cells.least(u).n_inverted, 0);
+    EXPECT_LT(cells.least(u).n_inverted, mesh.n_cells());
+  }
+}
+
+TEST(DeformedCells, ADisplacementThatIsNotANumberIsNoSoundCell) {
+  const Mesh mesh = box(CellType::hexahedron, {0, 0, 0}, {3, 3, 3}, {3, 3, 3});
+  std::vector<Vec3> u(mesh.nodes.size(), Vec3::Zero());
+  u[0][1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(DeformedCells(mesh).least(u).J));
+  EXPECT_EQ(DeformedCells(mesh).least(u).n_inverted, 1);
+}
+
+}  // namespace
+}  // namespace diptych::meshes
