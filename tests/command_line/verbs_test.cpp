@@ -44,6 +44,27 @@ TEST(Verbs, RunLeavesSummaryHistoryAndFields) {
   }
 }
 
+TEST(Verbs, RunWarnsWhereCellsHaveTurnedInsideOut) {
+  const Folder folder;
+  const std::string run = "run twisting-column-400 --method fvm --quiet --no-fields --threads 1 ";
+  const auto folded =
+      diptych(folder, run + "--level 1 --out folded --set time.end=0.06 --set output.frames=6");
+  EXPECT_EQ(folded.exit_code, 0) << folded.text;
+  EXPECT_THAT(folded.text, HasSubstr("WARNING: fvm level 1: from t = 0.05 s on cells are inside"));
+  const auto path = folder.path() / "folded" / "fvm";
+  const auto summary = io::summary_from_json(text_of(path / "summary.json"), "summary.json");
+  EXPECT_GT(summary.min_jacobian, 0.1) << "no node sees it";
+  EXPECT_LT(summary.least_cell_J, 0);
+  EXPECT_GT(summary.most_inverted_cells, 0);
+  EXPECT_NEAR(summary.inverted_from.value_or(0), 0.05, 1e-12) << "the output time, to rounding";
+  const auto history = io::history_from_csv(text_of(path / "history.csv"), "history.csv");
+  EXPECT_EQ(history.front().least_cell_J, 1);
+  EXPECT_GT(history[4].least_cell_J, 0);
+  EXPECT_LT(history[5].least_cell_J, 0) << "the row of 0.05 s";
+  const auto sound = diptych(folder, run + "--out sound --set time.end=0.02");
+  EXPECT_EQ(sound.text.find("WARNING"), std::string::npos) << sound.text;
+}
+
 TEST(Verbs, ProbesAreInHistorySummaryStepsAndFrames) {
   const Folder folder;
   const auto outcome = diptych(folder,

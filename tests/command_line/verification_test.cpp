@@ -87,12 +87,57 @@ TEST(Verify, ShowsABreakdownAsARowAndAnUnmetBound) {
   EXPECT_THAT(text_of(folder.path() / "out" / "VERIFICATION.md"), HasSubstr("failed"));
 }
 
+/// Three levels of a case with a probe, with a group, an estimate and a figure of the literature.
+const std::string bar_in_flight = R"(title = "Bar"
+text = "Flies."
+case = "bar-rebound"
+levels = [0, 1, 2]
+set = ["time.end=1e-5", "output.frames=2"]
+
+[[run]]
+name = "in flight"
+
+[[column]]
+title = "ns each"
+value = "1e9*seconds/pair_updates"
+
+[[column]]
+title = "speed"
+group = "Motion"
+value = "mean_velocity"
+estimate = true
+literature = "-100 (by hand)"
+
+[[column]]
+title = "cells"
+group = "Motion"
+value = "least_cell_J"
+)";
+
+TEST(Verify, ExtrapolatesProbesBesideTheLiterature) {
+  const Folder folder;
+  folder.write("bar.toml", bar_in_flight);
+  const auto outcome =
+      diptych(folder, "verify bar.toml --literature --quiet --threads 1 --out out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  const std::string page = text_of(folder.path() / "out" / "LITERATURE.md");
+  EXPECT_THAT(page, AllOf(HasSubstr("# Cases of the literature"), HasSubstr("`bar.toml`"),
+                          HasSubstr("both methods, 1 thread."), HasSubstr("\nMotion:\n"),
+                          HasSubstr("Extrapolated from the three finest levels")));
+  EXPECT_THAT(page, ContainsRegex("\\| method +\\| level \\| +h \\[m\\] .* ns each \\|"));
+  // a body in flight keeps its velocity and its cells, on all levels and with both methods
+  EXPECT_THAT(page, ContainsRegex("\\| speed +\\| -100 \\(by hand\\) \\| SPH +\\| +-100 \\|"));
+  EXPECT_THAT(page, ContainsRegex("Finite volume \\| +-100 \\|.* yes"));
+  EXPECT_THAT(page, ContainsRegex("SPH +\\| +2 \\| +-100 \\| +1 \\|"));
+}
+
 TEST(Verify, RefusesBadTablesWithOneMessageBeforeItRuns) {
   const std::vector<std::array<std::string, 3>> faults{
       {"order = true", "ordr = true", "unknown key 'ordr' of [[column]]; did you mean 'order'?"},
       {"value = \"error_velocity\"\norder", "value = 3\norder",
        "'value' of [[column]] must be a text"},
       {"title = \"Small\"", "", "lacks 'title'"},
+      {"optional = true", "literature = \"1\"", "add estimate = true"},
       {"least = 1e-6", "least = 1e-6\nmost = 2", "needs one of least_order"},
       {"columns = [\"v\", \"A\"]", "columns = [\"V\"]", "'V' is none of the columns"},
       {"[0.5, 0.25]", "[0.5]", "1 values for 2 levels"},
@@ -121,18 +166,21 @@ TEST(Verify, RefusesBadTablesWithOneMessageBeforeItRuns) {
 
 TEST(Verify, EveryShippedTableIsReadAndStandsOnThePage) {
   const Folder folder;
-  const std::string page = text_of(DIPTYCH_SOURCE_DIR "/benchmarks/VERIFICATION.md");
+  const std::string top = DIPTYCH_SOURCE_DIR "/benchmarks/";
   int n_tables = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(DIPTYCH_SOURCE_DIR "/benchmarks/verification")) {
-    // the misspelt table comes second: the first is read before
-    const std::string name = entry.path().stem().string();
-    EXPECT_THAT(page, HasSubstr("`" + name + ".toml`")) << "refresh it: benchmarks/verify";
-    const auto outcome = diptych(folder, "verify " + name + " no-such-table --out out");
-    EXPECT_THAT(outcome.text, HasSubstr("no verification table 'no-such-table'"));
-    ++n_tables;
+  for (const auto& [page_name, tables] :
+       {std::pair{"VERIFICATION.md", "verification"}, std::pair{"LITERATURE.md", "literature"}}) {
+    const std::string page = text_of(top + page_name);
+    for (const auto& entry : std::filesystem::directory_iterator(top + tables)) {
+      // the misspelt table comes second: the first is read before
+      const std::string name = entry.path().stem().string();
+      EXPECT_THAT(page, HasSubstr("`" + name + ".toml`")) << "refresh it: benchmarks/verify";
+      const auto outcome = diptych(folder, "verify " + name + " no-such-table --out out");
+      EXPECT_THAT(outcome.text, HasSubstr("no verification table 'no-such-table'"));
+      ++n_tables;
+    }
   }
-  EXPECT_GE(n_tables, 9);
+  EXPECT_GE(n_tables, 13);
 }
 
 }  // namespace
