@@ -347,7 +347,7 @@ void add_study_options(CLI::App* verb, Arguments& arguments) {
   verb->add_flag("--stability", arguments.stability,
                  "find the largest stable time step by bisection");
   verb->add_option("--integrators", arguments.study.integrators,
-                   "with --stability: leapfrog,ssp-rk2,ssp-rk3 (default all)")
+                   "with --stability: leapfrog,ssp-rk2,ssp-rk3,ssp-rk43 (default all)")
       ->delimiter(',');
   verb->add_option("--steps", arguments.study.stability.n_steps,
                    "with --stability: of a trial (default 1000)");

@@ -149,6 +149,8 @@ std::map<std::string, double> numbers_of(const VerificationTable& table,
   numbers["residual"] = run.energy.relative_residual;
   numbers["nodes"] = static_cast<double>(run.nodes);
   numbers["steps"] = static_cast<double>(run.steps);
+  numbers["pairs"] = static_cast<double>(run.pairs);
+  numbers["stages"] = static_cast<double>(run.stages);
   numbers["seconds"] = run.loop_seconds;
   numbers["spacing"] = run.spacing;
   numbers["end_time"] = run.end_time;

@@ -211,16 +211,17 @@ class BodySolver : public Solver {
       load_rates_ = boundary_.add_loads(state_, stage_time);
       scheme::Audit rate = rates();
       rate.external_work += boundary_.power_of_constraints(state_, model_.rho_R, fraction);
-      const scheme::StageCombination stage{stages[i].alpha, stages[i].beta, dt, first};
-      audit_ = audit_.combined(stage.alpha, audit_0, stage.beta, dt, rate);
+      const scheme::StageCombination stage{stages[i].alpha, stages[i].beta, stages[i].part * dt,
+                                           first};
+      audit_ = audit_.combined(stage.alpha, audit_0, stage.beta, stage.dt, rate);
       for_blocks([&](auto begin, auto end) {
         scheme::update_stage(state_, pairs_, model_.rho_R, stage, begin, end);
       });
       stage_time = time_ + stages[i].time * dt;
       for_blocks([&](auto begin, auto end) { scheme::publish_velocity(state_, begin, end); });
       add_action(last ? boundary_.constrain(state_, model_.rho_R, stage_time)
-                      : boundary_.constrain_stage(state_, model_.rho_R, stages[i].alpha,
-                                                  stages[i].beta, fraction));
+                      : boundary_.constrain_stage(state_, model_.rho_R, stage.alpha, stage.beta,
+                                                  stage.dt, fraction));
       if (last) keep_angular_momentum();
       fraction = stages[i].time;
       const Rule rule = model_.branches.empty()                      ? Rule::frozen

@@ -25,7 +25,7 @@ inline constexpr std::array<Name, 6> probe_kinds{"point", "mean",     "integral"
                                                  "least", "greatest", "reaction"};
 inline constexpr std::array<Name, 2> internals{"virgin", "relaxed"};
 inline constexpr std::array<Name, 3> speeds{"exact", "bound", "linearised"};
-inline constexpr std::array<Name, 3> integrators{"leapfrog", "ssp-rk2", "ssp-rk3"};
+inline constexpr std::array<Name, 4> integrators{"leapfrog", "ssp-rk2", "ssp-rk3", "ssp-rk43"};
 inline constexpr std::array<Name, 3> unknowns{"F", "FJ", "FHJ"};
 inline constexpr std::array<Name, 2> reconstructions{"none", "linear"};
 inline constexpr std::array<Name, 4> limiters{"none", "barth-jespersen", "venkatakrishnan",

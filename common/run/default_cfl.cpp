@@ -36,7 +36,7 @@ double real_extent(const time::Integrator& integrator) {
   const auto amplification = [&](double z) {
     double u = 1;
     for (const time::SspStage& stage : integrator.stages)
-      u = stage.alpha + stage.beta * (1 + z) * u;
+      u = stage.alpha + stage.beta * (1 + stage.part * z) * u;
     return std::abs(u);
   };
   double extent = 0;

@@ -4,7 +4,7 @@
 /// largest frequency omega and the largest rate d of the dissipation are estimated once, on the
 /// undeformed body (largest_rates.hpp), and dt is the smaller of
 ///   default_dt_omega of the integrator / omega   and   0.8 of the step at which d ends stability,
-///   dt d = 2 with leapfrog and SSP-RK2, 2.51 with SSP-RK3.
+///   dt d = 2 with leapfrog and SSP-RK2, 2.51 with SSP-RK3, 5.15 with SSPRK(4,3).
 /// During the run it follows the wave speeds as the graph bound does. A slope limiter counts by its
 /// greatest strength. Measured limits and errors: benchmarks/README.md. Test:
 /// tests/common/run/default_cfl_test.cpp

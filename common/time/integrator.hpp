@@ -1,6 +1,6 @@
 #pragma once
 /// Time integrators as rows of coefficients. An SSP Runge-Kutta stage is
-///   U^(i) = alpha U^n + beta (U^(i-1) + dt L(U^(i-1))),  a state at time t + time dt.
+///   U^(i) = alpha U^n + beta (U^(i-1) + part dt L(U^(i-1))),  a state at time t + time dt.
 /// Leapfrog (velocity Verlet) evaluates forces once a step: kick, drift, evaluate, kick.
 /// Adding a scheme: a file in schemes/ and a line in integrator_menu.cpp.
 
@@ -13,7 +13,8 @@ namespace diptych::time {
 struct SspStage {
   double alpha = 0;
   double beta = 1;
-  double time = 1;  ///< of the result, in steps
+  double time = 1;  ///< of the result, in steps: 1/2 or 1
+  double part = 1;  ///< of the step that the forward Euler step in it takes
 };
 
 struct Integrator {
@@ -26,7 +27,7 @@ struct Integrator {
   int evaluations_per_step() const { return is_leapfrog() ? 1 : static_cast<int>(stages.size()); }
 };
 
-/// leapfrog, ssp-rk2, ssp-rk3
+/// leapfrog, ssp-rk2, ssp-rk3, ssp-rk43
 const base::Registry<Integrator>& integrator_menu();
 
 }  // namespace diptych::time

@@ -192,9 +192,9 @@ ConstraintAction AppliedBoundary::constrain(State<Dim>& state, double rho_R, dou
 
 template <int Dim>
 ConstraintAction AppliedBoundary::constrain_stage(
-    State<Dim>& state, double rho_R, double alpha, double beta, double fraction) {
+    State<Dim>& state, double rho_R, double alpha, double beta, double dt, double fraction) {
   for (size_t k = 0; has_velocities_ && k < target_.size(); ++k)
-    target_[k] = alpha * in_step_[0][k] + beta * (target_[k] + step_ * rate(k, fraction));
+    target_[k] = alpha * in_step_[0][k] + beta * (target_[k] + dt * rate(k, fraction));
   ConstraintAction action{overwrite(state, rho_R), 0};
   walls_.hold(state, rho_R, action);
   return action;
@@ -319,7 +319,7 @@ Vec3 AppliedBoundary::reaction(const State<Dim>& state,
 #define DIPTYCH_INSTANTIATE(Dim)                                                                  \
   template ConstraintAction AppliedBoundary::constrain(State<Dim>&, double, double);              \
   template ConstraintAction AppliedBoundary::constrain_stage(State<Dim>&, double, double, double, \
-                                                             double);                             \
+                                                             double, double);                     \
   template LoadRates AppliedBoundary::add_loads(State<Dim>&, double);                             \
   template double AppliedBoundary::power_of_loads(const State<Dim>&) const;                       \
   template double AppliedBoundary::power_of_constraints(const State<Dim>&, double, double) const; \

@@ -53,7 +53,7 @@ class AppliedBoundary {
   /// differ from what the free nodes have then by O(dt^2), and so strain the body beside them.
   template <int Dim>
   ConstraintAction constrain_stage(
-      State<Dim>& state, double rho_R, double alpha, double beta, double fraction);
+      State<Dim>& state, double rho_R, double alpha, double beta, double dt, double fraction);
 
   /// Adds the loads at time t to state.T. @return their power and their force and torque
   template <int Dim>
