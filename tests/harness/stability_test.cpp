@@ -58,6 +58,11 @@ TEST(Stability, FindsTheLimitOfSspRk3) {
   EXPECT_NEAR(courant_number("ssp-rk3", "linear"), 1.256, 0.02 * 1.256);
 }
 
+// the same mode against the real extent of its amplification, 5.15
+TEST(Stability, FindsTheLimitOfSspRk43) {
+  EXPECT_NEAR(courant_number("ssp-rk43", "linear"), 2.575, 0.02 * 2.575);
+}
+
 TEST(Stability, FindsTheLimitOfSspRk2WithoutReconstruction) {
   EXPECT_NEAR(courant_number("ssp-rk2", "none"), 1.0, 0.02);
 }

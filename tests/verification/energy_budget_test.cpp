@@ -104,6 +104,7 @@ TEST_P(EnergyBudget, ClosesAtTheOrderOfTheIntegratorUnderAllConditionsAtOnce) {
       block + body_force + moving + traction + rolling + pressure + skew + fixed;
   expect_order(all, "ssp-rk2", 1, 1.8);
   expect_order(all, "ssp-rk3", 1, 2.7);
+  expect_order(all, "ssp-rk43", 1, 2.7);
   expect_order(all, "leapfrog", 0, 1.9);  // without D_ab, which lags by half a step
 }
 

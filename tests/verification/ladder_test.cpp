@@ -111,19 +111,25 @@ TEST_P(Ladder, ViscoelasticShearWaveOfSeventyPercentConvergesAtOrderTwo) {
   };
   EXPECT_GE(order("velocity"), 1.9);
   EXPECT_GE(order("displacement"), 1.9);
-  EXPECT_LE(error(fine, "velocity"), is_sph() ? 5.1e-4 : 2.2e-4);
-  EXPECT_LE(error(fine, "displacement"), is_sph() ? 2.1e-4 : 8.5e-5);
+  EXPECT_LE(error(fine, "velocity"), 2.2e-4);
+  EXPECT_LE(error(fine, "displacement"), 8.5e-5);
   const auto solid = run("shear-wave-ve2", 1);
-  EXPECT_LE(error(solid, "velocity"), is_sph() ? 9e-3 : 4.2e-3);
+  EXPECT_LE(error(solid, "velocity"), 4.2e-3);
 }
 
 TEST_P(Ladder, PlaneWaveOfTheStandardLinearSolidConvergesAtOrderTwo) {
-  const auto coarse = run("sls-wave", 1), fine = run("sls-wave", 2);
+  const std::vector<std::string> plain{"scheme.face_correction=0"};
+  const auto coarse = run("sls-wave", 1, plain), fine = run("sls-wave", 2, plain);
   const double ratio = coarse.summary.spacing / fine.summary.spacing;
   for (const char* field : {"velocity", "displacement", "stress"}) {
     EXPECT_GE(std::log(error(coarse, field) / error(fine, field)) / std::log(ratio), 1.8) << field;
-    EXPECT_LE(error(fine, field), is_sph() ? 1.5e-2 : 8.5e-3) << field;
+    EXPECT_LE(error(fine, field), 8.5e-3) << field;
   }
+  // The case's face correction is worth more than a level: v 0.86, u 0.39 measured. Its stress is
+  // then of order 1.6, held by the driven end.
+  const auto shipped = run("sls-wave", 1);
+  EXPECT_LE(error(shipped, "velocity"), error(fine, "velocity"));
+  EXPECT_LE(error(shipped, "displacement"), 0.6 * error(fine, "displacement"));
 }
 
 TEST_P(Ladder, SpinningCubeKeepsMomentumOverTenThousandSteps) {

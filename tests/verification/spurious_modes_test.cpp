@@ -12,21 +12,30 @@ using algebra::Vec3;
 using tests::Scene;
 using tests::text_of;
 
-class SpuriousModes
-    : public testing::TestWithParam<std::tuple<const char*, const char*, const char*>> {
+class SpuriousModes : public testing::TestWithParam<
+                          std::tuple<const char*, const char*, const char*, const char*>> {
  protected:
   Scene scene(const std::string& text) const {
     parallel::set_threads(1);
     return tests::scene_of(std::get<0>(GetParam()), text,
                            {text_of("time.integrator", std::get<1>(GetParam())),
-                            std::string("scheme.face_correction=") + std::get<2>(GetParam())});
+                            std::string("scheme.face_correction=") + std::get<2>(GetParam()),
+                            std::string("sph.kappa=") + std::get<3>(GetParam())});
   }
 };
 INSTANTIATE_TEST_SUITE_P(All,
                          SpuriousModes,
                          testing::Combine(testing::Values("sph", "fvm"),
                                           testing::Values("leapfrog", "ssp-rk3"),
-                                          testing::Values("0", "\"1/6\"")));
+                                          testing::Values("0", "\"1/6\""),
+                                          testing::Values("1.2")));
+// 18 neighbours: the support of the shipped cases on regular nodes
+INSTANTIATE_TEST_SUITE_P(NarrowSupport,
+                         SpuriousModes,
+                         testing::Combine(testing::Values("sph"),
+                                          testing::Values("leapfrog", "ssp-rk3"),
+                                          testing::Values("0", "\"1/6\""),
+                                          testing::Values("0.75")));
 
 const std::string cube = R"toml(
 [mesh]

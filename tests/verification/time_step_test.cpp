@@ -34,7 +34,7 @@ TEST(TimeStep, FollowsTheStiffeningBodyUnlessLinearised) {
 }
 
 TEST(TimeStep, StrongDissipationIsStableWithEveryIntegrator) {
-  for (const char* integrator : {"leapfrog", "ssp-rk2", "ssp-rk3"}) {
+  for (const char* integrator : {"leapfrog", "ssp-rk2", "ssp-rk3", "ssp-rk43"}) {
     for (const char* factor : {"1", "4"}) {
       const auto run = impact({std::string("time.integrator=") + integrator,
                                std::string("scheme.dissipation=") + factor, "output.frames=1"});

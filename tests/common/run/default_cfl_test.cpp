@@ -100,6 +100,7 @@ TEST(DefaultCfl, FallsWithStrongerDissipationButDoesNotRiseWithWeaker) {
 TEST(DefaultCfl, KnowsTheRealExtentOfTheIntegrators) {
   EXPECT_NEAR(real_extent(time::integrator_menu().at("ssp-rk2")), 2, 2e-3);
   EXPECT_NEAR(real_extent(time::integrator_menu().at("ssp-rk3")), 2.5127, 2e-3);
+  EXPECT_NEAR(real_extent(time::integrator_menu().at("ssp-rk43")), 5.1495, 2e-3);
 }
 
 }  // namespace

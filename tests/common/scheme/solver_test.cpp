@@ -70,7 +70,7 @@ TEST_P(Solver, EnergyResidualFallsAtTheOrderOfTheIntegrator) {
     double order;
   };
   for (const auto& [integrator, order] :
-       {Expectation{"ssp-rk2", 1.8}, Expectation{"ssp-rk3", 2.7}}) {
+       {Expectation{"ssp-rk2", 1.8}, Expectation{"ssp-rk3", 2.7}, Expectation{"ssp-rk43", 2.7}}) {
     const double coarse = residual_with_steps(GetParam(), spinning_cube, integrator, 16);
     const double fine = residual_with_steps(GetParam(), spinning_cube, integrator, 32);
     EXPECT_GE(std::log2(coarse / fine), order) << integrator << ": " << coarse << ", " << fine;
