@@ -3,17 +3,16 @@
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_list.hpp"
 #include "benchmarks/harness/convergence.hpp"
+#include "benchmarks/harness/cost_verb.hpp"
 #include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/material_report.hpp"
-#include "benchmarks/harness/option_costs.hpp"
 #include "benchmarks/harness/regress.hpp"
 #include "benchmarks/harness/run_table.hpp"
-#include "benchmarks/harness/size_costs.hpp"
 #include "benchmarks/harness/spinning.hpp"
 #include "benchmarks/harness/study.hpp"
 #include "benchmarks/harness/study_verb.hpp"
 #include "benchmarks/harness/tables.hpp"
-#include "benchmarks/harness/verification.hpp"
+#include "benchmarks/harness/verify_verb.hpp"
 #include "common/base/error.hpp"
 #include "common/base/registry.hpp"
 #include "common/io/atomic_file.hpp"
@@ -170,43 +169,19 @@ int converge_verb(const Arguments& arguments) {
 }
 
 int verify_verb(const Arguments& arguments) {
-  std::vector<std::string> names = arguments.tables;
-  using Set = harness::VerificationSet;
-  const Set set = arguments.literature ? Set::literature : Set::verification;
-  if (names.empty()) names = harness::shipped_verification_tables(set);
-  std::vector<harness::VerificationTable> tables;  // all are read before the first is run
-  for (const std::string& name : names)
-    tables.push_back(harness::read_verification_table(harness::find_verification_table(name)));
-  harness::VerificationOptions options;
+  harness::VerifyRequest request;
+  request.names = arguments.tables;
+  request.set = arguments.literature ? harness::VerificationSet::literature
+                                     : harness::VerificationSet::verification;
   const std::string folder = arguments.literature ? "literature" : "verification";
-  options.directory = arguments.directory.empty() ? "results/" + folder : arguments.directory;
-  options.threads = arguments.threads;
-  options.fresh = arguments.fresh;
-  options.quick = arguments.quick;
-  options.quiet = arguments.quiet;
-  std::vector<harness::VerificationResult> results;
-  bool all_met = true;
-  for (const auto& table : tables) {
-    const auto result = harness::verify(table, options);
-    if (!result) {
-      std::fputs("diptych: interrupted; the same command goes on from here\n", stderr);
-      return static_cast<int>(base::ExitCode::interrupted);
-    }
-    print(harness::verification_lines(*result));
-    for (const auto& verdict : result->verdicts)
-      all_met = all_met && verdict.met;
-    results.push_back(*result);
-  }
-  const std::string page = arguments.page.empty()
-                               ? (std::filesystem::path(options.directory) /
-                                  (arguments.literature ? "LITERATURE.md" : "VERIFICATION.md"))
-                                     .string()
-                               : arguments.page;
-  io::write_file_atomically(
-      page, harness::verification_page(results, harness::page_heading(set, options.quick)));
-  print(fmt::format("\noutput: {}\n", page));
-  if (arguments.check && !all_met) throw base::BoundError("a bound was not met; see above");
-  return 0;
+  request.run.directory = arguments.directory.empty() ? "results/" + folder : arguments.directory;
+  request.run.threads = arguments.threads;
+  request.run.fresh = arguments.fresh;
+  request.run.quick = arguments.quick;
+  request.run.quiet = arguments.quiet;
+  request.page = arguments.page;
+  request.check = arguments.check;
+  return harness::verify_tables(request);
 }
 
 int regress_verb(const Arguments& arguments) {
@@ -237,28 +212,13 @@ int study_verb(const Arguments& arguments) {
                           : harness::go_on_from(request.directory));
 }
 
-int size_costs(const Arguments& arguments) {
-  const auto rows =
-      harness::measure_size_costs(arguments.sizes, arguments.size_threads, arguments.quiet);
-  if (rows.empty()) return harness::exit_code_of_study();
-  print(harness::size_text(rows));
-  const std::string folder = arguments.directory.empty() ? "results" : arguments.directory;
-  io::make_directory(folder);
-  const std::string file = (std::filesystem::path(folder) / "size_costs.csv").string();
-  io::write_file_atomically(file, harness::size_csv(rows));
-  print("output: " + file + "\n");
-  return harness::exit_code_of_study();
-}
-
 int cost_verb(const Arguments& arguments) {
-  if (!arguments.sizes.empty()) return size_costs(arguments);
-  const auto table = harness::measure_option_costs(20, 12, arguments.quiet);
-  print(harness::cost_text(table));
   const std::string folder = arguments.directory.empty() ? "results" : arguments.directory;
-  io::make_directory(folder);
-  const std::string file = (std::filesystem::path(folder) / "option_costs.csv").string();
-  io::write_file_atomically(file, harness::cost_csv(table));
-  print("output: " + file + "\n");
+  if (arguments.sizes.empty()) {
+    harness::report_option_costs(folder, arguments.quiet);
+  } else {
+    harness::report_size_costs(arguments.sizes, arguments.size_threads, folder, arguments.quiet);
+  }
   return harness::exit_code_of_study("the rows above are written; the same command begins again");
 }
 

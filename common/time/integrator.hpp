@@ -12,7 +12,7 @@ namespace diptych::time {
 
 struct SspStage {
   double alpha = 0;
-  double beta = 1;
+  double beta = 1;  ///< alpha + beta = 1 to the last bit: momentum drifts by the rest in every step
   double time = 1;  ///< of the result, in steps: 1/2 or 1
   double part = 1;  ///< of the step that the forward Euler step in it takes
 };

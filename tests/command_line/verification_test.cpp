@@ -88,7 +88,7 @@ TEST(Verify, ShowsABreakdownAsARowAndAnUnmetBound) {
 }
 
 /// Three levels of a case with a probe, with a group, an estimate and a figure of the literature.
-const std::string bar_in_flight = R"(title = "Bar"
+const std::string bar_in_flight = R"toml(title = "Bar"
 text = "Flies."
 case = "bar-rebound"
 levels = [0, 1, 2]
@@ -112,7 +112,7 @@ literature = "-100 (by hand)"
 title = "cells"
 group = "Motion"
 value = "least_cell_J"
-)";
+)toml";
 
 TEST(Verify, ExtrapolatesProbesBesideTheLiterature) {
   const Folder folder;

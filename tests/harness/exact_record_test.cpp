@@ -15,7 +15,7 @@ namespace {
 
 /// A bar that swings along x in its first mode between a clamp and a free end, as in the case
 /// vibrating-bar: u = U sin(omega t) sin(k x), omega = 1 / s, at small strain.
-const std::string swinging = R"([parameters]
+const std::string swinging = R"toml([parameters]
 U = 1e-3
 k = "pi/2"
 rho = 3
@@ -59,7 +59,7 @@ unit = "N/m"
 kind = "reaction"
 group = "x_min"
 direction = [1, 0]
-)";
+)toml";
 
 run::Case case_until(const std::string& end) {
   std::string text = swinging;

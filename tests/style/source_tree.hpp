@@ -152,7 +152,7 @@ struct Library {
 inline const std::vector<Library>& libraries() {
   static const std::vector<Library> table = {
       {R"([a-z_0-9]+)", ".*"},  // the standard library
-      {R"((sys/.*|fcntl|spawn|unistd|signal|poll|dlfcn)\.h)", ".*"},
+      {R"((sys/.*|fcntl|malloc|spawn|unistd|signal|poll|dlfcn)\.h)", ".*"},
       {R"(fmt/.*)", ".*"},
       {R"(Eigen/.*)", R"(common/algebra/vectors\.hpp|common/scheme/closure_repair\.cpp|)"
                       R"((sph|fvm|meshes|common/run)/.*\.cpp)"},

@@ -10,7 +10,7 @@ namespace diptych::time {
 inline Integrator ssp_rk3() {
   return {.order = 3,
           .default_dt_omega = 1.39,
-          .stages = {{0, 1, 1}, {0.75, 0.25, 0.5}, {1.0 / 3, 2.0 / 3, 1}},
+          .stages = {{0, 1, 1}, {0.75, 0.25, 0.5}, {1 - 2.0 / 3, 2.0 / 3, 1}},
           .gauss_relaxation = true};
 }
 

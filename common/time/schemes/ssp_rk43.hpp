@@ -12,11 +12,13 @@
 namespace diptych::time {
 
 inline Integrator ssp_rk43() {
-  return {
-      .order = 3,
-      .default_dt_omega = 1.73,
-      .stages = {{0, 1, 0.5, 0.5}, {0, 1, 1, 0.5}, {2.0 / 3, 1.0 / 3, 0.5, 0.5}, {0, 1, 1, 0.5}},
-      .gauss_relaxation = true};
+  return {.order = 3,
+          .default_dt_omega = 1.73,
+          .stages = {{0, 1, 0.5, 0.5},
+                     {0, 1, 1, 0.5},
+                     {1 - 1.0 / 3, 1.0 / 3, 0.5, 0.5},
+                     {0, 1, 1, 0.5}},
+          .gauss_relaxation = true};
 }
 
 }  // namespace diptych::time
