@@ -4,7 +4,8 @@ namespace diptych::scheme {
 
 namespace {
 
-/// q <- alpha q_0 + beta (q + dt rate), component k of block b.
+/// q <- alpha q_0 + beta (q + dt rate), component k of block b, as q_0 + beta (q - q_0 + dt rate):
+/// what does not change stays the same to the last bit, and momentum gathers no rounding.
 DIPTYCH_INLINE void combine(algebra::BlockField& q,
                             algebra::BlockField& q_0,
                             const StageCombination& stage,
@@ -16,7 +17,9 @@ DIPTYCH_INLINE void combine(algebra::BlockField& q,
   const Lanes value = algebra::load(now);
   if (stage.first) algebra::store(old, value);
   const Lanes base = stage.first ? value : algebra::load(old);
-  algebra::store(now, stage.alpha * base + stage.beta * (value + stage.dt * rate));
+  const Lanes change = stage.dt * rate;
+  algebra::store(now,
+                 stage.alpha == 0 ? value + change : base + stage.beta * ((value - base) + change));
 }
 
 /// The components of a cofactor as stored, in order.
