@@ -130,6 +130,8 @@ void show_convergence(const run::Case& setup,
     const std::string table = harness::quantity_table(method);
     if (!table.empty()) print(table + "\n");
   }
+  const std::string agreement = harness::agreement_table(convergence);
+  if (!agreement.empty()) print(agreement + "\n");
   for (const auto& summary : study.runs)
     print(harness::inverted_cells_warning(summary));
   if (convergence.empty()) return;

@@ -47,8 +47,16 @@ std::optional<report::GridConvergence> estimate(const MethodConvergence& study,
 /// log(e_coarse/e_fine)/log(h_coarse/h_fine) of an error at `level` and the one before.
 double order_of_error(const MethodConvergence& study, const Quantity& quantity, size_t level);
 
+/// Error bar of the finest value from all levels, with two of them from these; NaN where there is
+/// none.
+double error_bar(const MethodConvergence& study, const Quantity& quantity);
+
 /// Scalars of one method for a terminal of 100 columns; empty where there are none.
 std::string quantity_table(const MethodConvergence& study);
+
+/// Two methods on the finest level: difference of each scalar against the sum of both error bars.
+/// Empty where there is nothing to compare.
+std::string agreement_table(const std::vector<MethodConvergence>& studies);
 
 /// One line per method, quantity and level, with the order and the estimate of the levels so far.
 std::string convergence_csv(const std::vector<MethodConvergence>& studies);

@@ -43,11 +43,7 @@ ScalarRow row_of(const MethodConvergence& study, const Quantity& quantity) {
     row.index = percent(g->index);
     row.bar = short_text(g->error_bar);
     if (g->kind != report::Convergence::monotone) row.remark = report::convergence_name(g->kind);
-  } else if (last == 1 && std::isfinite(quantity.values[0] + quantity.values[1]) &&
-             study.levels[1].spacing < study.levels[0].spacing) {
-    const double bar =
-        report::two_grid_error_bar({study.levels[1].spacing, study.levels[0].spacing},
-                                   {quantity.values[1], quantity.values[0]});
+  } else if (const double bar = error_bar(study, quantity); std::isfinite(bar)) {
     row.bar = short_text(bar);
     row.index = quantity.values[1] != 0 ? percent(bar / std::abs(quantity.values[1])) : "-";
     row.remark = "two grids";

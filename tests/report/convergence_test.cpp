@@ -61,6 +61,21 @@ TEST(Convergence, SaysWhereValuesDoNotConverge) {
     EXPECT_LE(line.size(), 100u) << line;
 }
 
+/// Bars of 1.25 * 4/256 = 0.0195 each for the energy, 3 for the probe.
+TEST(Convergence, SaysWhetherTwoMethodsAgree) {
+  auto all = records();
+  for (LevelRecord record : records()) {
+    record.summary.method = "fvm";
+    record.history[1].values.back() += 0.05;
+    record.history[4].values.back() += 0.05;
+    all.push_back(record);
+  }
+  const std::string text = agreement_table(convergence_of(all, {}));
+  EXPECT_THAT(text, ContainsRegex("kinetic energy \\[J\\] +5.00e-02 +3.91e-02  DIFFER\n"));
+  EXPECT_THAT(text, ContainsRegex("tip_x, 50 % \\[m\\^2\\] +5.00e-02 +6.00e\\+00  agree\n"));
+  EXPECT_EQ(agreement_table(convergence_of(records(), {})), "") << "one method";
+}
+
 TEST(Convergence, LeavesOutRunsThatWereNotFinished) {
   auto some = records();
   some[0].summary.status = "interrupted";  // the finest
