@@ -366,6 +366,9 @@ RunResult run_case(const run::Case& setup, const RunOptions& options) {
     if (s.stages > 0) {
       s.nanoseconds_per_node_stage =
           1e9 * s.loop_seconds / (static_cast<double>(s.stages) * static_cast<double>(s.nodes));
+      const double crossings = s.end_time * solver->undeformed_speed() / s.spacing;
+      s.nanoseconds_per_node_crossing =
+          1e9 * s.loop_seconds / (crossings * static_cast<double>(s.nodes));
     }
     s.state_hash = solver->state_hash(result.order);
     recorder.fill(s);

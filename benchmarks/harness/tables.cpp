@@ -115,6 +115,8 @@ std::string comparison_table(const RunSummary& sph,
   counts("steps", sph.steps, fvm.steps);
   values("time loop [s]", sph.loop_seconds, fvm.loop_seconds);
   values("per node and stage [ns]", sph.nanoseconds_per_node_stage, fvm.nanoseconds_per_node_stage);
+  values("per node and crossing of h [ns]", sph.nanoseconds_per_node_crossing,
+         fvm.nanoseconds_per_node_crossing);
   for (const std::string& field : compared_fields(sph, fvm, difference)) {
     const auto found = difference.find(field);
     const double a = error_of(sph, field), b = error_of(fvm, field);

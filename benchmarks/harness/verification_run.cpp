@@ -109,6 +109,7 @@ void add_cost(const io::RunSummary& run, std::map<std::string, double>& numbers)
   numbers["neighbours"] = run.mean_neighbours;
   numbers["pair_updates"] = pairs * stages;
   numbers["ns_per_node_stage"] = run.nanoseconds_per_node_stage;
+  numbers["ns_per_node_crossing"] = run.nanoseconds_per_node_crossing;
   numbers["memory"] = static_cast<double>(run.peak_rss_bytes);
 }
 

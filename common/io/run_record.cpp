@@ -222,6 +222,7 @@ void read_size_and_cost(const Section& file, RunSummary& summary) {
   summary.wall_seconds = file.number("wall_seconds");
   summary.loop_seconds = file.number("loop_seconds");
   summary.nanoseconds_per_node_stage = file.number("nanoseconds_per_node_stage");
+  summary.nanoseconds_per_node_crossing = file.number("nanoseconds_per_node_crossing");
   summary.peak_rss_bytes = file.large_count("peak_rss_bytes");
   summary.solver_bytes = file.large_count("solver_bytes");
   summary.running_rss_bytes = file.large_count("running_rss_bytes");
@@ -317,6 +318,7 @@ std::string to_json(const RunSummary& summary) {
       {"wall_seconds", summary.wall_seconds},
       {"loop_seconds", summary.loop_seconds},
       {"nanoseconds_per_node_stage", summary.nanoseconds_per_node_stage},
+      {"nanoseconds_per_node_crossing", summary.nanoseconds_per_node_crossing},
       {"peak_rss_bytes", summary.peak_rss_bytes},
       {"solver_bytes", summary.solver_bytes},
       {"running_rss_bytes", summary.running_rss_bytes},

@@ -50,6 +50,8 @@ struct RunSummary {
   std::string precision = "double", integrator, status = "done";
   double end_time = 0;
   double setup_seconds = 0, wall_seconds = 0, loop_seconds = 0, nanoseconds_per_node_stage = 0;
+  /// per node for the time that a pressure wave of the undeformed body takes over one spacing
+  double nanoseconds_per_node_crossing = 0;
   std::int64_t peak_rss_bytes = 0;
   std::int64_t solver_bytes = 0;        ///< arrays of the solver: state and geometry of the sweeps
   std::int64_t running_rss_bytes = 0;   ///< resident set of the program before the first step

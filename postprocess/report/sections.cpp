@@ -50,6 +50,8 @@ std::string panel(const RunSummary& run, const std::vector<std::string>& fields)
   std::string rows = entry("nodes", count_html(run.nodes));
   rows += entry("time loop", number_html(run.loop_seconds) + " s");
   rows += entry("per node and stage", number_html(run.nanoseconds_per_node_stage) + " ns");
+  rows +=
+      entry("per node and crossing of h", number_html(run.nanoseconds_per_node_crossing) + " ns");
   rows += entry("energy residual", scientific_html(run.energy.relative_residual));
   std::string large;
   if (!fields.empty()) {

@@ -29,6 +29,7 @@ RunSummary full_summary() {
   s.steps = 77, s.stages = 154, s.threads = 3, s.ranks = 5;
   s.precision = "single", s.integrator = "ssp-rk3", s.status = "interrupted";
   s.end_time = 0.1, s.setup_seconds = 1.0 / 3, s.wall_seconds = 12.5, s.loop_seconds = 11.7;
+  s.nanoseconds_per_node_crossing = 777.1;
   s.nanoseconds_per_node_stage = 451.3, s.peak_rss_bytes = 1'234'567'890'123;
   s.solver_bytes = 234, s.running_rss_bytes = 345, s.building_rss_bytes = 456;
   s.dt_min = 1e-7, s.dt_max = 2e-5, s.spacing = 0.0625, s.mean_neighbours = 50.7;
@@ -88,6 +89,7 @@ TEST(RunRecord, HasTheKeysOfTheContract) {
                               "/wall_seconds",
                               "/loop_seconds",
                               "/nanoseconds_per_node_stage",
+                              "/nanoseconds_per_node_crossing",
                               "/peak_rss_bytes",
                               "/solver_bytes",
                               "/running_rss_bytes",
