@@ -4,6 +4,7 @@
 #include "benchmarks/harness/case_list.hpp"
 #include "benchmarks/harness/convergence.hpp"
 #include "benchmarks/harness/cost_verb.hpp"
+#include "benchmarks/harness/history_differences.hpp"
 #include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/material_report.hpp"
 #include "benchmarks/harness/regress.hpp"
@@ -105,7 +106,12 @@ int compare_verb(Arguments arguments) {
   options.shapes = true;
   const harness::Study study = harness::run_study(setup, options);
   if (study.runs.size() == 2) {
-    print(harness::comparison_table(study.runs[0], study.runs[1], study.differences));
+    std::vector<std::string> probes;
+    for (const auto& probe : setup.probes)
+      probes.push_back(probe.name);
+    const auto apart = harness::history_differences(
+        probes, study.histories.at(study.runs[0].method), study.histories.at(study.runs[1].method));
+    print(harness::comparison_table(study.runs[0], study.runs[1], study.differences, apart));
     for (const auto& summary : study.runs)
       print(harness::inverted_cells_warning(summary));
     write_report(setup, study, options.directory);

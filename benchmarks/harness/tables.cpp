@@ -99,7 +99,8 @@ std::string convergence_block(const std::vector<RunSummary>& runs,
 
 std::string comparison_table(const RunSummary& sph,
                              const RunSummary& fvm,
-                             const std::map<std::string, double>& difference) {
+                             const std::map<std::string, double>& difference,
+                             const std::map<std::string, double>& history_difference) {
   std::string text = fmt::format("{}, level {}\n", sph.case_name, sph.level);
   text += comparison_line("", "SPH", "FVM", "SPH/FVM", "SPH-FVM, rel. L2");
   text += rule(98);
@@ -129,11 +130,14 @@ std::string comparison_table(const RunSummary& sph,
   }
   for (size_t k = 0; k < std::min(sph.quantities.size(), fvm.quantities.size()); ++k) {
     const io::QuantitySummary &a = sph.quantities[k], &b = fvm.quantities[k];
-    const auto line = [&](const std::string& what, double of_a, double of_b) {
+    const auto line = [&](const std::string& what, double of_a, double of_b,
+                          const std::string& apart = "") {
       text += comparison_line(what, fmt::format("{:.5g}", of_a), fmt::format("{:.5g}", of_b),
-                              ratio(of_a, of_b));
+                              ratio(of_a, of_b), apart);
     };
-    line(fmt::format("{} [{}], end", a.name, a.unit), a.final_value, b.final_value);
+    const auto apart = history_difference.find(a.name);
+    line(fmt::format("{} [{}], end", a.name, a.unit), a.final_value, b.final_value,
+         apart == history_difference.end() ? "" : scientific(apart->second));
     line("  least", a.least, b.least);
     line("  greatest", a.greatest, b.greatest);
     if (a.n_periods > 0 && b.n_periods > 0) line("  period [s]", a.period, b.period);
@@ -144,6 +148,11 @@ std::string comparison_table(const RunSummary& sph,
     text +=
         "errors and SPH-FVM: at the end, relative to the largest norm of the field at any output "
         "time\n";
+  }
+  if (!history_difference.empty()) {
+    text +=
+        "SPH-FVM of probes: root mean square over the output times, relative to the largest "
+        "magnitude\n";
   }
   return text;
 }

@@ -18,7 +18,8 @@ using report::observed_order;
 /// @param difference field: relative L2 difference of the two runs at the nodes
 std::string comparison_table(const io::RunSummary& sph,
                              const io::RunSummary& fvm,
-                             const std::map<std::string, double>& difference);
+                             const std::map<std::string, double>& difference,
+                             const std::map<std::string, double>& history_difference = {});
 
 /// One row per level, coarse to fine: relative L2 errors and the order observed between a level and
 /// the one before it, by spacing. A block for each method, and for each four fields.

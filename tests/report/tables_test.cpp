@@ -2,6 +2,7 @@
 
 #include "benchmarks/harness/tables.hpp"
 
+#include "benchmarks/harness/history_differences.hpp"
 #include "tests/report/sample_study.hpp"
 
 #include <gtest/gtest.h>
@@ -34,6 +35,25 @@ void expect_fits_a_terminal(const std::string& text) {
     EXPECT_FALSE(line.ends_with(' ')) << "'" << line << "'";
   }
   EXPECT_TRUE(text.ends_with('\n'));
+}
+
+TEST(ComparisonTable, TellsHowFarHistoriesAreApart) {
+  std::vector<io::HistoryRow> one(4), other(4);
+  for (size_t i = 0; i < 4; ++i) {
+    one[i].probes = {static_cast<double>(i), 0};
+    other[i].probes = {static_cast<double>(i) + (i == 3 ? 1 : 0), 0};
+  }
+  const auto apart = history_differences({"tip", "zero"}, one, other);
+  EXPECT_DOUBLE_EQ(apart.at("tip"), 0.5 / 4);  // sqrt(1/4) of the largest, 4
+  EXPECT_EQ(apart.at("zero"), 0);
+  io::RunSummary sph = sample_run("sph", 1), fvm = sample_run("fvm", 1);
+  sph.quantities.resize(1);
+  sph.quantities[0].name = "tip";
+  sph.quantities[0].unit = "m";
+  fvm.quantities = sph.quantities;
+  const std::string text = comparison_table(sph, fvm, {}, apart);
+  expect_fits_a_terminal(text);
+  EXPECT_THAT(text, ContainsRegex("tip \\[m\\], end +0 +0 .*1.25e-01\n"));
 }
 
 TEST(ComparisonTable, SetsTheMethodsBesideEachOther) {
