@@ -2,14 +2,16 @@
 /// Flop and bytes per directed pair of the pair sweeps, counted by hand in their code (linear
 /// reconstruction, no limiter, isotropic impedance; a multiply-add is two flop). In 3-D:
 ///   strain rates       3 differences, 9 multiply-adds: 21 flop;
-///                      28 bytes of geometry streamed, 32 gathered
+///                      28 bytes of geometry streamed, 24 read of the neighbour
 ///   momentum           differences 3, P_b C_ba 18, (H_a + H_b) S 27, (L_a + L_b) X 27, jump 6,
 ///                      sum 3, impedance means 4, h.jump and h.h 12, ratio 4, D 9, sums 13: 126
-///                      flop (and 16 for the CFL rate, once a step); 68 bytes streamed, 256
-///                      gathered
+///                      flop (and 16 for the CFL rate, once a step); 44 bytes streamed, 280 read
 ///   face correction    9 differences, 9 + 9 multiply-adds: 45 flop, twice a stage;
-///                      68 bytes streamed, 96 gathered
-/// In 2-D: 10, 2 + 8 + 12 + 12 + 4 + 2 + 4 + 8 + 4 + 6 + 9 = 71, 20 flop; 20 and 48 bytes.
+///                      20 bytes streamed, 96 read
+/// X_b - X_a, three differences from the positions, is not counted: another layout would read it.
+/// In 2-D: 10, 2 + 8 + 12 + 12 + 4 + 2 + 4 + 8 + 4 + 6 + 9 = 71, 20 flop; 20, 32 and 16 bytes.
+/// Bytes streamed are those of rows that differ; where rows share their geometry it stays in the
+/// cache, and a share of the bandwidth above 100 % says so.
 /// Work on nodes alone is not counted.
 
 namespace diptych::probes {
