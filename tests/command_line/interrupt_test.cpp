@@ -34,7 +34,7 @@ const std::string endless =
 TEST(Interrupt, EndsTheStepWritesWhatThereIsAndSaysHowToGoOn) {
   for (const char* signal : {"INT", "TERM"}) {
     const Folder folder;
-    const auto outcome = under(folder, std::string("timeout --preserve-status -s ") + signal + " 4",
+    const auto outcome = under(folder, std::string("timeout --foreground --preserve-status -s ") + signal + " 4",
                                "run" + endless + " --method fvm");
     EXPECT_EQ(outcome.exit_code, 130) << outcome.text;
     EXPECT_THAT(outcome.text, AllOf(HasSubstr("interrupted; what had been computed is in out"),
@@ -57,7 +57,7 @@ TEST(Interrupt, EndsTheStepWritesWhatThereIsAndSaysHowToGoOn) {
 
 TEST(Interrupt, TellsTheTimeLeftOnATerminal) {
   const Folder folder;
-  const auto outcome = under(folder, "timeout --preserve-status -s INT 4 script -qec \"",
+  const auto outcome = under(folder, "timeout --foreground --preserve-status -s INT 4 script -qec \"",
                              "run" + endless + " --method fvm\" /dev/null");
   EXPECT_THAT(outcome.text, AllOf(HasSubstr("\r\033[Kfvm level 2"), HasSubstr(" left  ")));
   for (size_t at = outcome.text.find('\r'); at != std::string::npos;
@@ -72,11 +72,11 @@ TEST(Interrupt, LeavesAStudyThatGoesOn) {
   // the first levels take a fraction of a second, the last minutes
   const std::string arguments =
       "converge swinging-cube-ve2-hex --levels 4 --level 0 --threads 1 --quiet --out out";
-  const auto first = under(folder, "timeout --preserve-status -s TERM 4", arguments);
+  const auto first = under(folder, "timeout --foreground --preserve-status -s TERM 4", arguments);
   EXPECT_EQ(first.exit_code, 130) << first.text;
   EXPECT_THAT(first.text, HasSubstr("finished runs are kept in out"));
   EXPECT_THAT(first.text, HasSubstr("ord.")) << "the finished levels are shown";
-  const auto second = under(folder, "timeout --preserve-status -s TERM 4", arguments);
+  const auto second = under(folder, "timeout --foreground --preserve-status -s TERM 4", arguments);
   EXPECT_THAT(second.text, HasSubstr("taken over, not run again: out/level_0/sph"));
 }
 
