@@ -48,6 +48,7 @@ class NodeTable {
   }
   /// Component 0 of node 0; from here node and component count by their strides.
   const double* origin() const { return data_.data() + first_; }
+  double* origin() { return data_.data() + first_; }
   std::int64_t component_stride() const { return component_stride_; }  ///< 1 in rows
 
   /// Component c of the eight nodes of block b.

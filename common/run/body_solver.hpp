@@ -156,13 +156,13 @@ class BodySolver : public Solver {
                                            with_step && pair_by_pair,
                                            numerical_power_.data(),
                                            largest_rate_.data()};
-    parallel::for_chunks(pairs_.n_blocks, [&](auto begin, auto end, auto chunk) {
-      momentum_(sweep, begin, end, chunk);
-      if (setup_.time_step.speeds == scheme::Speeds::bound && with_step) {
+    scheme::sum_forces(sweep, momentum_);
+    if (with_step && setup_.time_step.speeds == scheme::Speeds::bound) {
+      parallel::for_chunks(pairs_.n_blocks, [&](auto begin, auto end, auto chunk) {
         largest_rate_[chunk] =
             geometric_rate_ * scheme::largest_speed(state_, model_.rho_R, begin, end);
-      }
-    });
+      });
+    }
     if (with_step) stable_dt_ = setup_.time_step.limit() / rate();
   }
 

@@ -1,14 +1,18 @@
 #pragma once
 /// Second pair sweep of an evaluation: internal forces of (18a) with the dissipation D_ab,
-///   T_a = sum_b 1/2 (P_a C_ab - P_b C_ba) + sum_b D_ab,
-/// summed per node: every pair is worked twice, each time for one of its nodes, so that no node
-/// is written by two threads and the sum has a fixed order. P_a sum_b C_ab is taken out of the sum.
+///   T_a = sum_b 1/2 (P_a C_ab - P_b C_ba) + sum_b D_ab.
+/// Runs: every pair is worked once, from its lower node, and its force added to one node and taken
+/// from the other. Segments of blocks go no farther than into the next segment: all even ones are
+/// worked at the same time, then all odd ones, so that no node is written by two threads and every
+/// sum has an order of its own. Rows: every pair is worked twice, each time for one of its nodes,
+/// with P_a sum_b C_ab taken out of the sum.
 ///
 /// Also per node: numerical dissipation 1/2 sum_b (v_b - v_a).D_ab, and on demand the graph CFL
 /// rate sum_b |C_ab| c_ab / (2 Omega_a) with c_ab = max(c_p,a, c_p,b) (physics note 2.1).
 ///
-/// Cost per directed pair in 3-D (linear reconstruction, isotropic): about 75 multiply-adds on 280
-/// bytes of the neighbour and at most 44 bytes of geometry.
+/// Cost in 3-D (linear reconstruction, isotropic): about 75 multiply-adds for a directed pair of
+/// rows, about 90 for both directions in runs, on 280 bytes of the neighbour; geometry at most 44
+/// bytes of a directed pair in rows, 26 in runs.
 
 #include "common/scheme/dissipation.hpp"
 #include "common/scheme/state.hpp"
@@ -30,7 +34,8 @@ struct MomentumSweep {
   double* largest_rate;     ///< 1/s, graph CFL: dt <= 1/rate
 };
 
-/// A compiled sweep over blocks [begin, end) of a chunk.
+/// A compiled sweep over blocks [begin, end) of a chunk: forces of rows into state.T, of runs added
+/// to state.pair_sums.
 template <int Dim>
 using MomentumFunction = void (*)(const MomentumSweep<Dim>& sweep,
                                   std::int64_t begin,
@@ -41,12 +46,16 @@ using MomentumFunction = void (*)(const MomentumSweep<Dim>& sweep,
 template <int Dim>
 MomentumFunction<Dim> momentum_function(const DissipationKind& kind, bool has_H);
 
+/// The sweep over all blocks: internal forces into state.T.
+template <int Dim>
+void sum_forces(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> momentum);
+
 // What follows is for the files that compile sweeps (sweeps/momentum_*.cpp).
 
-/// Sums of a node over its row.
+/// Sums of a node over its pairs.
 template <int Dim>
 struct NodeSums {
-  Lanes force[Dim] = {};  ///< -sum P_b C_ba + sum |S| Z jump (both to be halved)
+  Lanes force[Dim] = {};  ///< 2 T; in rows without P_a sum C_ab
   Lanes power{};          ///< sum (v_b - v_a) . |S| Z jump
   Lanes rate{};           ///< sum |C_ab| z_ab
 };
@@ -109,39 +118,32 @@ DIPTYCH_INLINE Vector<Lanes> reconstructed_jump(const Vector<Lanes>& plain,
   return jump;
 }
 
-/// Geometry of eight pairs.
+/// What the dissipation of eight pairs needs of their geometry; the length of S is free.
 template <int Dim>
-struct PairGeometry {
-  const ForceGeometry<Dim>& force;
-  const FaceGeometry<Dim>& face;
+struct PairFace {
+  Vector<Lanes> S{};  ///< along S_ab
+  Lanes area;         ///< m^2, |S_ab|
 };
 
-/// Adds eight pairs to the sums of their unit.
+/// 2 D_ab of eight pairs.
 /// @param pairs      of the records
 /// @param positions  pairs of X
+/// @param plain      v_b - v_a
 template <int Dim, DissipationKind kind, bool has_H, class Pairs, class Positions>
-DIPTYCH_INLINE void add_pairs(const MomentumSweep<Dim>& sweep,
-                              const PairGeometry<Dim>& geometry,
-                              const Pairs& pairs,
-                              const Positions& positions,
-                              NodeSums<Dim>& sums) {
+DIPTYCH_INLINE Vector<Lanes> dissipation_of(const MomentumSweep<Dim>& sweep,
+                                            const PairFace<Dim>& face,
+                                            const Pairs& pairs,
+                                            const Positions& positions,
+                                            const Vector<Lanes>& plain) {
   using Record = NodeRecord<Dim>;
-  Vector<Lanes> C_ba{}, S{}, plain{}, h{};
+  Vector<Lanes> h{};
   Slopes<Dim> slopes;
 #pragma GCC unroll 3
   for (int i = 0; i < Dim; ++i) {
-    C_ba[i] = algebra::load(geometry.force.C_ba[i]);
-    S[i] = algebra::load(geometry.face.S_ab[i]);
-    plain[i] = pairs.neighbour(Record::v + i) - pairs.own(Record::v + i);
-  }
-#pragma GCC unroll 3
-  for (int i = 0; i < Dim; ++i) {
-    Lanes PC{};
 #pragma GCC unroll 3
     for (int j = 0; j < Dim; ++j) {
       const int ij = i * Dim + j;
-      PC += pairs.neighbour(Record::P + ij) * C_ba[j];
-      h[i] += (pairs.neighbour(Record::H + ij) + pairs.own(Record::H + ij)) * S[j];
+      h[i] += (pairs.neighbour(Record::H + ij) + pairs.own(Record::H + ij)) * face.S[j];
       if constexpr (kind.reconstruction == Reconstruction::linear) {
         const Lanes X = positions.neighbour(j) - positions.own(j);
         if constexpr (limits_slopes(kind.limiter)) {
@@ -152,71 +154,100 @@ DIPTYCH_INLINE void add_pairs(const MomentumSweep<Dim>& sweep,
         }
       }
     }
-    sums.force[i] -= PC;
   }
-  const Lanes area = algebra::load(geometry.face.area);
-  const Lanes z_p = pairs.neighbour(Record::z_p);
   const Vector<Lanes> jump = reconstructed_jump<Dim, kind.limiter>(plain, slopes, h);
   Vector<Lanes> D{};
   if constexpr (kind.impedance == Impedance::isotropic) {
-    const Lanes z_s = pairs.neighbour(Record::z_s);
-    D = isotropic_impedance_times<Dim>(0.5 * (z_p + pairs.own(Record::z_p)),
-                                       0.5 * (z_s + pairs.own(Record::z_s)), h, jump);
+    D = isotropic_impedance_times<Dim>(
+        0.5 * (pairs.neighbour(Record::z_p) + pairs.own(Record::z_p)),
+        0.5 * (pairs.neighbour(Record::z_s) + pairs.own(Record::z_s)), h, jump);
   } else {
     physics::Response<Lanes> response;
     physics::Deformation<Lanes> X;
     mean_state<Dim>(pairs, response, X);
     Lanes S2{};
     for (int i = 0; i < Dim; ++i)
-      S2 += S[i] * S[i];
+      S2 += face.S[i] * face.S[i];
     const Lanes inverse = algebra::inverse_or_zero(algebra::square_root(S2));
     Vector<Lanes> N{};
     for (int i = 0; i < Dim; ++i)
-      N[i] = S[i] * inverse;
-    if constexpr (Dim == 2) N[1] = area > 0 ? N[1] : Lanes{};
-    N[0] = area > 0 ? N[0] : Lanes{} + 1.0;  // padding: any unit vector, its area is zero
+      N[i] = face.S[i] * inverse;
+    if constexpr (Dim == 2) N[1] = face.area > 0 ? N[1] : Lanes{};
+    N[0] = face.area > 0 ? N[0] : Lanes{} + 1.0;  // padding: any unit vector, its area is zero
     D = algebra::product(physics::impedance<has_H>(response, X, sweep.rho_R, N), jump);
   }
-  for (int i = 0; i < Dim; ++i) {
-    const Lanes AD = (sweep.factor * area) * D[i];
-    sums.force[i] += AD;
-    sums.power += plain[i] * AD;
-  }
-  if (sweep.with_bound) {
-    Lanes C2{};
-    for (int i = 0; i < Dim; ++i) {
-      const Lanes C_ab = 2.0 * S[i] + C_ba[i];
-      C2 += C_ab * C_ab;
-    }
-    sums.rate += algebra::square_root(C2) * algebra::larger(z_p, Lanes{} + pairs.own(Record::z_p));
-  }
+  for (int i = 0; i < Dim; ++i)
+    D[i] *= sweep.factor * face.area;
+  return D;
 }
 
-/// Sums of the pairs of a unit.
-template <InstructionSet isa, Arrangement arrangement, int Dim, DissipationKind kind, bool has_H>
-DIPTYCH_INLINE NodeSums<Dim> sums_of(const MomentumSweep<Dim>& sweep, std::int64_t unit) {
+/// |C| max(z_p,a, z_p,b) of eight pairs.
+template <int Dim, class Pairs>
+DIPTYCH_INLINE Lanes rate_of(const Vector<Lanes>& C, const Pairs& pairs) {
+  using Record = NodeRecord<Dim>;
+  Lanes C2{};
+  for (int i = 0; i < Dim; ++i)
+    C2 += C[i] * C[i];
+  return algebra::square_root(C2) *
+         algebra::larger(pairs.neighbour(Record::z_p), Lanes{} + pairs.own(Record::z_p));
+}
+
+/// v_b - v_a of eight pairs.
+template <int Dim, class Pairs>
+DIPTYCH_INLINE Vector<Lanes> plain_jump(const Pairs& pairs) {
+  using Record = NodeRecord<Dim>;
+  Vector<Lanes> plain{};
+  for (int i = 0; i < Dim; ++i)
+    plain[i] = pairs.neighbour(Record::v + i) - pairs.own(Record::v + i);
+  return plain;
+}
+
+/// Rows: the sums of node a.
+template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
+DIPTYCH_INLINE NodeSums<Dim> sums_of_node(const MomentumSweep<Dim>& sweep, std::int64_t a) {
   using Record = NodeRecord<Dim>;
   constexpr bool exact = kind.impedance == Impedance::exact;
+  constexpr auto rows = Arrangement::rows;
   const SweepGraph<Dim>& graph = sweep.graph;
-  const std::int64_t begin = graph.row[unit], end = graph.row[unit + 1];
-  const ForceGeometry<Dim>* force = graph.force.data() + graph.first[unit];
-  const FaceGeometry<Dim>* face = graph.face.data() + graph.first[unit];
+  const ForceGeometry<Dim>* force = graph.force.data() + graph.first[a];
+  const FaceGeometry<Dim>* face_geometry = graph.face.data() + graph.first[a];
   NodeSums<Dim> sums;
-  if constexpr (arrangement == Arrangement::runs) {
-    prefetch_last_run<Record::n(exact)>(graph, sweep.state.records, unit);
-  }
-  for (std::int64_t chunk = begin; chunk < end; ++chunk, ++force, ++face) {
+  for (std::int64_t chunk = graph.row[a]; chunk < graph.row[a + 1];
+       ++chunk, ++force, ++face_geometry) {
     prefetch(force + chunks_ahead);
-    prefetch(face + chunks_ahead);
-    const auto pairs = pairs_of<isa, arrangement, Record::n(exact), Record::stride(exact)>(
-        graph, sweep.state.records, unit, chunk);
-    const auto positions = vector_pairs_of<isa, arrangement>(graph, graph.X, unit, chunk);
-    add_pairs<Dim, kind, has_H>(sweep, {*force, *face}, pairs, positions, sums);
+    prefetch(face_geometry + chunks_ahead);
+    const auto pairs = pairs_of<isa, rows, Record::n(exact), Record::stride(exact)>(
+        graph, sweep.state.records, a, chunk);
+    const auto positions = vector_pairs_of<isa, rows>(graph, graph.X, a, chunk);
+    PairFace<Dim> face;
+    face.area = algebra::load(face_geometry->area);
+    Vector<Lanes> C_ba{};
+    for (int i = 0; i < Dim; ++i) {
+      C_ba[i] = algebra::load(force->C_ba[i]);
+      face.S[i] = algebra::load(face_geometry->S_ab[i]);
+    }
+    const Vector<Lanes> plain = plain_jump<Dim>(pairs);
+    const Vector<Lanes> D = dissipation_of<Dim, kind, has_H>(sweep, face, pairs, positions, plain);
+#pragma GCC unroll 3
+    for (int i = 0; i < Dim; ++i) {
+      Lanes PC{};
+#pragma GCC unroll 3
+      for (int j = 0; j < Dim; ++j)
+        PC += pairs.neighbour(Record::P + i * Dim + j) * C_ba[j];
+      sums.force[i] += D[i] - PC;
+      sums.power += plain[i] * D[i];
+    }
+    if (sweep.with_bound) {
+      Vector<Lanes> C_ab{};
+      for (int i = 0; i < Dim; ++i)
+        C_ab[i] = 2.0 * face.S[i] + C_ba[i];
+      sums.rate += rate_of<Dim>(C_ab, pairs);
+    }
   }
   return sums;
 }
 
-/// Forces on the eight nodes of block b, each over its row of pairs.
+/// Rows: forces on the eight nodes of block b, each over its pairs.
 /// @return numerical dissipation of their halves of the pairs [W]; updates the largest rate
 template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
 DIPTYCH_INLINE double forces_on_block(const MomentumSweep<Dim>& sweep,
@@ -225,17 +256,12 @@ DIPTYCH_INLINE double forces_on_block(const MomentumSweep<Dim>& sweep,
   using Record = NodeRecord<Dim>;
   const SweepGraph<Dim>& graph = sweep.graph;
   NodeSums<Dim> sums;
-  if (graph.shape.arrangement == Arrangement::runs) {
-    sums = sums_of<isa, Arrangement::runs, Dim, kind, has_H>(sweep, b);
-  } else {
-    for (int lane = 0; lane < n_lanes; ++lane) {
-      const auto of_node =
-          sums_of<isa, Arrangement::rows, Dim, kind, has_H>(sweep, b * n_lanes + lane);
-      for (int i = 0; i < Dim; ++i)
-        sums.force[i][lane] = algebra::lane_sum(of_node.force[i]);
-      sums.power[lane] = algebra::lane_sum(of_node.power);
-      sums.rate[lane] = algebra::lane_sum(of_node.rate);
-    }
+  for (int lane = 0; lane < n_lanes; ++lane) {
+    const auto of_node = sums_of_node<isa, Dim, kind, has_H>(sweep, b * n_lanes + lane);
+    for (int i = 0; i < Dim; ++i)
+      sums.force[i][lane] = algebra::lane_sum(of_node.force[i]);
+    sums.power[lane] = algebra::lane_sum(of_node.power);
+    sums.rate[lane] = algebra::lane_sum(of_node.rate);
   }
   for (int i = 0; i < Dim; ++i) {
     Lanes PC{};
@@ -254,14 +280,79 @@ DIPTYCH_INLINE double forces_on_block(const MomentumSweep<Dim>& sweep,
   return 0.25 * algebra::lane_sum(sums.power);
 }
 
+/// sums[0..7] += value
+DIPTYCH_INLINE void add_to(double* sums, const Lanes& value) {
+  algebra::store(sums, algebra::load(sums) + value);
+}
+
+/// Runs: forces of the pairs of block b with nodes above them, added to both.
+/// @return their numerical dissipation [W]
+template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
+DIPTYCH_INLINE double add_forces_of_block(const MomentumSweep<Dim>& sweep, std::int64_t b) {
+  using Record = NodeRecord<Dim>;
+  constexpr bool exact = kind.impedance == Impedance::exact;
+  const SweepGraph<Dim>& graph = sweep.graph;
+  const MutualPairs<Dim>& mutual = graph.mutual;
+  const std::int64_t begin = mutual.row[b], end = mutual.row[b + 1];
+  if (begin == end) return 0;
+  prefetch_ahead<Record::n(exact)>(sweep.state.records, b, mutual.offset[end - 1]);
+  const MutualGeometry<Dim>* geometry = mutual.geometry.data() + mutual.first[b];
+  double* const own_sums = sweep.state.pair_sums.origin() + b * n_lanes;
+  const std::int64_t stride = sweep.state.pair_sums.component_stride();
+  NodeSums<Dim> sums;
+  for (std::int64_t chunk = begin; chunk < end; ++chunk, ++geometry) {
+    prefetch(geometry + chunks_ahead);
+    const std::int64_t offset = mutual.offset[chunk];
+    const RunPairs pairs(sweep.state.records, b, offset);
+    const RunPairs positions(graph.X, b, offset);
+    PairFace<Dim> face;
+    face.area = algebra::load(geometry->area);
+    Vector<Lanes> C_ab{}, C_ba{};
+    for (int i = 0; i < Dim; ++i) {
+      C_ab[i] = algebra::load(geometry->C_ab[i]);
+      C_ba[i] = algebra::load(geometry->C_ba[i]);
+      face.S[i] = C_ab[i] - C_ba[i];
+    }
+    const Vector<Lanes> plain = plain_jump<Dim>(pairs);
+    const Vector<Lanes> D = dissipation_of<Dim, kind, has_H>(sweep, face, pairs, positions, plain);
+    double* const their_sums = own_sums + offset;
+#pragma GCC unroll 3
+    for (int i = 0; i < Dim; ++i) {
+      Lanes force = D[i];
+#pragma GCC unroll 3
+      for (int j = 0; j < Dim; ++j) {
+        const int ij = Record::P + i * Dim + j;
+        force += pairs.own(ij) * C_ab[j];
+        force -= pairs.neighbour(ij) * C_ba[j];
+      }
+      sums.force[i] += force;
+      add_to(their_sums + i * stride, -force);
+      sums.power += plain[i] * D[i];
+    }
+    if (sweep.with_bound) {
+      sums.rate += rate_of<Dim>(C_ab, pairs);
+      add_to(their_sums + Dim * stride, rate_of<Dim>(C_ba, pairs));
+    }
+  }
+  for (int i = 0; i < Dim; ++i)
+    add_to(own_sums + i * stride, sums.force[i]);
+  if (sweep.with_bound) add_to(own_sums + Dim * stride, sums.rate);
+  return 0.5 * algebra::lane_sum(sums.power);
+}
+
 template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
 DIPTYCH_INLINE void forces_on_blocks(const MomentumSweep<Dim>& sweep,
                                      std::int64_t begin,
                                      std::int64_t end,
                                      std::int64_t chunk) {
   double power = 0, rate = 0;
-  for (std::int64_t b = begin; b < end; ++b)
-    power += forces_on_block<isa, Dim, kind, has_H>(sweep, b, rate);
+  if (sweep.graph.shape.arrangement == Arrangement::runs) {
+    for (std::int64_t b = begin; b < end; ++b)
+      power += add_forces_of_block<isa, Dim, kind, has_H>(sweep, b);
+  } else {
+    for (std::int64_t b = begin; b < end; ++b)
+      power += forces_on_block<isa, Dim, kind, has_H>(sweep, b, rate);
+  }
   sweep.numerical_power[chunk] = power;
   sweep.largest_rate[chunk] = rate;
 }

@@ -39,13 +39,9 @@ class GatheredPairs {
 /// A neighbour of each of eight nodes, side by side.
 class RunPairs {
  public:
-  template <int Dim>
-  DIPTYCH_INLINE RunPairs(const SweepGraph<Dim>& graph,
-                          const NodeTable& table,
-                          std::int64_t b,
-                          std::int64_t chunk)
+  DIPTYCH_INLINE RunPairs(const NodeTable& table, std::int64_t b, std::int64_t offset)
       : own_(table.origin() + b * n_lanes),
-        neighbour_(own_ + graph.offset.data()[chunk]),
+        neighbour_(own_ + offset),
         stride_(table.component_stride()) {}
   DIPTYCH_INLINE Lanes neighbour(int c) const { return algebra::load(neighbour_ + c * stride_); }
   DIPTYCH_INLINE Lanes own(int c) const { return algebra::load(own_ + c * stride_); }
@@ -55,14 +51,11 @@ class RunPairs {
   std::int64_t stride_;
 };
 
-/// Asks for what the next blocks will be the first to read: the run farthest ahead. The processor
-/// does not follow as many streams as there are components.
-template <int n, int Dim>
-DIPTYCH_INLINE void prefetch_last_run(const SweepGraph<Dim>& graph,
-                                      const NodeTable& table,
-                                      std::int64_t b) {
-  if (graph.row[b] == graph.row[b + 1]) return;
-  const double* ahead = table.origin() + (b + 2) * n_lanes + graph.offset[graph.row[b + 1] - 1];
+/// Asks for n components of what the next blocks will be the first to read: the run farthest ahead.
+/// The processor does not follow as many streams as there are components.
+template <int n>
+DIPTYCH_INLINE void prefetch_ahead(const NodeTable& table, std::int64_t b, std::int64_t offset) {
+  const double* ahead = table.origin() + (b + 2) * n_lanes + offset;
 #pragma GCC unroll 8
   for (int c = 0; c < n; ++c)
     __builtin_prefetch(ahead + c * table.component_stride());
@@ -78,7 +71,7 @@ DIPTYCH_INLINE auto pairs_of(const SweepGraph<Dim>& graph,
   if constexpr (arrangement == Arrangement::rows) {
     return GatheredPairs<isa, n, stride>(graph, table, unit, chunk);
   } else {
-    return RunPairs(graph, table, unit, chunk);
+    return RunPairs(table, unit, graph.offset.data()[chunk]);
   }
 }
 

@@ -33,6 +33,19 @@ PairRuns find_runs(const PairGraph& graph) {
   return runs;
 }
 
+PairRuns upward(const PairRuns& runs) {
+  PairRuns half;
+  half.row.assign(1, 0);
+  half.reach = runs.reach;
+  half.filling = runs.filling;
+  for (size_t b = 0; b + 1 < runs.row.size(); ++b) {
+    for (std::int64_t k = runs.row[b]; k < runs.row[b + 1]; ++k)
+      if (runs.offset[k] > 0) half.offset.push_back(runs.offset[k]);
+    half.row.push_back(static_cast<std::int64_t>(half.offset.size()));
+  }
+  return half;
+}
+
 void pairs_of_block(const PairGraph& graph,
                     const PairRuns& runs,
                     std::int64_t b,
@@ -43,9 +56,11 @@ void pairs_of_block(const PairGraph& graph,
   for (std::int64_t a = b * n_lanes; a < end; ++a) {
     std::int64_t chunk = 0;
     for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-      while (runs.offset[runs.row[b] + chunk] != graph.neighbour[p] - a)
+      const std::int64_t offset = graph.neighbour[p] - a;
+      while (chunk < n_chunks && runs.offset[runs.row[b] + chunk] < offset)
         ++chunk;
-      pair[chunk * n_lanes + a % n_lanes] = p;
+      if (chunk < n_chunks && runs.offset[runs.row[b] + chunk] == offset)
+        pair[chunk * n_lanes + a % n_lanes] = p;
     }
   }
 }

@@ -15,6 +15,9 @@ struct PairRuns {
 
 PairRuns find_runs(const PairGraph& graph);
 
+/// The runs of positive offsets: every pair once, from its lower node.
+PairRuns upward(const PairRuns& runs);
+
 /// Pairs of the nodes of block b at each of its offsets.
 /// @param pair [8 * chunks of the block] lane by lane; -1 where a node has no such neighbour
 void pairs_of_block(const PairGraph& graph,

@@ -38,6 +38,8 @@ State<Dim>::State(std::int64_t n,
   using Record = NodeRecord<Dim>;
   records =
       algebra::NodeTable(n, Record::n(exact_impedance), Record::stride(exact_impedance), shape);
+  if (shape.arrangement == algebra::Arrangement::runs)
+    pair_sums = algebra::NodeTable(n, Dim + 1, Dim + 1, shape);
 }
 
 template <int Dim>
@@ -48,7 +50,8 @@ void State<Dim>::allow_face_correction() {
 
 template <int Dim>
 std::int64_t State<Dim>::bytes() const {
-  std::int64_t sum = velocity.bytes() + records.bytes() + gradients.bytes() + stresses.bytes();
+  std::int64_t sum =
+      velocity.bytes() + records.bytes() + gradients.bytes() + stresses.bytes() + pair_sums.bytes();
   for (const BlockField* f :
        {&v, &u, &F, &H, &J, &A, &S, &v_0, &u_0, &F_0, &H_0, &J_0, &L_0, &L, &T}) {
     sum += f->bytes();

@@ -61,6 +61,8 @@ struct State {
   // what neighbours read
   algebra::NodeTable velocity;
   algebra::NodeTable records;  ///< NodeRecord
+  // runs only: what the momentum sweep adds up for both nodes of a pair
+  algebra::NodeTable pair_sums;  ///< 2 T before the loads [N]; 2 rho_R Omega times the rate [kg/s]
   // face correction only: what its sweeps read
   algebra::NodeTable gradients;  ///< uncorrected dF/dt
   algebra::NodeTable stresses;   ///< P

@@ -1,5 +1,6 @@
 #include "common/scheme/sweep_graph.hpp"
 
+#include "common/parallel/for_chunks.hpp"
 #include "common/scheme/pair_runs.hpp"
 #include "common/scheme/row_classes.hpp"
 
@@ -17,6 +18,26 @@ constexpr double least_filling = 0.6;
 
 std::int64_t chunks_of(std::int64_t n_pairs) {
   return (n_pairs + n_lanes - 1) / n_lanes;
+}
+
+template <class T>
+void copy(const std::vector<T>& from, algebra::AlignedArray<T>& to) {
+  to = algebra::AlignedArray<T>(static_cast<std::int64_t>(from.size()));
+  std::copy(from.begin(), from.end(), to.data());
+}
+
+/// Blocks of a segment: at least the reach of the pairs, and such that the segments of a phase
+/// (2^k or 3 2^k of them) divide evenly among two threads, and mostly among more.
+std::int64_t segment_of(std::int64_t n_blocks, std::int64_t reach) {
+  constexpr std::int64_t unit = parallel::chunk_size;
+  const std::int64_t n_units = std::max<std::int64_t>(1, (n_blocks + unit - 1) / unit);
+  const std::int64_t least =
+      std::max<std::int64_t>(1, (reach + n_lanes * unit - 1) / (n_lanes * unit));
+  const std::int64_t most = n_units / least;
+  std::int64_t n_segments = 1;
+  for (std::int64_t n = 2; n <= most; n *= 2)
+    n_segments = n >= 4 && n / 2 * 3 <= most ? n / 2 * 3 : n;
+  return unit * ((n_units + n_segments - 1) / n_segments);
 }
 
 /// The pairs of the chunks of one unit (a node in rows, a block in runs), lane by lane, -1: none.
@@ -101,28 +122,16 @@ EqualGroups group_units(const PairGraph& graph, const RowClasses& classes, const
   });
 }
 
-template <int Dim>
-void set_chunks(const std::vector<Vec3>& C, std::int64_t first, SweepGraph<Dim>& sweep) {
-  for (size_t k = 0; k < C.size() / 2; ++k) {
-    const std::int64_t chunk = first + static_cast<std::int64_t>(k) / n_lanes;
-    const auto lane = static_cast<int>(k % n_lanes);
-    const Vec3 &C_ab = C[2 * k], &C_ba = C[2 * k + 1];
-    const Vec3 S_ab = 0.5 * (C_ab - C_ba);
-    for (int i = 0; i < Dim; ++i) {
-      sweep.strain[chunk].C_ab[i][lane] = C_ab[i];
-      sweep.force[chunk].C_ba[i][lane] = C_ba[i];
-      sweep.face[chunk].S_ab[i][lane] = static_cast<float>(S_ab[i]);
-    }
-    sweep.face[chunk].area[lane] = static_cast<float>(S_ab.norm());
-  }
-}
-
-/// Geometry of every group once, and where each unit finds it.
-template <int Dim>
+/// Geometry of every group once, set lane by lane by set(chunk, lane, C_ab, C_ba).
+/// @param first  of each unit, into the geometry
+/// @param allocate  called with the number of chunks
+template <class Allocate, class Set>
 void set_geometry(const PairGraph& graph,
                   const RowClasses& classes,
                   const Layouts& layouts,
-                  SweepGraph<Dim>& sweep) {
+                  algebra::AlignedArray<std::int64_t>& first_of_unit,
+                  const Allocate& allocate,
+                  const Set& set) {
   const EqualGroups groups = group_units(graph, classes, layouts);
   std::vector<std::int64_t> first(1, 0);
   Lay pairs;
@@ -130,17 +139,67 @@ void set_geometry(const PairGraph& graph,
     layouts.lay(u, pairs);
     first.push_back(first.back() + static_cast<std::int64_t>(pairs.size()) / n_lanes);
   }
-  sweep.strain = algebra::AlignedArray<StrainGeometry<Dim>>(first.back());
-  sweep.force = algebra::AlignedArray<ForceGeometry<Dim>>(first.back());
-  sweep.face = algebra::AlignedArray<FaceGeometry<Dim>>(first.back());
+  allocate(first.back());
   std::vector<Vec3> C;
   for (size_t g = 0; g < groups.representative.size(); ++g) {
     layouts.lay(groups.representative[g], pairs);
     geometry_of(graph, classes, pairs, C);
-    set_chunks(C, first[g], sweep);
+    for (size_t k = 0; k < pairs.size(); ++k) {
+      set(first[g] + static_cast<std::int64_t>(k) / n_lanes, static_cast<int>(k % n_lanes),
+          C[2 * k], C[2 * k + 1]);
+    }
   }
   for (std::int64_t u = 0; u < layouts.n_units(); ++u)
-    sweep.first[u] = first[groups.of[u]];
+    first_of_unit[u] = first[groups.of[u]];
+}
+
+/// Of the pairs of every node, for its own sums.
+template <int Dim>
+void set_directed(const PairGraph& graph,
+                  const RowClasses& classes,
+                  const Layouts& layouts,
+                  SweepGraph<Dim>& sweep) {
+  const bool rows = sweep.shape.arrangement == Arrangement::rows;
+  const auto allocate = [&](std::int64_t n) {
+    sweep.strain = algebra::AlignedArray<StrainGeometry<Dim>>(n);
+    sweep.force = algebra::AlignedArray<ForceGeometry<Dim>>(rows ? n : 0);
+    sweep.face = algebra::AlignedArray<FaceGeometry<Dim>>(n);
+  };
+  const auto set = [&](std::int64_t chunk, int lane, const Vec3& C_ab, const Vec3& C_ba) {
+    const Vec3 S_ab = 0.5 * (C_ab - C_ba);
+    for (int i = 0; i < Dim; ++i) {
+      sweep.strain[chunk].C_ab[i][lane] = C_ab[i];
+      if (rows) sweep.force[chunk].C_ba[i][lane] = C_ba[i];
+      sweep.face[chunk].S_ab[i][lane] = static_cast<float>(S_ab[i]);
+    }
+    sweep.face[chunk].area[lane] = static_cast<float>(S_ab.norm());
+  };
+  set_geometry(graph, classes, layouts, sweep.first, allocate, set);
+}
+
+/// Of every pair once.
+template <int Dim>
+void set_mutual(const PairGraph& graph,
+                const RowClasses& classes,
+                const PairRuns& runs,
+                SweepGraph<Dim>& sweep) {
+  MutualPairs<Dim>& mutual = sweep.mutual;
+  const PairRuns half = upward(runs);
+  copy(half.row, mutual.row);
+  copy(half.offset, mutual.offset);
+  mutual.segment = segment_of(sweep.n_blocks, runs.reach);
+  mutual.first = algebra::AlignedArray<std::int64_t>(sweep.n_blocks);
+  const auto allocate = [&](std::int64_t n) {
+    mutual.geometry = algebra::AlignedArray<MutualGeometry<Dim>>(n);
+  };
+  const auto set = [&](std::int64_t chunk, int lane, const Vec3& C_ab, const Vec3& C_ba) {
+    for (int i = 0; i < Dim; ++i) {
+      mutual.geometry[chunk].C_ab[i][lane] = C_ab[i];
+      mutual.geometry[chunk].C_ba[i][lane] = C_ba[i];
+    }
+    mutual.geometry[chunk].area[lane] = static_cast<float>((0.5 * (C_ab - C_ba)).norm());
+  };
+  set_geometry(graph, classes, RunLayouts(graph, half), mutual.first, allocate, set);
 }
 
 template <int Dim>
@@ -173,7 +232,7 @@ void set_rows(const PairGraph& graph, const RowClasses& classes, SweepGraph<Dim>
       node[k - graph.row[a]] = graph.neighbour[classes.order[k]];
   }
   sweep.first = algebra::AlignedArray<std::int64_t>(n);
-  set_geometry(graph, classes, RowLayouts(graph, classes), sweep);
+  set_directed(graph, classes, RowLayouts(graph, classes), sweep);
 }
 
 template <int Dim>
@@ -182,12 +241,11 @@ void set_runs(const PairGraph& graph,
               const PairRuns& runs,
               SweepGraph<Dim>& sweep) {
   sweep.shape = {Arrangement::runs, runs.reach + n_lanes};
-  sweep.row = algebra::AlignedArray<std::int64_t>(sweep.n_blocks + 1);
-  std::copy(runs.row.begin(), runs.row.end(), sweep.row.data());
-  sweep.offset = algebra::AlignedArray<std::int32_t>(runs.row.back());
-  std::copy(runs.offset.begin(), runs.offset.end(), sweep.offset.data());
+  copy(runs.row, sweep.row);
+  copy(runs.offset, sweep.offset);
   sweep.first = algebra::AlignedArray<std::int64_t>(sweep.n_blocks);
-  set_geometry(graph, classes, RunLayouts(graph, runs), sweep);
+  set_directed(graph, classes, RunLayouts(graph, runs), sweep);
+  set_mutual(graph, classes, runs, sweep);
 }
 
 Arrangement best_arrangement(const PairGraph& graph) {
@@ -220,8 +278,8 @@ SweepGraph<Dim>::SweepGraph(const PairGraph& graph, Arrangement arrangement)
 template <int Dim>
 std::int64_t SweepGraph<Dim>::bytes() const {
   return row.bytes() + neighbours.bytes() + offset.bytes() + first.bytes() + strain.bytes() +
-         force.bytes() + face.bytes() + X.bytes() + inverse_Omega.bytes() + Omega.bytes() +
-         C_sum.bytes();
+         force.bytes() + face.bytes() + mutual.bytes() + X.bytes() + inverse_Omega.bytes() +
+         Omega.bytes() + C_sum.bytes();
 }
 
 template struct SweepGraph<2>;

@@ -39,17 +39,39 @@ struct StrainGeometry {
   double C_ab[Dim][algebra::n_lanes];  ///< m^2
 };
 
-/// for the internal forces,
+/// for the internal forces where each node sums its own (rows),
 template <int Dim>
 struct ForceGeometry {
   double C_ba[Dim][algebra::n_lanes];  ///< m^2
 };
 
-/// for dissipation and face correction.
+/// for the internal forces where each pair is worked once, for both of its nodes (runs),
+template <int Dim>
+struct MutualGeometry {
+  double C_ab[Dim][algebra::n_lanes], C_ba[Dim][algebra::n_lanes];  ///< m^2
+  float area[algebra::n_lanes];                                     ///< m^2, |S_ab|
+};
+
+/// for the dissipation (rows) and the face correction.
 template <int Dim>
 struct FaceGeometry {
   float S_ab[Dim][algebra::n_lanes];  ///< m^2, 1/2 (C_ab - C_ba)
   float area[algebra::n_lanes];       ///< m^2, |S_ab|
+};
+
+/// Runs only: every pair once, in the chunks of the block of its lower node, ascending offsets.
+template <int Dim>
+struct MutualPairs {
+  algebra::AlignedArray<std::int64_t> row;     ///< [n_blocks + 1] into chunks
+  algebra::AlignedArray<std::int32_t> offset;  ///< b - a > 0 of each chunk
+  algebra::AlignedArray<std::int64_t> first;   ///< [n_blocks] into the geometry
+  algebra::AlignedArray<MutualGeometry<Dim>> geometry;
+  /// Blocks of a segment: no pair goes farther than into the next, so that every second segment
+  /// can be worked at the same time. A whole number of chunks of parallel::for_chunks.
+  std::int64_t segment = 0;
+  std::int64_t bytes() const {
+    return row.bytes() + offset.bytes() + first.bytes() + geometry.bytes();
+  }
 };
 
 template <int Dim>
@@ -63,6 +85,7 @@ struct SweepGraph {
   algebra::AlignedArray<StrainGeometry<Dim>> strain;
   algebra::AlignedArray<ForceGeometry<Dim>> force;
   algebra::AlignedArray<FaceGeometry<Dim>> face;
+  MutualPairs<Dim> mutual;
   algebra::NodeTable X;                         ///< m
   algebra::AlignedArray<double> inverse_Omega;  ///< [n_blocks * 8] 1/m^3, 0 in the padding
   algebra::AlignedArray<double> Omega;          ///< [n_blocks * 8] m^3, 0 in the padding

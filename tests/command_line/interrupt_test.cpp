@@ -34,8 +34,9 @@ const std::string endless =
 TEST(Interrupt, EndsTheStepWritesWhatThereIsAndSaysHowToGoOn) {
   for (const char* signal : {"INT", "TERM"}) {
     const Folder folder;
-    const auto outcome = under(folder, std::string("timeout --foreground --preserve-status -s ") + signal + " 4",
-                               "run" + endless + " --method fvm");
+    const auto outcome =
+        under(folder, std::string("timeout --foreground --preserve-status -s ") + signal + " 4",
+              "run" + endless + " --method fvm");
     EXPECT_EQ(outcome.exit_code, 130) << outcome.text;
     EXPECT_THAT(outcome.text, AllOf(HasSubstr("interrupted; what had been computed is in out"),
                                     HasSubstr("the same command begins the run again")));
@@ -57,8 +58,9 @@ TEST(Interrupt, EndsTheStepWritesWhatThereIsAndSaysHowToGoOn) {
 
 TEST(Interrupt, TellsTheTimeLeftOnATerminal) {
   const Folder folder;
-  const auto outcome = under(folder, "timeout --foreground --preserve-status -s INT 4 script -qec \"",
-                             "run" + endless + " --method fvm\" /dev/null");
+  const auto outcome =
+      under(folder, "timeout --foreground --preserve-status -s INT 4 script -qec \"",
+            "run" + endless + " --method fvm\" /dev/null");
   EXPECT_THAT(outcome.text, AllOf(HasSubstr("\r\033[Kfvm level 2"), HasSubstr(" left  ")));
   for (size_t at = outcome.text.find('\r'); at != std::string::npos;
        at = outcome.text.find('\r', at + 1)) {

@@ -196,8 +196,7 @@ class LoadedBody {
     if (kappa_f_ != 0) face.stresses(pairs_, state_, kappa_f_, 0, blocks);
     const scheme::MomentumSweep<Dim> forces{
         pairs_, state_, model_.rho_R, 1, false, numerical_.data(), rate_.data()};
-    const auto momentum = scheme::momentum_function<Dim>({}, true);
-    parallel::for_chunks(blocks, [&](auto b, auto e, auto c) { momentum(forces, b, e, c); });
+    scheme::sum_forces(forces, scheme::momentum_function<Dim>({}, true));
   }
 
   /// sum m v . a with the accelerations that constraints leave.
