@@ -3,6 +3,7 @@
 #include "common/base/error.hpp"
 #include "common/base/registry.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/scheme/class_repair.hpp"
 #include "common/scheme/closure_repair.hpp"
 #include "meshes/dual_measure.hpp"
 #include "sph/kernel_correction.hpp"
@@ -42,7 +43,8 @@ void repair_by_gamma(const Kernel& kernel, const std::vector<double>& h, scheme:
 }
 
 /// Least change of the C_ab, weighted with the kernel: under disorder its change is half of
-/// gamma's, and the stable step stays that of the kernel without any repair.
+/// gamma's, and the stable step stays that of the kernel without any repair. On lattices equal rows
+/// stay equal.
 void repair_by_pairs(const Kernel& kernel, const std::vector<double>& h, scheme::PairGraph& graph) {
   std::vector<double> k(graph.neighbour.size());
   parallel::for_chunks(graph.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
@@ -54,7 +56,7 @@ void repair_by_pairs(const Kernel& kernel, const std::vector<double>& h, scheme:
       }
     }
   });
-  scheme::repair_closure_pairs(graph, k);
+  if (!scheme::repair_closure_by_classes(graph, k)) scheme::repair_closure_pairs(graph, k);
 }
 
 base::Registry<Repair> repairs() {

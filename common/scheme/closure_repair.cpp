@@ -1,6 +1,7 @@
 #include "common/scheme/closure_repair.hpp"
 
 #include "common/scheme/closure_correction.hpp"
+#include "common/scheme/closure_gap.hpp"
 #include "common/scheme/pair_correction.hpp"
 
 #include <cmath>
@@ -10,30 +11,6 @@
 namespace diptych::scheme {
 
 namespace {
-
-/// What is missing: A_aN_a + 1/2 sum_b (C_ab - C_ba).
-Field closure_gap(const PairGraph& graph) {
-  Field gap = graph.boundary_area;
-  for_each_node(gap.size(), [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t a = begin; a < end; ++a) {
-      Vec3 sum = Vec3::Zero();
-      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-        sum += graph.C[p] - graph.C[graph.reverse[p]];
-      }
-      gap[a] += 0.5 * sum;
-    }
-  });
-  return gap;
-}
-
-/// 1 / Omega_a^((d-1)/d), the unit of a node's closure.
-std::vector<double> area_units(const PairGraph& graph) {
-  std::vector<double> unit(graph.Omega.size());
-  const double power = (1.0 - graph.dimension) / graph.dimension;
-  for (size_t a = 0; a < unit.size(); ++a)
-    unit[a] = std::pow(graph.Omega[a], power);
-  return unit;
-}
 
 /// dC_ab = -2 w_ab gamma_a with gamma = A^T y, which is the gamma of least norm: S = A A^T,
 ///   (A gamma)_a = sum_b (w_ab gamma_a - w_ba gamma_b),  (A^T y)_a = sum_b w_ab (y_a - y_b).

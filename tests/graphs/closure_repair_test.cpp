@@ -1,6 +1,8 @@
 #include "common/scheme/closure_repair.hpp"
 
+#include "common/scheme/class_repair.hpp"
 #include "common/scheme/conjugate_gradients.hpp"
+#include "common/scheme/row_classes.hpp"
 #include "sph/sph_graph.hpp"
 #include "tests/graphs/graph_checks.hpp"
 
@@ -69,6 +71,40 @@ TEST(ClosureRepair, TakesAsManyStepsOnFineGridsAsOnCoarse) {
       EXPECT_LT(repair.iterations, 160) << n;
     }
   }
+}
+
+/// Rows of a lattice that are equal stay equal, as few as before; the change is hardly larger than
+/// the least one.
+TEST(ClosureRepair, ByClassesKeepsEqualRowsEqual) {
+  for (CellType type : {CellType::quadrilateral, CellType::hexahedron}) {
+    const PairGraph open = open_cloud(type, is_flat(type) ? 30 : 17, 0);
+    const std::vector<double> k = sizes(open);
+    PairGraph by_classes = open, by_pairs = open;
+    EXPECT_GT(quality(open).closure, 0.1);
+    ASSERT_TRUE(scheme::repair_closure_by_classes(by_classes, k)) << name_of(type);
+    scheme::repair_closure_pairs(by_pairs, k);
+    EXPECT_LE(quality(by_classes).closure, 1e-13);
+    EXPECT_LE(quality(by_classes).linear_exactness, 1e-13);
+    const auto n_rows = [](const PairGraph& graph) {
+      return scheme::classify_rows(graph).rows.representative.size();
+    };
+    EXPECT_LT(n_rows(by_classes), 0.4 * static_cast<double>(open.n_nodes()));
+    EXPECT_GT(n_rows(by_pairs), 0.9 * static_cast<double>(open.n_nodes()));
+    double change = 0, least = 0;
+    for (size_t p = 0; p < k.size(); ++p) {
+      change += (by_classes.C[p] - open.C[p]).squaredNorm() / k[p];
+      least += (by_pairs.C[p] - open.C[p]).squaredNorm() / k[p];
+    }
+    EXPECT_GE(change, least);
+    EXPECT_LE(change, 1.2 * least);
+  }
+}
+
+TEST(ClosureRepair, ByClassesLeavesDisorderToTheRepairByPairs) {
+  PairGraph graph = open_cloud(CellType::quadrilateral, 12, 0.2);
+  const std::vector<Vec3> C = graph.C;
+  EXPECT_FALSE(scheme::repair_closure_by_classes(graph, sizes(graph)));
+  EXPECT_EQ(graph.C, C);
 }
 
 /// A gap that no linear-exact change can close (its moment is not that of the volumes) is left and

@@ -154,7 +154,7 @@ inline const std::vector<Library>& libraries() {
       {R"([a-z_0-9]+)", ".*"},  // the standard library
       {R"((sys/.*|fcntl|malloc|spawn|unistd|signal|poll|dlfcn)\.h)", ".*"},
       {R"(fmt/.*)", ".*"},
-      {R"(Eigen/.*)", R"(common/algebra/vectors\.hpp|common/scheme/closure_repair\.cpp|)"
+      {R"(Eigen/.*)", R"(common/algebra/vectors\.hpp|common/scheme/(class|closure)_repair\.cpp|)"
                       R"((sph|fvm|meshes|common/run)/.*\.cpp)"},
       {R"(hdf5\.h)", "(tests/)?common/io/.*"},
       {R"(toml\+\+/.*)", "common/run/.*"},

@@ -1,0 +1,15 @@
+#pragma once
+/// How far a pair graph is from closure, for its repairs (closure_repair.hpp).
+
+#include "common/scheme/conjugate_gradients.hpp"
+#include "common/scheme/pair_graph.hpp"
+
+namespace diptych::scheme {
+
+/// What is missing: A_aN_a + 1/2 sum_b (C_ab - C_ba)  [n_nodes]
+Field closure_gap(const PairGraph& graph);
+
+/// 1 / Omega_a^((d-1)/d), the unit of a node's closure.
+std::vector<double> area_units(const PairGraph& graph);
+
+}  // namespace diptych::scheme
