@@ -77,8 +77,8 @@ struct Results {
 
 void first_sweep(Scene& scene, Results& results) {
   const auto sweep = scheme::strain_rate_function<3, physics::MooneyRivlin>();
-  sweep({scene.model, scene.pairs, scene.state, scene.frozen, false, true, 0, 0, &results.power,
-         &results.least_J},
+  sweep({scene.model, scene.pairs, scene.state, scene.frozen, false, true, 0, nullptr, 0,
+         &results.power, &results.least_J},
         0, scene.pairs.n_blocks, 0);
 }
 

@@ -61,7 +61,7 @@ class BodySolver : public Solver {
     set_initial_state(graph_, setup_.initial, setup_.face_correction, state_);
     boundary_.constrain(state_, model_.rho_R, 0);
     for_blocks([&](auto begin, auto end) { scheme::publish_velocity(state_, begin, end); });
-    evaluate({}, 0);
+    evaluate({}, nullptr, 0);
     check_health(0);
     if (setup_.integrator.is_leapfrog()) {
       sum_forces(true);
@@ -120,8 +120,11 @@ class BodySolver : public Solver {
     });
   }
 
-  /// Strain rates (18b), relaxation (14), stress (9), wave speeds; leapfrog drifts in between.
-  void evaluate(const scheme::Relaxation& relaxation, double drift) {
+  /// Strain rates (18b), relaxation (14), stress (9), wave speeds; F, H, J are moved by the stage
+  /// before, or drift in between (leapfrog).
+  void evaluate(const scheme::Relaxation& relaxation,
+                const scheme::StageCombination* stage,
+                double drift) {
     const double kappa_f = setup_.face_correction;
     if (kappa_f != 0) {
       for_blocks([&](auto begin, auto end) { face_.gradients(pairs_, state_, begin, end); });
@@ -134,6 +137,7 @@ class BodySolver : public Solver {
         setup_.dissipation.impedance == scheme::Impedance::exact,
         setup_.energy_budget,
         kappa_f,
+        stage,
         drift,
         viscous_power_.data(),
         least_J_.data()};
@@ -216,10 +220,9 @@ class BodySolver : public Solver {
                                            first};
       audit_ = audit_.combined(stage.alpha, audit_0, stage.beta, stage.dt, rate);
       for_blocks([&](auto begin, auto end) {
-        scheme::update_stage(state_, pairs_, model_.rho_R, stage, begin, end);
+        scheme::update_motion(state_, pairs_, model_.rho_R, stage, begin, end);
       });
       stage_time = time_ + stages[i].time * dt;
-      for_blocks([&](auto begin, auto end) { scheme::publish_velocity(state_, begin, end); });
       add_action(last ? boundary_.constrain(state_, model_.rho_R, stage_time)
                       : boundary_.constrain_stage(state_, model_.rho_R, stage.alpha, stage.beta,
                                                   stage.dt, fraction));
@@ -228,7 +231,7 @@ class BodySolver : public Solver {
       const Rule rule = model_.branches.empty()                      ? Rule::frozen
                         : last && setup_.integrator.gauss_relaxation ? Rule::gauss
                                                                      : Rule::linear;
-      evaluate({rule, last, stages[i].time * dt, model_.branches}, 0);
+      evaluate({rule, last, stages[i].time * dt, model_.branches}, &stage, 0);
     }
     return dt;
   }
@@ -244,7 +247,7 @@ class BodySolver : public Solver {
     rate.external_work += 0.5 * boundary_.power_of_constraints(state_, model_.rho_R, 0.5);
     const Rule rule = model_.branches.empty() ? Rule::frozen : Rule::linear;
     rate.viscous_dissipation = 0.5 * parallel::sum_in_order(viscous_power_);
-    evaluate({rule, true, dt, model_.branches}, dt);
+    evaluate({rule, true, dt, model_.branches}, nullptr, dt);
     rate.viscous_dissipation += 0.5 * parallel::sum_in_order(viscous_power_);
     sum_forces(true);
     load_rates_ = boundary_.add_loads(state_, time_ + dt);

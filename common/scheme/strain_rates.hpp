@@ -1,7 +1,8 @@
 #pragma once
-/// First pair sweep of an evaluation: strain rates (18b), Omega_a dF_a/dt = sum_b 1/2 (v_b - v_a)
-/// (x) C_ab, then per node relaxation (14), stress (9) and wave speeds, left where the momentum
-/// sweep reads them. (18c) and (18d) are pointwise in dF/dt and stand in the update.
+/// First pair sweep of an evaluation, after F, H, J have been moved to its time: strain rates
+/// (18b), Omega_a dF_a/dt = sum_b 1/2 (v_b - v_a) (x) C_ab, then per node relaxation (14), stress
+/// (9) and wave speeds, left where the momentum sweep reads them. (18c) and (18d) are pointwise in
+/// dF/dt and stand in the update.
 ///
 /// Cost per directed pair in 3-D: 9 multiply-adds and 3 subtractions on 32 bytes gathered and at
 /// most 28 of geometry.
@@ -25,7 +26,8 @@ struct StrainRateSweep {
   bool exact_impedance;
   bool with_dissipation;   ///< sum the viscous dissipation
   double face_correction;  ///< kappa_f, 0: none; else state.gradients hold the uncorrected dF/dt
-  double drift;            ///< s, leapfrog: moves u, F, H, J by the new rates before the stress
+  const StageCombination* stage;  ///< SSP: moves F, H, J by the old rates first; may be null
+  double drift;                   ///< s, leapfrog: moves u, F, H, J by the new rates
   // results, one per chunk of parallel::for_chunks
   double* viscous_power;  ///< W
   double* least_J;        ///< NaN where a node has not J > 0
@@ -134,6 +136,7 @@ DIPTYCH_INLINE double evaluate_block(const StrainRateSweep<Dim, Material>& sweep
   using Layout = algebra::Layout<Dim>;
   constexpr bool has_H = Material::has_H;
   State<Dim>& state = sweep.state;
+  if (sweep.stage != nullptr) update_deformation_of_block(state, *sweep.stage, b);
   if (sweep.face_correction == 0) {
     strain_rates_of_block<isa>(sweep.graph, state, b);
   } else {

@@ -15,13 +15,57 @@ struct StageCombination {
   bool first = false;  ///< U_0 <- U before the update
 };
 
+/// v and u of a stage, and v as neighbours read it.
 template <int Dim>
-void update_stage(State<Dim>& state,
-                  const SweepGraph<Dim>& graph,
-                  double rho_R,
-                  const StageCombination& stage,
-                  std::int64_t begin,
-                  std::int64_t end);
+void update_motion(State<Dim>& state,
+                   const SweepGraph<Dim>& graph,
+                   double rho_R,
+                   const StageCombination& stage,
+                   std::int64_t begin,
+                   std::int64_t end);
+
+/// q <- alpha q_0 + beta (q + dt rate), component k of block b, as q_0 + beta (q - q_0 + dt rate):
+/// what does not change stays the same to the last bit, and momentum gathers no rounding.
+DIPTYCH_INLINE void combine(algebra::BlockField& q,
+                            algebra::BlockField& q_0,
+                            const StageCombination& stage,
+                            std::int64_t b,
+                            int k,
+                            const Lanes& rate) {
+  double* now = q.block(b) + k * n_lanes;
+  double* old = q_0.block(b) + k * n_lanes;
+  const Lanes value = algebra::load(now);
+  if (stage.first) algebra::store(old, value);
+  const Lanes base = stage.first ? value : algebra::load(old);
+  const Lanes change = stage.dt * rate;
+  algebra::store(now,
+                 stage.alpha == 0 ? value + change : base + stage.beta * ((value - base) + change));
+}
+
+/// F, H, J of a stage by the L of its beginning. Part of the strain-rate sweep, which needs them
+/// next and replaces L: one pass of memory instead of two.
+template <int Dim>
+DIPTYCH_INLINE void update_deformation_of_block(State<Dim>& state,
+                                                const StageCombination& stage,
+                                                std::int64_t b) {
+  const Tensor<Lanes> L = algebra::load_tensor<Dim>(state.L.block(b), 0);
+  if (state.unknowns != Unknowns::F) {
+    const Deformation<Lanes> X = load_deformation(state, b);
+    combine(state.J, state.J_0, stage, b, 0, algebra::contract(X.H, L));
+    if (state.unknowns == Unknowns::FHJ) {
+      const Tensor<Lanes> rate = algebra::cross(X.F, L);
+      for (int k = 0; k < algebra::Layout<Dim>::n_H; ++k) {
+        combine(state.H, state.H_0, stage, b, k,
+                Dim == 2 && k == 4 ? rate(2, 2) : rate(k / Dim, k % Dim));
+      }
+    }
+  }
+  for (int k = 0; k < Dim * Dim; ++k) {
+    const Lanes rate = L(k / Dim, k % Dim);
+    if (stage.first && !state.L_0.empty()) algebra::store(state.L_0.block(b) + k * n_lanes, rate);
+    combine(state.F, state.F_0, stage, b, k, rate);
+  }
+}
 
 /// v <- v + dt T/(rho_R Omega); keeps F_0 <- F where keep_F is set (start of a step with branches).
 template <int Dim>

@@ -189,7 +189,8 @@ class LoadedBody {
     if (kappa_f_ != 0) face.gradients(pairs_, state_, 0, blocks);
     const scheme::Relaxation frozen;
     const scheme::StrainRateSweep<Dim, Material> rates{
-        model_, pairs_, state_, frozen, false, true, kappa_f_, 0, viscous_.data(), least_J_.data()};
+        model_,   pairs_,  state_, frozen,          false,          true,
+        kappa_f_, nullptr, 0,      viscous_.data(), least_J_.data()};
     parallel::for_chunks(blocks, [&](auto b, auto e, auto c) {
       scheme::strain_rate_sweep_baseline<Dim, Material>(rates, b, e, c);
     });

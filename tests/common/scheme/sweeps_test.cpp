@@ -78,7 +78,7 @@ class RandomBody {
     const scheme::Relaxation frozen;
     const bool exact = kind_.impedance == scheme::Impedance::exact;
     const scheme::StrainRateSweep<3, Material> first{
-        model, pairs, state, frozen, exact, true, 0, 0, viscous.data(), least_J.data()};
+        model, pairs, state, frozen, exact, true, 0, nullptr, 0, viscous.data(), least_J.data()};
     const scheme::MomentumSweep<3> second{
         pairs, state, model.rho_R, factor, true, numerical.data(), rate.data()};
     parallel::for_chunks(pairs.n_blocks,
