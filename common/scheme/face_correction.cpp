@@ -15,8 +15,10 @@ DIPTYCH_INLINE void plain_gradients(const SweepGraph<Dim>& graph,
                                     std::int64_t begin,
                                     std::int64_t end) {
   for (std::int64_t b = begin; b < end; ++b) {
-    strain_rates_of_block<isa>(graph, state, b);
-    put_tensor<Dim>(state.gradients, b, 0, algebra::load_tensor<Dim>(state.L.block(b), 0));
+    Lanes L[Dim * Dim];
+    strain_rates_of_block<isa>(graph, state, b, L);
+    for (int k = 0; k < Dim * Dim; ++k)
+      state.gradients.put(b, k, L[k]);
   }
 }
 

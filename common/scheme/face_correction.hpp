@@ -75,18 +75,6 @@ DIPTYCH_INLINE void corrected_block(const SweepGraph<Dim>& graph,
     corrected[k] = tensors.get(b, k) + scale * sum[k];
 }
 
-/// state.L of block b <- L' from state.gradients.
-template <InstructionSet isa, int Dim>
-DIPTYCH_INLINE void correct_rates_of_block(const SweepGraph<Dim>& graph,
-                                           State<Dim>& state,
-                                           double kappa_f,
-                                           std::int64_t b) {
-  Lanes L[Dim * Dim];
-  corrected_block<isa, Side::rates>(graph, state.gradients, kappa_f, b, L);
-  for (int k = 0; k < Dim * Dim; ++k)
-    algebra::store(state.L.block(b) + k * n_lanes, L[k]);
-}
-
 /// Records of the nodes of blocks [begin, end): P <- P' from state.stresses.
 template <InstructionSet isa, int Dim>
 DIPTYCH_INLINE void correct_stresses(const SweepGraph<Dim>& graph,

@@ -55,10 +55,10 @@ class RunPairs {
 /// The processor does not follow as many streams as there are components.
 template <int n>
 DIPTYCH_INLINE void prefetch_ahead(const NodeTable& table, std::int64_t b, std::int64_t offset) {
-  const double* ahead = table.origin() + (b + 2) * n_lanes + offset;
+  const double* ahead = table.origin() + (b + 4) * n_lanes + offset;
 #pragma GCC unroll 8
   for (int c = 0; c < n; ++c)
-    __builtin_prefetch(ahead + c * table.component_stride());
+    __builtin_prefetch(ahead + c * table.component_stride(), 0, 2);
 }
 
 /// @tparam n       components that are read

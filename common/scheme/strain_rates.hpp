@@ -61,28 +61,27 @@ DIPTYCH_INLINE void sum_gradients(const SweepGraph<Dim>& graph,
   }
 }
 
-/// dF/dt of the eight nodes of block b, into state.L.
+/// dF/dt of the eight nodes of block b.
 template <InstructionSet isa, int Dim>
 DIPTYCH_INLINE void strain_rates_of_block(const SweepGraph<Dim>& graph,
-                                          State<Dim>& state,
-                                          std::int64_t b) {
-  double* L = state.L.block(b);
+                                          const State<Dim>& state,
+                                          std::int64_t b,
+                                          Lanes (&L)[Dim * Dim]) {
+  for (int k = 0; k < Dim * Dim; ++k)
+    L[k] = Lanes{};
   if (graph.shape.arrangement == Arrangement::runs) {
-    Lanes sum[Dim * Dim] = {};
-    sum_gradients<isa, Arrangement::runs>(graph, state.velocity, b, sum);
-    const Lanes scale = 0.5 * algebra::load(graph.inverse_Omega.data() + b * n_lanes);
-    for (int k = 0; k < Dim * Dim; ++k)
-      algebra::store(L + k * n_lanes, scale * sum[k]);
-    return;
+    sum_gradients<isa, Arrangement::runs>(graph, state.velocity, b, L);
+  } else {
+    for (int lane = 0; lane < n_lanes; ++lane) {
+      Lanes sum[Dim * Dim] = {};
+      sum_gradients<isa, Arrangement::rows>(graph, state.velocity, b * n_lanes + lane, sum);
+      for (int k = 0; k < Dim * Dim; ++k)
+        L[k][lane] = algebra::lane_sum(sum[k]);
+    }
   }
-  for (int lane = 0; lane < n_lanes; ++lane) {
-    const std::int64_t a = b * n_lanes + lane;
-    Lanes sum[Dim * Dim] = {};
-    sum_gradients<isa, Arrangement::rows>(graph, state.velocity, a, sum);
-    const double scale = 0.5 * graph.inverse_Omega[a];
-    for (int k = 0; k < Dim * Dim; ++k)
-      L[k * n_lanes + lane] = scale * algebra::lane_sum(sum[k]);
-  }
+  const Lanes scale = 0.5 * algebra::load(graph.inverse_Omega.data() + b * n_lanes);
+  for (int k = 0; k < Dim * Dim; ++k)
+    L[k] *= scale;
 }
 
 /// Writes the in-plane part of a tensor of block b to components c.. of a table.
@@ -137,11 +136,14 @@ DIPTYCH_INLINE double evaluate_block(const StrainRateSweep<Dim, Material>& sweep
   constexpr bool has_H = Material::has_H;
   State<Dim>& state = sweep.state;
   if (sweep.stage != nullptr) update_deformation_of_block(state, *sweep.stage, b);
+  Lanes L[Dim * Dim];
   if (sweep.face_correction == 0) {
-    strain_rates_of_block<isa>(sweep.graph, state, b);
+    strain_rates_of_block<isa>(sweep.graph, state, b, L);
   } else {
-    correct_rates_of_block<isa>(sweep.graph, state, sweep.face_correction, b);
+    corrected_block<isa, Side::rates>(sweep.graph, state.gradients, sweep.face_correction, b, L);
   }
+  for (int k = 0; k < Dim * Dim; ++k)
+    algebra::store(state.L.block(b) + k * n_lanes, L[k]);
   if (sweep.drift != 0) drift_block(state, sweep.drift, b);
   const Deformation<Lanes> X = load_deformation(state, b);
   least_J = algebra::smaller(least_J, X.J);
