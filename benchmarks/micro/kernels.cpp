@@ -104,8 +104,9 @@ using algebra::Lanes;
 DIPTYCH_CLONES void stress_and_speeds(Scene& scene, std::int64_t n_blocks) {
   for (std::int64_t b = 0; b < n_blocks; ++b) {
     const auto X = scheme::load_deformation(scene.state, b);
-    const auto response = scheme::response_of_block(scene.model, scene.state, scene.frozen, X, b,
-                                                    [](int, const physics::BranchState<Lanes>&) {});
+    const auto response =
+        scheme::response_of_block(scene.model, scene.state, scene.frozen, X, b,
+                                  [](int, const physics::BranchState<Lanes>&, const auto&) {});
     const auto P = physics::piola_stress<true>(response, X);
     for (int k = 0; k < 9; ++k)
       algebra::store(scene.state.L.block(b) + k * algebra::n_lanes, P(k / 3, k % 3));
@@ -123,7 +124,8 @@ void stress(benchmark::State& run, int n_branches) {
 /// New internal variables of the first branch of all blocks.
 DIPTYCH_CLONES void relax(Scene& scene, const scheme::Relaxation& rule, std::int64_t n_blocks) {
   for (std::int64_t b = 0; b < n_blocks; ++b) {
-    const auto drive = scheme::relaxation_drive<3, true>(scene.state, rule, b, 0, 1);
+    const auto F = algebra::load_tensor<3>(scene.state.F.block(b), 1);
+    const auto drive = scheme::linear_drive(scene.state, physics::right_tensors(F), b);
     const auto branch = scheme::relaxed_branch<3, true>(scene.state, rule, drive, b, 0);
     algebra::store_A<3>(scene.state.A.block(b), branch.A);
     algebra::store_S<3>(scene.state.S.block(b), branch.S);

@@ -11,6 +11,8 @@
 #include <cstdint>
 
 #define DIPTYCH_INLINE inline __attribute__((always_inline))
+/// For lambdas: after the parameters.
+#define DIPTYCH_INLINE_LAMBDA __attribute__((always_inline))
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)

@@ -42,4 +42,22 @@ DIPTYCH_INLINE SymmetricTensor<T> inverse_G(const Deformation<T>& X) {
   return (1.0 / algebra::determinant(C)) * C;
 }
 
+/// C = F^T F and G = cof C with their inverses, from F alone.
+template <class T>
+struct RightTensors {
+  SymmetricTensor<T> C, inverse_C, G, inverse_G;
+};
+
+template <class T>
+DIPTYCH_INLINE RightTensors<T> right_tensors(const Tensor<T>& F) {
+  RightTensors<T> r;
+  r.C = algebra::transpose_times_self(F);
+  r.G = algebra::cofactor(r.C);
+  const T inverse_det =
+      1.0 / (r.C(0, 0) * r.G(0, 0) + r.C(0, 1) * r.G(0, 1) + r.C(0, 2) * r.G(0, 2));
+  r.inverse_C = inverse_det * r.G;
+  r.inverse_G = inverse_det * r.C;
+  return r;
+}
+
 }  // namespace diptych::physics

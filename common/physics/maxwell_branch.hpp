@@ -58,24 +58,15 @@ DIPTYCH_INLINE T branch_energy(const MaxwellBranch& branch,
   return W;
 }
 
-/// tr(M) + tr(M^-1) - 6 of M = C A, >= 0, as tr[(M - I)(I - M^-1)]: a product of two small
-/// matrices, where the sum would leave only the rounding of its three terms at small strains.
+/// tr(CA) + tr((CA)^-1) - 6, >= 0, as (C - A^-1) : (A - C^-1): a product of two small tensors,
+/// where the sum would leave only the rounding of its three terms at small strains.
 /// @param  C, A  symmetric positive definite
 template <class T>
 DIPTYCH_INLINE T distance_from_equilibrium(const SymmetricTensor<T>& C,
+                                           const SymmetricTensor<T>& inverse_C,
                                            const SymmetricTensor<T>& A) {
-  const SymmetricTensor<T> inverse_A = algebra::inverse(A), inverse_C = algebra::inverse(C);
-  T sum{};
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      const double delta = i == j ? 1 : 0;
-      const T M = C(i, 0) * A(0, j) + C(i, 1) * A(1, j) + C(i, 2) * A(2, j);
-      const T inverse_M = inverse_A(j, 0) * inverse_C(0, i) + inverse_A(j, 1) * inverse_C(1, i) +
-                          inverse_A(j, 2) * inverse_C(2, i);
-      sum += (M - delta) * (delta - inverse_M);
-    }
-  }
-  return sum;
+  const SymmetricTensor<T> inverse_A = algebra::inverse(A);
+  return algebra::contract(C + (-1.0) * inverse_A, A + (-1.0) * inverse_C);
 }
 
 /// Dissipation (12) of the branch with (13) corrected  [W/m^3], >= 0. C and G are those that A and
@@ -83,11 +74,10 @@ DIPTYCH_INLINE T distance_from_equilibrium(const SymmetricTensor<T>& C,
 template <bool has_H, class T>
 DIPTYCH_INLINE T branch_dissipation(const MaxwellBranch& branch,
                                     const BranchState<T>& state,
-                                    const Deformation<T>& X) {
-  const auto C = algebra::transpose_times_self(X.F);
-  T D = (branch.xi / branch.tau_C) * distance_from_equilibrium(C, state.A);
+                                    const RightTensors<T>& X) {
+  T D = (branch.xi / branch.tau_C) * distance_from_equilibrium(X.C, X.inverse_C, state.A);
   if constexpr (has_H) {
-    D += (branch.zeta / branch.tau_G) * distance_from_equilibrium(algebra::cofactor(C), state.S);
+    D += (branch.zeta / branch.tau_G) * distance_from_equilibrium(X.G, X.inverse_G, state.S);
   }
   return D;
 }

@@ -42,7 +42,8 @@ class PointOf : public MaterialPoint {
     const auto X = deformation(state.F);
     double D = 0;
     for (size_t k = 0; k < branches().size(); ++k)
-      D += physics::branch_dissipation<Material::has_H>(branches()[k], state.branches[k], X);
+      D += physics::branch_dissipation<Material::has_H>(branches()[k], state.branches[k],
+                                                        physics::right_tensors(X.F));
     return D;
   }
   Mat3 acoustic_tensor(const PointState& state, const Vec3& N) const override {

@@ -22,9 +22,10 @@ DIPTYCH_CLONES void add_energies(const Model<Material>& model,
     const Lanes Omega = algebra::load(graph.Omega.data() + b * n_lanes);
     const Deformation<Lanes> X = load_deformation(state, b);
     Lanes W = model.material.energy(X);
-    response_of_block(model, state, frozen, X, b, [&](int k, const BranchState<Lanes>& branch) {
-      W += physics::branch_energy<Material::has_H>(model.branches[k], branch, X);
-    });
+    response_of_block(model, state, frozen, X, b,
+                      [&](int k, const BranchState<Lanes>& branch, const auto&) {
+                        W += physics::branch_energy<Material::has_H>(model.branches[k], branch, X);
+                      });
     const auto v = algebra::load_vector<Dim>(state.v.block(b));
     sum.kinetic += 0.5 * model.rho_R * algebra::lane_sum(Omega * algebra::dot(v, v));
     sum.strain += algebra::lane_sum(Omega * W);

@@ -66,7 +66,8 @@ DIPTYCH_INLINE void mean_state(const Pairs& pairs,
                                physics::Response<Lanes>& r,
                                physics::Deformation<Lanes>& X) {
   using Record = NodeRecord<Dim>;
-  const auto mean = [&](int c) { return 0.5 * (pairs.neighbour(c) + pairs.own(c)); };
+  const auto mean = [&](int c)
+                        DIPTYCH_INLINE_LAMBDA { return 0.5 * (pairs.neighbour(c) + pairs.own(c)); };
   X.F = Tensor<Lanes>{};
   X.H = Tensor<Lanes>{};
   for (int i = 0; i < Dim; ++i) {

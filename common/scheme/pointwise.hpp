@@ -33,44 +33,42 @@ DIPTYCH_INLINE Deformation<Lanes> load_deformation(const State<Dim>& state, std:
   return X;
 }
 
-/// Deformation tensors that drive the relaxation over a step; the same for all branches.
+/// What drives the relaxation over a step: C^-1, G^-1 at two times.
 struct RelaxationDrive {
-  SymmetricTensor<Lanes> C_first, C_second, G_first, G_second;  ///< C^-1, G^-1 at two times
+  SymmetricTensor<Lanes> C_first, C_second, G_first, G_second;
 };
 
-template <int Dim, bool has_H>
-DIPTYCH_INLINE RelaxationDrive relaxation_drive(const State<Dim>& state,
-                                                const Relaxation& relaxation,
-                                                std::int64_t b,
-                                                double theta_first,
-                                                double theta_second) {
+/// From the beginning of the step to now: the same for all branches.
+template <int Dim>
+DIPTYCH_INLINE RelaxationDrive linear_drive(const State<Dim>& state,
+                                            const physics::RightTensors<Lanes>& now,
+                                            std::int64_t b) {
+  const auto begin = physics::right_tensors(algebra::load_tensor<Dim>(state.F_0.block(b), 1));
+  return {begin.inverse_C, now.inverse_C, begin.inverse_G, now.inverse_G};
+}
+
+/// At the times of a Gauss rule.
+template <int Dim>
+DIPTYCH_INLINE RelaxationDrive gauss_drive(const State<Dim>& state,
+                                           const physics::GaussRelaxation& rule,
+                                           double dt,
+                                           std::int64_t b) {
   const Tensor<Lanes> F_0 = algebra::load_tensor<Dim>(state.F_0.block(b), 1);
   const Tensor<Lanes> F = algebra::load_tensor<Dim>(state.F.block(b), 1);
-  Deformation<Lanes> first, second;
-  if (relaxation.rule == Relaxation::Rule::gauss) {
-    const Tensor<Lanes> L_0 = algebra::load_tensor<Dim>(state.L_0.block(b), 0);
-    const Tensor<Lanes> L = algebra::load_tensor<Dim>(state.L.block(b), 0);
-    first.F = physics::hermite(theta_first, relaxation.dt, F_0, L_0, F, L);
-    second.F = physics::hermite(theta_second, relaxation.dt, F_0, L_0, F, L);
-  } else {
-    first.F = F_0;
-    second.F = F;
-  }
-  RelaxationDrive drive;
-  drive.C_first = physics::inverse_C(first);
-  drive.C_second = physics::inverse_C(second);
-  if constexpr (has_H) {
-    drive.G_first = physics::inverse_G(first);
-    drive.G_second = physics::inverse_G(second);
-  }
-  return drive;
+  const Tensor<Lanes> L_0 = algebra::load_tensor<Dim>(state.L_0.block(b), 0);
+  const Tensor<Lanes> L = algebra::load_tensor<Dim>(state.L.block(b), 0);
+  const auto at = [&](double theta) DIPTYCH_INLINE_LAMBDA {
+    return physics::right_tensors(physics::hermite(theta, dt, F_0, L_0, F, L));
+  };
+  const auto first = at(rule.theta[0]), second = at(rule.theta[1]);
+  return {first.inverse_C, second.inverse_C, first.inverse_G, second.inverse_G};
 }
 
 /// Internal variables of branch k at the time of the evaluation.
 template <int Dim, bool has_H>
 DIPTYCH_INLINE BranchState<Lanes> relaxed_branch(const State<Dim>& state,
                                                  const Relaxation& relaxation,
-                                                 const RelaxationDrive& linear_drive,
+                                                 const RelaxationDrive& linear,
                                                  std::int64_t b,
                                                  int k) {
   using Layout = algebra::Layout<Dim>;
@@ -79,28 +77,24 @@ DIPTYCH_INLINE BranchState<Lanes> relaxed_branch(const State<Dim>& state,
   branch.S = has_H ? algebra::load_S<Dim>(state.S.block(b) + k * Layout::n_S * n_lanes)
                    : algebra::symmetric_identity<Lanes>();
   if (relaxation.rule == Relaxation::Rule::linear) {
-    branch.A = physics::relaxed(relaxation.linear_C[k], branch.A, linear_drive.C_first,
-                                linear_drive.C_second);
-    if constexpr (has_H) {
-      branch.S = physics::relaxed(relaxation.linear_G[k], branch.S, linear_drive.G_first,
-                                  linear_drive.G_second);
-    }
+    branch.A = physics::relaxed(relaxation.linear_C[k], branch.A, linear.C_first, linear.C_second);
+    if constexpr (has_H)
+      branch.S =
+          physics::relaxed(relaxation.linear_G[k], branch.S, linear.G_first, linear.G_second);
   } else if (relaxation.rule == Relaxation::Rule::gauss) {
     const auto& rule_C = relaxation.gauss_C[k];
-    const auto C =
-        relaxation_drive<Dim, false>(state, relaxation, b, rule_C.theta[0], rule_C.theta[1]);
+    const auto C = gauss_drive(state, rule_C, relaxation.dt, b);
     branch.A = physics::relaxed(rule_C, branch.A, C.C_first, C.C_second);
     if constexpr (has_H) {
       const auto& rule_G = relaxation.gauss_G[k];
-      const auto G =
-          relaxation_drive<Dim, true>(state, relaxation, b, rule_G.theta[0], rule_G.theta[1]);
+      const auto G = gauss_drive(state, rule_G, relaxation.dt, b);
       branch.S = physics::relaxed(rule_G, branch.S, G.G_first, G.G_second);
     }
   }
   return branch;
 }
 
-/// Response of a block with all branches; per branch calls visit(k, branch state).
+/// Response of a block with all branches; per branch calls visit(k, branch state, C and G now).
 template <int Dim, class Material, class Visit>
 DIPTYCH_INLINE Response<Lanes> response_of_block(const Model<Material>& model,
                                                  const State<Dim>& state,
@@ -111,15 +105,13 @@ DIPTYCH_INLINE Response<Lanes> response_of_block(const Model<Material>& model,
   constexpr bool has_H = Material::has_H;
   Response<Lanes> response = model.material.response(X);
   if (state.n_branches == 0) return response;
-  RelaxationDrive linear_drive;
-  if (relaxation.rule == Relaxation::Rule::linear) {
-    linear_drive = relaxation_drive<Dim, has_H>(state, relaxation, b, 0, 1);
-  }
+  const auto now = physics::right_tensors(X.F);
+  RelaxationDrive linear;
+  if (relaxation.rule == Relaxation::Rule::linear) linear = linear_drive(state, now, b);
   for (int k = 0; k < state.n_branches; ++k) {
-    const BranchState<Lanes> branch =
-        relaxed_branch<Dim, has_H>(state, relaxation, linear_drive, b, k);
+    const BranchState<Lanes> branch = relaxed_branch<Dim, has_H>(state, relaxation, linear, b, k);
     physics::add_branch_response<has_H>(model.branches[k], branch, X, response);
-    visit(k, branch);
+    visit(k, branch, now);
   }
   return response;
 }

@@ -150,9 +150,11 @@ DIPTYCH_INLINE double evaluate_block(const StrainRateSweep<Dim, Material>& sweep
   n_bad += X.J > 0 ? Lanes{} : Lanes{} + 1.0;  // a comparison with NaN is false
   Lanes dissipation{};
   const Response<Lanes> response = response_of_block(
-      sweep.model, state, sweep.relaxation, X, b, [&](int k, const BranchState<Lanes>& branch) {
+      sweep.model, state, sweep.relaxation, X, b,
+      [&](int k, const BranchState<Lanes>& branch,
+          const physics::RightTensors<Lanes>& now) DIPTYCH_INLINE_LAMBDA {
         if (sweep.with_dissipation) {
-          dissipation += physics::branch_dissipation<has_H>(sweep.model.branches[k], branch, X);
+          dissipation += physics::branch_dissipation<has_H>(sweep.model.branches[k], branch, now);
         }
         if (!sweep.relaxation.commit) return;
         algebra::store_A<Dim>(state.A.block(b) + k * Layout::n_A * n_lanes, branch.A);
