@@ -31,6 +31,14 @@ void for_chunks(std::int64_t n, const Work& work) {
   }
 }
 
+/// Calls work(i) for i in [0, n): each thread has a run of them, the same one in every call.
+template <class Work>
+void for_shares(std::int64_t n, const Work& work) {
+#pragma omp parallel for schedule(static) if (n > 1)
+  for (std::int64_t i = 0; i < n; ++i)
+    work(i);
+}
+
 /// Sum of partial results in their order.
 template <class T>
 T sum_in_order(const std::vector<T>& parts) {

@@ -64,9 +64,12 @@ EqualGroups by_neighbours(const PairGraph& graph, const RowClasses& rows) {
 
 class ClassRepair {
  public:
-  ClassRepair(PairGraph& graph, const RowClasses& rows, const std::vector<double>& k)
-      : graph_(graph), rows_(rows), unit_(area_units(graph)), gap_(closure_gap(graph)) {
-    find_places();
+  /// @param gap  closure_gap(graph)
+  ClassRepair(PairGraph& graph,
+              const RowClasses& rows,
+              const Field& gap,
+              const std::vector<double>& k)
+      : graph_(graph), rows_(rows), unit_(area_units(graph)), gap_(gap) {
     find_free_classes();
     set_geometry(k);
     find_conditions();
@@ -81,7 +84,6 @@ class ClassRepair {
       change();
       gap_ = closure_gap(graph_);
       const double after = greatest(gap_, unit_);
-
       if (!(after < 0.5 * before)) return after <= limits.closure;
       before = after;
     }
@@ -94,15 +96,10 @@ class ClassRepair {
   std::int64_t pair(std::int64_t a, std::int64_t k) const { return rows_.order[graph_.row[a] + k]; }
   std::int32_t class_of(std::int64_t a) const { return rows_.rows.of[a]; }
 
-  /// Place of every pair in the common order of its row.
-  void find_places() {
-    place_.resize(graph_.neighbour.size());
-    for_each_node(gap_.size(), [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t a = begin; a < end; ++a) {
-        for (std::int64_t k = 0; k < length(a); ++k)
-          place_[pair(a, k)] = static_cast<std::int32_t>(k);
-      }
-    });
+  /// Place of pair p of node a in that order.
+  int place(std::int64_t a, std::int64_t p) const {
+    const auto begin = rows_.order.begin() + graph_.row[a], end = begin + length(a);
+    return static_cast<int>(std::find(begin, end, p) - begin);
   }
 
   /// Classes may change where all of their nodes have a gap.
@@ -168,7 +165,7 @@ class ClassRepair {
 
   void add_entries(Index e, std::int64_t a) {
     const auto add = [&](std::int64_t node, std::int64_t p, double factor) {
-      if (is_free(node)) classes_[class_of(node)].entries.push_back({e, place_[p], factor});
+      if (is_free(node)) classes_[class_of(node)].entries.push_back({e, place(node, p), factor});
     };
     for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
       add(a, p, 0.5);
@@ -231,8 +228,10 @@ class ClassRepair {
     }
     for_each_node(gap_.size(), [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t a = begin; a < end; ++a) {
-        for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p)
-          graph_.C[p] += dC[static_cast<size_t>(class_of(a))].row(place_[p]).transpose();
+        if (!is_free(a)) continue;
+        const MatrixX3d& change = dC[static_cast<size_t>(class_of(a))];
+        for (std::int64_t k = 0; k < length(a); ++k)
+          graph_.C[pair(a, k)] += change.row(k).transpose();
       }
     });
   }
@@ -241,7 +240,6 @@ class ClassRepair {
   const RowClasses& rows_;
   std::vector<double> unit_;
   Field gap_;
-  std::vector<std::int32_t> place_;  ///< [n_pairs]
   std::vector<ClassOfRows> classes_;
   std::vector<std::int64_t> node_of_;  ///< [conditions] a node of each kind
   Eigen::MatrixXd S_;
@@ -256,11 +254,13 @@ bool repair_closure_by_classes(PairGraph& graph,
   RowClasses rows = classify_rows(graph);
   const auto n_classes = static_cast<double>(rows.rows.representative.size());
   if (n_classes > most_classes_per_node * static_cast<double>(graph.n_nodes())) return false;
-  const std::vector<Vec3> C = graph.C;
-  const auto closes = [&](ClassRepair repair, Index most) {
+  const Field gap = closure_gap(graph);
+  const auto closes = [&](Index most) {
+    ClassRepair repair(graph, rows, gap, k);
     if (repair.n_conditions() > most) return false;
+    std::vector<Vec3> C = graph.C;
     if (repair.repair(limits)) return true;
-    graph.C = C;
+    graph.C.swap(C);
     return false;
   };
   std::vector<EqualGroups> choices{rows.rows};
@@ -270,8 +270,7 @@ bool repair_closure_by_classes(PairGraph& graph,
   }
   for (size_t rings = choices.size(); rings-- > 0;) {
     rows.rows = choices[rings];
-    if (closes(ClassRepair(graph, rows, k), rings > 0 ? most_conditions_of_rings : most_conditions))
-      return true;
+    if (closes(rings > 0 ? most_conditions_of_rings : most_conditions)) return true;
   }
   return false;
 }

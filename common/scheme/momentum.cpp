@@ -1,7 +1,6 @@
 #include "common/scheme/momentum.hpp"
 
 #include "common/parallel/for_chunks.hpp"
-#include "common/parallel/for_each.hpp"
 
 #include <algorithm>
 
@@ -74,13 +73,13 @@ void sum_forces_of_runs(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> m
   const std::int64_t n = sweep.graph.n_blocks, length = sweep.graph.mutual.segment;
   const std::int64_t n_segments = (n + length - 1) / length;
   const auto begin = [&](std::int64_t segment) { return std::min(n, segment * length); };
-  parallel::for_each((n_segments + 1) / 2, [&](std::int64_t i) {
+  parallel::for_shares((n_segments + 1) / 2, [&](std::int64_t i) {
     const std::int64_t s = 2 * i;
     clear_sums(sweep.state, begin(s), begin(s + 2));
     work_segment(sweep, momentum, begin(s), begin(s + 1));
     if (s == 0) use_sums(sweep, begin(0), begin(1));
   });
-  parallel::for_each(n_segments / 2, [&](std::int64_t i) {
+  parallel::for_shares(n_segments / 2, [&](std::int64_t i) {
     const std::int64_t s = 2 * i + 1;
     work_segment(sweep, momentum, begin(s), begin(s + 1));
     use_sums(sweep, begin(s), begin(s + 2));

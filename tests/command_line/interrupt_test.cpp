@@ -1,5 +1,5 @@
 /// Long runs: progress with the time left; Ctrl-C and SIGTERM end the step, leave what there is and
-/// say how to go on.
+/// say how to go on. timeout(1) signals the program and its group: one request.
 
 #include "common/io/run_record.hpp"
 #include "tests/command_line/program.hpp"
@@ -35,7 +35,7 @@ TEST(Interrupt, EndsTheStepWritesWhatThereIsAndSaysHowToGoOn) {
   for (const char* signal : {"INT", "TERM"}) {
     const Folder folder;
     const auto outcome =
-        under(folder, std::string("timeout --foreground --preserve-status -s ") + signal + " 4",
+        under(folder, std::string("timeout --preserve-status -s ") + signal + " 4",
               "run" + endless + " --method fvm");
     EXPECT_EQ(outcome.exit_code, 130) << outcome.text;
     EXPECT_THAT(outcome.text, AllOf(HasSubstr("interrupted; what had been computed is in out"),
@@ -74,11 +74,11 @@ TEST(Interrupt, LeavesAStudyThatGoesOn) {
   // the first levels take a fraction of a second, the last minutes
   const std::string arguments =
       "converge swinging-cube-ve2-hex --levels 4 --level 0 --threads 1 --quiet --out out";
-  const auto first = under(folder, "timeout --foreground --preserve-status -s TERM 4", arguments);
+  const auto first = under(folder, "timeout --preserve-status -s TERM 4", arguments);
   EXPECT_EQ(first.exit_code, 130) << first.text;
   EXPECT_THAT(first.text, HasSubstr("finished runs are kept in out"));
   EXPECT_THAT(first.text, HasSubstr("ord.")) << "the finished levels are shown";
-  const auto second = under(folder, "timeout --foreground --preserve-status -s TERM 4", arguments);
+  const auto second = under(folder, "timeout --preserve-status -s TERM 4", arguments);
   EXPECT_THAT(second.text, HasSubstr("taken over, not run again: out/level_0/sph"));
 }
 
