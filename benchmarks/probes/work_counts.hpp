@@ -3,13 +3,15 @@
 /// reconstruction, no limiter, isotropic impedance; a multiply-add is two flop). In 3-D:
 ///   strain rates       3 differences, 9 multiply-adds: 21 flop;
 ///                      28 bytes of geometry streamed, 24 read of the neighbour
-///   momentum           differences 3, P_b C_ba 18, (H_a + H_b) S 27, (L_a + L_b) X 27, jump 6,
-///                      sum 3, impedance means 4, h.jump and h.h 12, ratio 4, D 9, sums 13: 126
-///                      flop (and 16 for the CFL rate, once a step); 44 bytes streamed, 280 read
+///   momentum           of a pair, both directions: v_b - v_a and S 6, P_a C_ab - P_b C_ba 36,
+///                      (H_a + H_b) S 27, (L_a + L_b) X 27, jump 6, impedance means 4, h.jump and
+///                      h.h 12, ratio 4, D and its area 13, sums 12: 147 flop, half of that for a
+///                      directed pair (rows, which work every pair twice, make 126 of each);
+///                      26 bytes streamed, 44 in rows, 280 read of the neighbour
 ///   face correction    9 differences, 9 + 9 multiply-adds: 45 flop, twice a stage;
 ///                      20 bytes streamed, 96 read
 /// X_b - X_a, three differences from the positions, is not counted: another layout would read it.
-/// In 2-D: 10, 2 + 8 + 12 + 12 + 4 + 2 + 4 + 8 + 4 + 6 + 9 = 71, 20 flop; 20, 32 and 16 bytes.
+/// In 2-D: 10, (4 + 16 + 12 + 12 + 4 + 4 + 8 + 4 + 9 + 8) / 2 = 40.5, 20 flop; 20, 18 and 16 bytes.
 /// Bytes streamed are those of rows that differ; where rows share their geometry it stays in the
 /// cache, and a share of the bandwidth above 100 % says so.
 /// Work on nodes alone is not counted.
@@ -26,7 +28,7 @@ inline PairWork strain_work(int dimension) {
   return dimension == 3 ? PairWork{21, 28} : PairWork{10, 20};
 }
 inline PairWork momentum_work(int dimension) {
-  return dimension == 3 ? PairWork{126, 44} : PairWork{71, 32};
+  return dimension == 3 ? PairWork{73.5, 26} : PairWork{40.5, 18};
 }
 inline PairWork correction_work(int dimension) {
   return dimension == 3 ? PairWork{45, 20} : PairWork{20, 16};

@@ -44,25 +44,23 @@ class Classifier {
 
   RowClasses classify() {
     std::vector<std::uint64_t> hash(graph_.X.size());
-    for_nodes([&](std::int64_t a) { hash[a] = sort_row(a); });
+    parallel::for_chunks(graph_.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+      std::vector<Entry> row;
+      for (std::int64_t a = begin; a < end; ++a)
+        hash[a] = sort_row(a, row);
+    });
     classes_.rows = group_equal(hash, [&](auto a, auto b) { return same_rows(a, b); });
-    for_nodes([&](std::int64_t a) {
-      const std::int32_t b = classes_.rows.representative[classes_.rows.of[a]];
-      for (std::int64_t k = 0; k < length(a); ++k)
-        classes_.C[pair(a, k)] = graph_.C[pair(b, k)];
+    parallel::for_chunks(graph_.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+      for (std::int64_t a = begin; a < end; ++a) {
+        const std::int32_t b = classes_.rows.representative[classes_.rows.of[a]];
+        for (std::int64_t k = 0; k < length(a); ++k)
+          classes_.C[pair(a, k)] = graph_.C[pair(b, k)];
+      }
     });
     return std::move(classes_);
   }
 
  private:
-  template <class Work>
-  void for_nodes(const Work& work) {
-    const auto all = [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-      for (std::int64_t a = begin; a < end; ++a)
-        work(a);
-    };
-    parallel::for_chunks(graph_.n_nodes(), all);
-  }
   Vec3 X_of(std::int64_t a, std::int64_t p) const {
     return graph_.X[graph_.neighbour[p]] - graph_.X[a];
   }
@@ -73,16 +71,15 @@ class Classifier {
   }
 
   /// Sorts the pairs of row a. @return hash of its rounded X and C
-  std::uint64_t sort_row(std::int64_t a) {
+  std::uint64_t sort_row(std::int64_t a, std::vector<Entry>& row) {
     const double unit_X = largest_X_ > 0 ? 1 / (grain * largest_X_) : 0;
     const double unit_C = largest_C_ > 0 ? 1 / (grain * largest_C_) : 0;
-    std::vector<Entry> row;
-    row.reserve(static_cast<size_t>(length(a)));
+    row.clear();
     for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
       const Vec3 X = X_of(a, p);
       row.push_back({rounded(X[2], unit_X), rounded(X[1], unit_X), rounded(X[0], unit_X), p});
     }
-    std::sort(row.begin(), row.end());
+    if (!std::is_sorted(row.begin(), row.end())) std::sort(row.begin(), row.end());
     Hash hash;
     for (size_t k = 0; k < row.size(); ++k) {
       classes_.order[graph_.row[a] + static_cast<std::int64_t>(k)] = row[k].pair;

@@ -248,17 +248,22 @@ void set_runs(const PairGraph& graph,
   set_mutual(graph, classes, runs, sweep);
 }
 
-Arrangement best_arrangement(const PairGraph& graph) {
-  return find_runs(graph).filling >= least_filling ? Arrangement::runs : Arrangement::rows;
-}
-
 }  // namespace
 
 template <int Dim>
-SweepGraph<Dim>::SweepGraph(const PairGraph& graph) : SweepGraph(graph, best_arrangement(graph)) {}
+SweepGraph<Dim>::SweepGraph(const PairGraph& graph) : SweepGraph(graph, find_runs(graph)) {}
+
+template <int Dim>
+SweepGraph<Dim>::SweepGraph(const PairGraph& graph, const PairRuns& runs)
+    : SweepGraph(
+          graph, runs.filling >= least_filling ? Arrangement::runs : Arrangement::rows, runs) {}
 
 template <int Dim>
 SweepGraph<Dim>::SweepGraph(const PairGraph& graph, Arrangement arrangement)
+    : SweepGraph(graph, arrangement, find_runs(graph)) {}
+
+template <int Dim>
+SweepGraph<Dim>::SweepGraph(const PairGraph& graph, Arrangement arrangement, const PairRuns& runs)
     : n_nodes(graph.n_nodes()),
       n_blocks(algebra::n_blocks_of(graph.n_nodes())),
       n_pairs(graph.n_pairs()),
@@ -267,7 +272,7 @@ SweepGraph<Dim>::SweepGraph(const PairGraph& graph, Arrangement arrangement)
       C_sum(graph.n_nodes(), Dim) {
   const RowClasses classes = classify_rows(graph);
   if (arrangement == Arrangement::runs) {
-    set_runs(graph, classes, find_runs(graph), *this);
+    set_runs(graph, classes, runs, *this);
   } else {
     set_rows(graph, classes, *this);
   }

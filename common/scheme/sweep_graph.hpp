@@ -17,6 +17,7 @@
 
 #include "common/algebra/node_table.hpp"
 #include "common/scheme/pair_graph.hpp"
+#include "common/scheme/pair_runs.hpp"
 
 #include <cstdint>
 
@@ -95,6 +96,10 @@ struct SweepGraph {
   /// In an arrangement of choice, for tests and measurements.
   SweepGraph(const PairGraph& graph, Arrangement arrangement);
   std::int64_t bytes() const;
+
+ private:
+  SweepGraph(const PairGraph& graph, const PairRuns& runs);
+  SweepGraph(const PairGraph& graph, Arrangement arrangement, const PairRuns& runs);
 };
 
 /// Chunks ahead of the work that the sweeps ask memory for: the processor's own prefetching stops

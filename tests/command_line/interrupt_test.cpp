@@ -34,9 +34,8 @@ const std::string endless =
 TEST(Interrupt, EndsTheStepWritesWhatThereIsAndSaysHowToGoOn) {
   for (const char* signal : {"INT", "TERM"}) {
     const Folder folder;
-    const auto outcome =
-        under(folder, std::string("timeout --preserve-status -s ") + signal + " 4",
-              "run" + endless + " --method fvm");
+    const auto outcome = under(folder, std::string("timeout --preserve-status -s ") + signal + " 4",
+                               "run" + endless + " --method fvm");
     EXPECT_EQ(outcome.exit_code, 130) << outcome.text;
     EXPECT_THAT(outcome.text, AllOf(HasSubstr("interrupted; what had been computed is in out"),
                                     HasSubstr("the same command begins the run again")));
