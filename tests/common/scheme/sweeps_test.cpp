@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <random>
 
 namespace diptych {
@@ -25,10 +27,10 @@ class RandomBody {
   RandomBody(const std::string& method,
              DissipationKind kind,
              Arrangement arrangement = Arrangement::runs,
-             bool affine = false)
+             bool affine = false,
+             const std::array<int, 3>& cells = {5, 4, 3})
       : graph_(tests::graph_of(
-            method,
-            meshes::box(meshes::CellType::hexahedron, Vec3::Zero(), Vec3::Ones(), {5, 4, 3}))),
+            method, meshes::box(meshes::CellType::hexahedron, Vec3::Zero(), Vec3::Ones(), cells))),
         pairs(graph_, arrangement),
         kind_(kind),
         state(graph_.n_nodes(),
@@ -219,6 +221,31 @@ TEST_P(Methods, ArrangementsAgree) {
                 1e-9 * std::abs(rows.numerical_power()));
     EXPECT_NEAR(rows.rate[0], runs.rate[0], 1e-7 * rows.rate[0]);
   }
+}
+
+/// A body of many segments: each writes to itself and to the next, whoever works it.
+TEST_P(Methods, SegmentsDoNotDependOnThreads) {
+  const std::array<int, 3> cells{14, 14, 14};
+  RandomBody rows(GetParam(), isotropic, Arrangement::rows, false, cells);
+  rows.evaluate();
+  const auto one = results(rows);
+  const double scale = largest(one);
+  std::vector<double> single;
+  for (const int threads : {1, 2}) {
+    parallel::set_threads(threads);
+    RandomBody runs(GetParam(), isotropic, Arrangement::runs, false, cells);
+    ASSERT_GE(runs.pairs.n_blocks / runs.pairs.mutual.segment, 4);
+    runs.evaluate();
+    const auto other = results(runs);
+    const auto rate = *std::max_element(runs.rate.begin(), runs.rate.end());
+    EXPECT_NEAR(rate, *std::max_element(rows.rate.begin(), rows.rate.end()), 1e-7 * rate);
+    if (threads == 1) single = other;
+    EXPECT_EQ(other, single) << threads << " threads";
+    for (size_t k = 0; k < one.size(); ++k)
+      ASSERT_NEAR(one[k], other[k], 1e-9 * scale);
+    EXPECT_NEAR(rows.numerical_power(), runs.numerical_power(), 1e-8 * rows.numerical_power());
+  }
+  parallel::set_threads(1);
 }
 
 TEST_P(Methods, AffineVelocityDissipatesNothing) {
