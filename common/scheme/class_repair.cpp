@@ -18,7 +18,7 @@ using Eigen::MatrixX3d;
 
 /// Beyond these the repair by pairs is the cheaper one: the dense system takes seconds. Classes
 /// that also tell neighbours apart, ring by ring, spread the change farther: smaller errors
-/// (swinging cube with face correction at 1/32, kappa 0.75: u 7.5e-4, 5.4e-4, 4.5e-4), more
+/// (swinging cube with face correction, kappa 1.0, 1/32: u 7.5e-4, 5.4e-4, 4.5e-4), more
 /// conditions.
 constexpr double most_classes_per_node = 0.75;
 constexpr Index most_conditions = 5000, most_conditions_of_rings = 2000;
@@ -33,11 +33,11 @@ constexpr int most_rings = 2, most_passes = 4, most_refinements = 8;
 
 /// Rows of one class and what changes of them.
 struct ClassOfRows {
-  std::int64_t node = -1;  ///< one of the class
-  bool free = true;
+  std::int64_t node = -1;   ///< one of the class
+  bool free = true;         ///< the rest is set where it is
   Eigen::Matrix3d inverse;  ///< pseudo-inverse of M_c
   MatrixX3d X;              ///< [pairs]
-  Eigen::VectorXd k;        ///< [pairs] 0 where not free
+  Eigen::VectorXd k;        ///< [pairs]
   /// (condition, pair, +-1/2): how dC enters the conditions.
   struct Entry {
     Index condition;
@@ -65,19 +65,19 @@ EqualGroups by_neighbours(const PairGraph& graph, const RowClasses& rows) {
 class ClassRepair {
  public:
   /// @param gap  closure_gap(graph)
-  ClassRepair(PairGraph& graph,
-              const RowClasses& rows,
-              const Field& gap,
-              const std::vector<double>& k)
+  ClassRepair(PairGraph& graph, const RowClasses& rows, const Field& gap)
       : graph_(graph), rows_(rows), unit_(area_units(graph)), gap_(gap) {
     find_free_classes();
-    set_geometry(k);
     find_conditions();
   }
 
   Index n_conditions() const { return static_cast<Index>(node_of_.size()); }
 
-  bool repair(const RepairLimits& limits) {
+  bool repair(const std::vector<double>& k, const RepairLimits& limits) {
+    for (ClassOfRows& c : classes_)
+      if (c.free) set_geometry(k, c);
+    for (Index e = 0; e < n_conditions(); ++e)
+      add_entries(e, node_of_[static_cast<size_t>(e)]);
     set_system();
     double before = greatest(gap_, unit_);
     for (int pass = 0; pass < most_passes && !(before <= limits.closure); ++pass) {
@@ -112,24 +112,22 @@ class ClassRepair {
     }
   }
 
-  void set_geometry(const std::vector<double>& k) {
-    for (ClassOfRows& c : classes_) {
-      const auto n = static_cast<Index>(length(c.node));
-      c.X.resize(n, 3);
-      c.k.resize(n);
-      for (Index i = 0; i < n; ++i) {
-        const std::int64_t p = pair(c.node, i);
-        c.X.row(i) = (graph_.X[graph_.neighbour[p]] - graph_.X[c.node]).transpose();
-        c.k[i] = k[p];
-      }
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> M(c.X.transpose() * c.k.asDiagonal() *
-                                                             c.X);
-      Eigen::Vector3d inverse = Eigen::Vector3d::Zero();
-      for (int i = 0; i < 3; ++i) {
-        if (M.eigenvalues()[i] > 1e-10 * M.eigenvalues()[2]) inverse[i] = 1 / M.eigenvalues()[i];
-      }
-      c.inverse = M.eigenvectors() * inverse.asDiagonal() * M.eigenvectors().transpose();
+  void set_geometry(const std::vector<double>& k, ClassOfRows& c) const {
+    const auto n = static_cast<Index>(length(c.node));
+    c.X.resize(n, 3);
+    c.k.resize(n);
+    for (Index i = 0; i < n; ++i) {
+      const std::int64_t p = pair(c.node, i);
+      c.X.row(i) = (graph_.X[graph_.neighbour[p]] - graph_.X[c.node]).transpose();
+      c.k[i] = k[p];
     }
+    const Eigen::Matrix3d M = c.X.transpose() * c.k.asDiagonal() * c.X;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> of(M);
+    Eigen::Vector3d inverse = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 3; ++i) {
+      if (of.eigenvalues()[i] > 1e-10 * of.eigenvalues()[2]) inverse[i] = 1 / of.eigenvalues()[i];
+    }
+    c.inverse = of.eigenvectors() * inverse.asDiagonal() * of.eigenvectors().transpose();
   }
 
   bool is_free(std::int64_t a) const { return classes_[class_of(a)].free; }
@@ -159,8 +157,6 @@ class ClassRepair {
     const EqualGroups kinds = group_equal(hash, [](std::int32_t, std::int32_t) { return true; });
     for (const std::int32_t a : kinds.representative)
       if (touched[a]) node_of_.push_back(a);
-    for (Index e = 0; e < n_conditions(); ++e)
-      add_entries(e, node_of_[static_cast<size_t>(e)]);
   }
 
   void add_entries(Index e, std::int64_t a) {
@@ -218,13 +214,15 @@ class ClassRepair {
       y = next;
       r = r_next;
     }
-    std::vector<MatrixX3d> dC;
-    for (const ClassOfRows& c : classes_) {
+    std::vector<MatrixX3d> dC(classes_.size());
+    for (size_t i = 0; i < classes_.size(); ++i) {
+      const ClassOfRows& c = classes_[i];
+      if (!c.free) continue;
       MatrixX3d z = MatrixX3d::Zero(c.k.size(), 3);
       for (const auto& entry : c.entries)
         z.row(entry.pair) += entry.factor * y.row(entry.condition);
       const Eigen::Matrix3d slope = c.inverse * (c.X.transpose() * c.k.asDiagonal() * z);
-      dC.push_back(c.k.asDiagonal() * (z - c.X * slope));
+      dC[i] = c.k.asDiagonal() * (z - c.X * slope);
     }
     for_each_node(gap_.size(), [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t a = begin; a < end; ++a) {
@@ -256,10 +254,10 @@ bool repair_closure_by_classes(PairGraph& graph,
   if (n_classes > most_classes_per_node * static_cast<double>(graph.n_nodes())) return false;
   const Field gap = closure_gap(graph);
   const auto closes = [&](Index most) {
-    ClassRepair repair(graph, rows, gap, k);
+    ClassRepair repair(graph, rows, gap);
     if (repair.n_conditions() > most) return false;
     std::vector<Vec3> C = graph.C;
-    if (repair.repair(limits)) return true;
+    if (repair.repair(k, limits)) return true;
     graph.C.swap(C);
     return false;
   };
