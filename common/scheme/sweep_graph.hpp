@@ -10,10 +10,10 @@
 ///
 /// Geometry stands once for all rows (runs: blocks) that have the same (row_classes.hpp); on
 /// lattices it stays in the cache, elsewhere it is a stream of memory. X_b - X_a is made from the
-/// positions. Per pair in 3-D the strain-rate sweep streams 28 bytes at most and the momentum sweep
-/// 44; 4 where all is shared. What only scales and directs the dissipation (S_ab and its length) is
-/// kept in single precision: S_ba = -S_ab holds exactly, and the jump that it multiplies is exact,
-/// so no identity is touched.
+/// positions. Per directed pair in 3-D the strain-rate sweep streams 28 bytes at most, the momentum
+/// sweep 44 in rows and 26 in runs, where it works each pair once; 4 where all is shared. What only
+/// scales the dissipation (|S_ab|; in rows S_ab too) is kept in single precision: S_ba = -S_ab
+/// holds exactly, and the jump that it multiplies is exact, so no identity is touched.
 
 #include "common/algebra/node_table.hpp"
 #include "common/scheme/pair_graph.hpp"
