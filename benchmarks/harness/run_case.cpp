@@ -346,6 +346,7 @@ RunResult run_case(const run::Case& setup, const RunOptions& options) {
   s.threads = parallel::n_threads();
   s.integrator = setup.time.integrator;
   s.unknowns_per_node = solver->unknowns_per_node();
+  s.arrangement = solver->arrangement();
   s.provenance = provenance(setup.hash);
   s.provenance.input_hash = input_hash(setup, options.measures);
   describe_graph(result.graph, s);

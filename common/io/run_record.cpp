@@ -311,6 +311,7 @@ std::string to_json(const RunSummary& summary) {
       {"threads", summary.threads},
       {"ranks", summary.ranks},
       {"precision", summary.precision},
+      {"arrangement", summary.arrangement},
       {"integrator", summary.integrator},
       {"status", summary.status},
       {"end_time", summary.end_time},
@@ -356,6 +357,7 @@ RunSummary summary_from_json(const std::string& text, const std::string& path) {
   summary.level = file.small_count("level");
   summary.dimension = file.small_count("dimension");
   summary.precision = file.text("precision");
+  summary.arrangement = file.text("arrangement");
   summary.integrator = file.text("integrator");
   summary.status = file.text("status");
   summary.end_time = file.number("end_time");

@@ -48,6 +48,7 @@ struct RunSummary {
   std::int64_t steps = 0, stages = 0;
   int threads = 1, ranks = 1;
   std::string precision = "double", integrator, status = "done";
+  std::string arrangement;  ///< of pairs in the sweeps: runs or rows
   double end_time = 0;
   double setup_seconds = 0, wall_seconds = 0, loop_seconds = 0, nanoseconds_per_node_stage = 0;
   /// per node for the time that a pressure wave of the undeformed body takes over one spacing

@@ -97,6 +97,9 @@ class BodySolver : public Solver {
     return hash_of(state_, order, time_);
   }
   int unknowns_per_node() const override { return state_.unknowns_per_node(); }
+  std::string arrangement() const override {
+    return pairs_.shape.arrangement == algebra::Arrangement::runs ? "runs" : "rows";
+  }
   double undeformed_speed() const override { return undeformed_speed_; }
   int evaluations_per_step() const override { return setup_.integrator.evaluations_per_step(); }
   Mat3 equilibrium_stress(const Mat3& F) const override {

@@ -51,6 +51,8 @@ class Solver {
   /// XXH3 (128 bits) of the unknowns and the time; `order[a]` is the user's number of node a.
   virtual std::string state_hash(const std::vector<std::int32_t>& order) const = 0;
   virtual int unknowns_per_node() const = 0;
+  /// Of the sweeps: "runs" or "rows" (scheme/sweep_graph.hpp); they differ in the last bits.
+  virtual std::string arrangement() const = 0;
   virtual int evaluations_per_step() const = 0;
   virtual std::int64_t bytes() const = 0;
   /// c_p of the undeformed, virgin body with all branches  [m/s]

@@ -27,6 +27,7 @@ RunSummary full_summary() {
   s.level = 2, s.dimension = 2, s.nodes = 4'000'000'017, s.pairs = 123456789,
   s.unknowns_per_node = 34;
   s.steps = 77, s.stages = 154, s.threads = 3, s.ranks = 5;
+  s.arrangement = "rows";
   s.precision = "single", s.integrator = "ssp-rk3", s.status = "interrupted";
   s.end_time = 0.1, s.setup_seconds = 1.0 / 3, s.wall_seconds = 12.5, s.loop_seconds = 11.7;
   s.nanoseconds_per_node_crossing = 777.1;
@@ -85,6 +86,7 @@ TEST(RunRecord, HasTheKeysOfTheContract) {
                               "/threads",
                               "/ranks",
                               "/precision",
+                              "/arrangement",
                               "/status",
                               "/wall_seconds",
                               "/loop_seconds",
