@@ -123,8 +123,8 @@ EqualGroups group_units(const PairGraph& graph, const RowClasses& classes, const
 }
 
 /// Geometry of every group once, set lane by lane by set(chunk, lane, C_ab, C_ba).
-/// @param first  of each unit, into the geometry
-/// @param allocate  called with the number of chunks
+/// @param first_of_unit  into the geometry
+/// @param allocate       called with the number of chunks
 template <class Allocate, class Set>
 void set_geometry(const PairGraph& graph,
                   const RowClasses& classes,
@@ -209,6 +209,7 @@ void set_nodes(const PairGraph& graph, const RowClasses& classes, SweepGraph<Dim
     sweep.inverse_Omega[a] = 1 / graph.Omega[a];
     for (int i = 0; i < Dim; ++i)
       sweep.X.at(a, i) = graph.X[a][i];
+    if (sweep.C_sum.empty()) continue;
     for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k) {
       for (int i = 0; i < Dim; ++i)
         sweep.C_sum.at(a, i) += classes.C[classes.order[k]][i];
@@ -269,7 +270,7 @@ SweepGraph<Dim>::SweepGraph(const PairGraph& graph, Arrangement arrangement, con
       n_pairs(graph.n_pairs()),
       inverse_Omega(n_blocks * n_lanes),
       Omega(n_blocks * n_lanes),
-      C_sum(graph.n_nodes(), Dim) {
+      C_sum(arrangement == Arrangement::rows ? graph.n_nodes() : 0, Dim) {
   const RowClasses classes = classify_rows(graph);
   if (arrangement == Arrangement::runs) {
     set_runs(graph, classes, runs, *this);
