@@ -100,7 +100,7 @@ void momentum(benchmark::State& run, const std::string& graph, bool with_bound) 
 
 using algebra::Lanes;
 
-/// Stress and wave speeds of all blocks, results into the rates and forces of the state.
+/// Stress and wave speeds of all blocks, results into the records of the state.
 DIPTYCH_CLONES void stress_and_speeds(Scene& scene, std::int64_t n_blocks) {
   for (std::int64_t b = 0; b < n_blocks; ++b) {
     const auto X = scheme::load_deformation(scene.state, b);
@@ -108,11 +108,11 @@ DIPTYCH_CLONES void stress_and_speeds(Scene& scene, std::int64_t n_blocks) {
         scheme::response_of_block(scene.model, scene.state, scene.frozen, X, b,
                                   [](int, const physics::BranchState<Lanes>&, const auto&) {});
     const auto P = physics::piola_stress<true>(response, X);
-    for (int k = 0; k < 9; ++k)
-      algebra::store(scene.state.L.block(b) + k * algebra::n_lanes, P(k / 3, k % 3));
+    using Record = scheme::NodeRecord<3>;
+    scheme::put_tensor<3>(scene.state.records, b, Record::P, P);
     const auto speeds = physics::speed_bounds(response, X, scene.model.rho_R, true);
-    algebra::store(scene.state.T.block(b), speeds.c_p);
-    algebra::store(scene.state.T.block(b) + algebra::n_lanes, speeds.c_s);
+    scene.state.records.put(b, Record::z_p, scene.model.rho_R * speeds.c_p);
+    scene.state.records.put(b, Record::z_s, scene.model.rho_R * speeds.c_s);
   }
 }
 

@@ -70,7 +70,6 @@ Scene::Scene(const SceneChoice& choice) : pairs(graph_of(choice.graph)) {
   run::set_initial_state(graph, setup.initial, setup.scheme.face_correction, state);
   for (std::int64_t i = 0; i < state.n_blocks * 9 * algebra::n_lanes; ++i)
     state.F_0.block(0)[i] = state.F.block(0)[i];
-  scheme::publish_velocity(state, 0, pairs.n_blocks);
 }
 
 }  // namespace diptych::micro

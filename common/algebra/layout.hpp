@@ -38,7 +38,9 @@ DIPTYCH_INLINE void store_vector(double* block, const Vector<Lanes>& v) {
 template <int Dim>
 DIPTYCH_INLINE Tensor<Lanes> load_tensor(const double* block, double diagonal_33) {
   Tensor<Lanes> T{};
+#pragma GCC unroll 3
   for (int i = 0; i < Dim; ++i)
+#pragma GCC unroll 3
     for (int j = 0; j < Dim; ++j)
       T(i, j) = load(block + (i * Dim + j) * n_lanes);
   if constexpr (Dim == 2) T(2, 2) = Lanes{} + diagonal_33;

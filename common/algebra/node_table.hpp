@@ -70,6 +70,38 @@ class NodeTable {
     for (int lane = 0; lane < n_lanes; ++lane)
       p[lane * node_stride_] = value[lane];
   }
+  /// Components first.. of the eight nodes of block b. Asks for the arrangement once.
+  template <int n>
+  DIPTYCH_INLINE void get_all(std::int64_t b, int first, Lanes (&values)[n]) const {
+    const double* p = origin() + b * n_lanes * node_stride_ + first * component_stride_;
+    if (arrangement_ == Arrangement::runs) {
+#pragma GCC unroll 9
+      for (int c = 0; c < n; ++c)
+        values[c] = load(p + c * component_stride_);
+      return;
+    }
+#pragma GCC unroll 9
+    for (int c = 0; c < n; ++c)
+#pragma GCC unroll 8
+      for (int lane = 0; lane < n_lanes; ++lane)
+        values[c][lane] = p[lane * node_stride_ + c];
+  }
+  /// Sets components first.. of the eight nodes of block b.
+  template <int n>
+  DIPTYCH_INLINE void put_all(std::int64_t b, int first, const Lanes (&values)[n]) {
+    double* p = origin() + b * n_lanes * node_stride_ + first * component_stride_;
+    if (arrangement_ == Arrangement::runs) {
+#pragma GCC unroll 9
+      for (int c = 0; c < n; ++c)
+        store(p + c * component_stride_, values[c]);
+      return;
+    }
+#pragma GCC unroll 9
+    for (int c = 0; c < n; ++c)
+#pragma GCC unroll 8
+      for (int lane = 0; lane < n_lanes; ++lane)
+        p[lane * node_stride_ + c] = values[c][lane];
+  }
 
  private:
   Arrangement arrangement_ = Arrangement::rows;

@@ -60,7 +60,6 @@ class BodySolver : public Solver {
     if (setup_.face_correction != 0) state_.allow_face_correction();
     set_initial_state(graph_, setup_.initial, setup_.face_correction, state_);
     boundary_.constrain(state_, model_.rho_R, 0);
-    for_blocks([&](auto begin, auto end) { scheme::publish_velocity(state_, begin, end); });
     evaluate({}, nullptr, 0);
     check_health(0);
     if (setup_.integrator.is_leapfrog()) {
@@ -283,9 +282,8 @@ class BodySolver : public Solver {
     });
   }
 
-  /// Prescribed velocities at time t, then the velocities as neighbours read them.
+  /// Prescribed velocities at time t.
   void constrain(double t) {
-    for_blocks([&](auto begin, auto end) { scheme::publish_velocity(state_, begin, end); });
     add_action(boundary_.constrain(state_, model_.rho_R, t));
   }
   void add_action(const scheme::ConstraintAction& action) {

@@ -58,10 +58,10 @@ void put_deformation(scheme::State<Dim>& state, std::int64_t a, const Mat3& F) {
   const auto X = physics::deformation_of(algebra::to_tensor(F));
   for (int k = 0; k < Dim * Dim; ++k)
     state.F.at(a, k) = F(k / Dim, k % Dim);
-  if (!state.H.empty()) {
+  if (state.unknowns == scheme::Unknowns::FHJ) {
     for (int k = 0; k < Dim * Dim; ++k)
-      state.H.at(a, k) = X.H(k / Dim, k % Dim);
-    if constexpr (Dim == 2) state.H.at(a, 4) = X.H(2, 2);
+      state.H(a, k) = X.H(k / Dim, k % Dim);
+    if constexpr (Dim == 2) state.H(a, 4) = X.H(2, 2);
   }
   if (!state.J.empty()) state.J.at(a, 0) = X.J;
 }
@@ -146,13 +146,23 @@ std::string hash_of(const scheme::State<Dim>& state,
   for (size_t a = 0; a < order.size(); ++a)
     node_of[order[a]] = static_cast<std::int64_t>(a);
   std::vector<double> values{time};
-  for (const auto* field : {&state.v, &state.u, &state.F, &state.H, &state.J, &state.A, &state.S}) {
-    if (field->empty()) continue;
+  const auto add = [&](int n_components, const auto& value) {
     for (const std::int64_t a : node_of) {
-      for (int c = 0; c < field->n_components(); ++c)
-        values.push_back(field->at(a, c));
+      for (int c = 0; c < n_components; ++c)
+        values.push_back(value(a, c));
     }
+  };
+  const auto add_field = [&](const algebra::BlockField& field) {
+    add(field.n_components(), [&](std::int64_t a, int c) { return field.at(a, c); });
+  };
+  add(Dim, [&](std::int64_t a, int c) { return state.v.at(a, c); });
+  add_field(state.u);
+  add_field(state.F);
+  if (state.unknowns == scheme::Unknowns::FHJ) {
+    add(algebra::Layout<Dim>::n_H, [&](std::int64_t a, int c) { return state.H(a, c); });
   }
+  for (const auto* field : {&state.J, &state.A, &state.S})
+    add_field(*field);
   const XXH128_hash_t hash = XXH3_128bits(values.data(), values.size() * sizeof(double));
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }

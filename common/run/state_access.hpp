@@ -52,10 +52,10 @@ physics::Deformation<double> deformation_at(const scheme::State<Dim>& state, std
   const auto derived = physics::deformation_of(X.F);
   X.H = derived.H;
   X.J = derived.J;
-  if (!state.H.empty()) {
+  if (state.unknowns == scheme::Unknowns::FHJ) {
     for (int k = 0; k < Dim * Dim; ++k)
-      X.H(k / Dim, k % Dim) = state.H.at(a, k);
-    if constexpr (Dim == 2) X.H(2, 2) = state.H.at(a, 4);
+      X.H(k / Dim, k % Dim) = state.H(a, k);
+    if constexpr (Dim == 2) X.H(2, 2) = state.H(a, 4);
   }
   if (!state.J.empty()) X.J = state.J.at(a, 0);
   return X;

@@ -77,10 +77,8 @@ double project_angular_momentum(State<Dim>& state,
   const double gain = lambda.dot(spin) + 0.5 * lambda.dot(missing);
   for_nodes([&](std::int64_t a, std::int64_t) {
     const Vec3 change = lambda.cross(position(state, X_centred, a) - centre);
-    for (int i = 0; i < Dim; ++i) {
+    for (int i = 0; i < Dim; ++i)
       state.v.at(a, i) += change[i];
-      state.velocity.at(a, i) = state.v.at(a, i);
-    }
   });
   return gain;
 }

@@ -26,8 +26,10 @@ DIPTYCH_CLONES void add_energies(const Model<Material>& model,
                       [&](int k, const BranchState<Lanes>& branch, const auto&) {
                         W += physics::branch_energy<Material::has_H>(model.branches[k], branch, X);
                       });
-    const auto v = algebra::load_vector<Dim>(state.v.block(b));
-    sum.kinetic += 0.5 * model.rho_R * algebra::lane_sum(Omega * algebra::dot(v, v));
+    Lanes v_v{};
+    for (int i = 0; i < Dim; ++i)
+      v_v += state.v.get(b, i) * state.v.get(b, i);
+    sum.kinetic += 0.5 * model.rho_R * algebra::lane_sum(Omega * v_v);
     sum.strain += algebra::lane_sum(Omega * W);
     const Deformation<Lanes> exact = physics::deformation_of(X.F);
     for (int l = 0; l < n_lanes; ++l) {

@@ -17,8 +17,7 @@ DIPTYCH_INLINE void plain_gradients(const SweepGraph<Dim>& graph,
   for (std::int64_t b = begin; b < end; ++b) {
     Lanes L[Dim * Dim];
     strain_rates_of_block<isa>(graph, state, b, L);
-    for (int k = 0; k < Dim * Dim; ++k)
-      state.gradients.put(b, k, L[k]);
+    state.gradients.put_all(b, 0, L);
   }
 }
 

@@ -85,8 +85,7 @@ DIPTYCH_INLINE void correct_stresses(const SweepGraph<Dim>& graph,
   for (std::int64_t b = begin; b < end; ++b) {
     Lanes P[Dim * Dim];
     corrected_block<isa, Side::stress>(graph, state.stresses, kappa_f, b, P);
-    for (int k = 0; k < Dim * Dim; ++k)
-      state.records.put(b, NodeRecord<Dim>::P + k, P[k]);
+    state.records.put_all(b, NodeRecord<Dim>::P, P);
   }
 }
 

@@ -43,14 +43,14 @@ void work_segment(const MomentumSweep<Dim>& sweep,
 
 template <int Dim>
 void clear_sums(State<Dim>& state, std::int64_t begin, std::int64_t end) {
-  algebra::NodeTable& sums = state.pair_sums;
+  algebra::NodeTable& sums = state.T;
   for (int c = 0; c <= Dim; ++c) {
     double* component = sums.origin() + c * sums.component_stride();
     std::fill(component + begin * n_lanes, component + end * n_lanes, 0.0);
   }
 }
 
-/// Runs: T and the largest rate of each chunk of [begin, end) from the sums of its nodes.
+/// Runs: T from the sums of [begin, end), and the largest rate of each chunk.
 template <int Dim>
 DIPTYCH_CLONES void use_sums(const MomentumSweep<Dim>& sweep,
                              std::int64_t begin,
@@ -58,9 +58,9 @@ DIPTYCH_CLONES void use_sums(const MomentumSweep<Dim>& sweep,
   State<Dim>& state = sweep.state;
   for (std::int64_t b = begin; b < end; ++b) {
     for (int i = 0; i < Dim; ++i)
-      algebra::store(state.T.block(b) + i * n_lanes, 0.5 * state.pair_sums.get(b, i));
+      state.T.put(b, i, 0.5 * state.T.get(b, i));
     if (!sweep.with_bound) continue;
-    const Lanes rate = (0.5 / sweep.rho_R) * state.pair_sums.get(b, Dim) *
+    const Lanes rate = (0.5 / sweep.rho_R) * state.T.get(b, Dim) *
                        algebra::load(sweep.graph.inverse_Omega.data() + b * n_lanes);
     double& largest = sweep.largest_rate[b / parallel::chunk_size];
     for (int lane = 0; lane < n_lanes; ++lane)

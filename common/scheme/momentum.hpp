@@ -35,7 +35,7 @@ struct MomentumSweep {
 };
 
 /// A compiled sweep over blocks [begin, end) of a chunk: forces of rows into state.T, of runs added
-/// to state.pair_sums.
+/// to its sums.
 template <int Dim>
 using MomentumFunction = void (*)(const MomentumSweep<Dim>& sweep,
                                   std::int64_t begin,
@@ -194,12 +194,12 @@ DIPTYCH_INLINE Lanes rate_of(const Vector<Lanes>& C, const Pairs& pairs) {
 }
 
 /// v_b - v_a of eight pairs.
+/// @param pairs  with v from component c
 template <int Dim, class Pairs>
-DIPTYCH_INLINE Vector<Lanes> plain_jump(const Pairs& pairs) {
-  using Record = NodeRecord<Dim>;
+DIPTYCH_INLINE Vector<Lanes> plain_jump(const Pairs& pairs, int c) {
   Vector<Lanes> plain{};
   for (int i = 0; i < Dim; ++i)
-    plain[i] = pairs.neighbour(Record::v + i) - pairs.own(Record::v + i);
+    plain[i] = pairs.neighbour(c + i) - pairs.own(c + i);
   return plain;
 }
 
@@ -217,7 +217,7 @@ DIPTYCH_INLINE NodeSums<Dim> sums_of_node(const MomentumSweep<Dim>& sweep, std::
        ++chunk, ++force, ++face_geometry) {
     prefetch(force + chunks_ahead);
     prefetch(face_geometry + chunks_ahead);
-    const auto pairs = pairs_of<isa, rows, Record::n(exact), Record::stride(exact)>(
+    const auto pairs = pairs_of<isa, rows, Record::n_row(exact), Record::stride(exact)>(
         graph, sweep.state.records, a, chunk);
     const auto positions = vector_pairs_of<isa, rows>(graph, graph.X, a, chunk);
     PairFace<Dim> face;
@@ -227,7 +227,7 @@ DIPTYCH_INLINE NodeSums<Dim> sums_of_node(const MomentumSweep<Dim>& sweep, std::
       C_ba[i] = algebra::load(force->C_ba[i]);
       face.S[i] = algebra::load(face_geometry->S_ab[i]);
     }
-    const Vector<Lanes> plain = plain_jump<Dim>(pairs);
+    const Vector<Lanes> plain = plain_jump<Dim>(pairs, Record::v(exact));
     const Vector<Lanes> D = dissipation_of<Dim, kind, has_H>(sweep, face, pairs, positions, plain);
 #pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i) {
@@ -270,7 +270,7 @@ DIPTYCH_INLINE double forces_on_block(const MomentumSweep<Dim>& sweep,
       PC += sweep.state.records.get(b, Record::P + i * Dim + j) *
             algebra::load(graph.C_sum.block(b) + j * n_lanes);
     }
-    algebra::store(sweep.state.T.block(b) + i * n_lanes, 0.5 * (PC + sums.force[i]));
+    sweep.state.T.put(b, i, 0.5 * (PC + sums.force[i]));
   }
   if (sweep.with_bound) {
     const Lanes rate =
@@ -297,9 +297,11 @@ DIPTYCH_INLINE double add_forces_of_block(const MomentumSweep<Dim>& sweep, std::
   const std::int64_t begin = mutual.row[b], end = mutual.row[b + 1];
   if (begin == end) return 0;
   prefetch_ahead<Record::n(exact)>(sweep.state.records, b, mutual.offset[end - 1]);
+  prefetch_ahead<Dim>(sweep.state.v, b, mutual.offset[end - 1]);
+  prefetch_ahead<Dim>(graph.X, b, mutual.offset[end - 1]);
   const MutualGeometry<Dim>* geometry = mutual.geometry.data() + mutual.first[b];
-  double* const own_sums = sweep.state.pair_sums.origin() + b * n_lanes;
-  const std::int64_t stride = sweep.state.pair_sums.component_stride();
+  double* const own_sums = sweep.state.T.origin() + b * n_lanes;
+  const std::int64_t stride = sweep.state.T.component_stride();
   NodeSums<Dim> sums;
   for (std::int64_t chunk = begin; chunk < end; ++chunk, ++geometry) {
     prefetch(geometry + chunks_ahead);
@@ -314,7 +316,7 @@ DIPTYCH_INLINE double add_forces_of_block(const MomentumSweep<Dim>& sweep, std::
       C_ba[i] = algebra::load(geometry->C_ba[i]);
       face.S[i] = C_ab[i] - C_ba[i];
     }
-    const Vector<Lanes> plain = plain_jump<Dim>(pairs);
+    const Vector<Lanes> plain = plain_jump<Dim>(RunPairs(sweep.state.v, b, offset), 0);
     const Vector<Lanes> D = dissipation_of<Dim, kind, has_H>(sweep, face, pairs, positions, plain);
     double* const their_sums = own_sums + offset;
 #pragma GCC unroll 3

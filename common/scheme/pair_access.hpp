@@ -61,6 +61,15 @@ DIPTYCH_INLINE void prefetch_ahead(const NodeTable& table, std::int64_t b, std::
     __builtin_prefetch(ahead + c * table.component_stride(), 0, 2);
 }
 
+/// Asks, for writing, for n components of a block that will be written soon.
+template <int n>
+DIPTYCH_INLINE void prefetch_to_write(const NodeTable& table, std::int64_t b) {
+  const double* ahead = table.origin() + (b + 4) * n_lanes;
+#pragma GCC unroll 8
+  for (int c = 0; c < n; ++c)
+    __builtin_prefetch(ahead + c * table.component_stride(), 1, 2);
+}
+
 /// @tparam n       components that are read
 /// @tparam stride  of the rows of the table
 template <InstructionSet isa, Arrangement arrangement, int n, int stride, int Dim>

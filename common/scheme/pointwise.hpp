@@ -11,11 +11,49 @@ namespace diptych::scheme {
 
 using algebra::Lanes;
 using algebra::n_lanes;
+using algebra::NodeTable;
 using algebra::SymmetricTensor;
 using algebra::Tensor;
 using physics::BranchState;
 using physics::Deformation;
 using physics::Response;
+
+/// A tensor of block b from components c.. of a table, zero out of plane.
+template <int Dim>
+DIPTYCH_INLINE Tensor<Lanes> get_tensor(const NodeTable& table, std::int64_t b, int c) {
+  Lanes in_plane[Dim * Dim] = {};
+  table.get_all(b, c, in_plane);
+  Tensor<Lanes> T{};
+#pragma GCC unroll 9
+  for (int k = 0; k < Dim * Dim; ++k)
+    T(k / Dim, k % Dim) = in_plane[k];
+  return T;
+}
+/// Writes the in-plane part of a tensor of block b to components c.. of a table.
+template <int Dim>
+DIPTYCH_INLINE void put_tensor(NodeTable& table,
+                               std::int64_t b,
+                               int c,
+                               const Tensor<Lanes>& value) {
+  Lanes in_plane[Dim * Dim] = {};
+#pragma GCC unroll 9
+  for (int k = 0; k < Dim * Dim; ++k)
+    in_plane[k] = value(k / Dim, k % Dim);
+  table.put_all(b, c, in_plane);
+}
+
+/// dF/dt of block b.
+template <int Dim>
+DIPTYCH_INLINE Tensor<Lanes> velocity_gradient(const State<Dim>& state, std::int64_t b) {
+  return get_tensor<Dim>(state.records, b, NodeRecord<Dim>::L);
+}
+
+/// H of block b, where it is evolved.
+template <int Dim>
+DIPTYCH_INLINE void put_H(State<Dim>& state, std::int64_t b, const Tensor<Lanes>& H) {
+  put_tensor<Dim>(state.records, b, NodeRecord<Dim>::H, H);
+  if constexpr (Dim == 2) algebra::store(state.H_33.block(b), H(2, 2));
+}
 
 /// {F, H, J} of a block: evolved where they are unknowns, from F otherwise.
 template <int Dim>
@@ -23,7 +61,8 @@ DIPTYCH_INLINE Deformation<Lanes> load_deformation(const State<Dim>& state, std:
   Deformation<Lanes> X;
   X.F = algebra::load_tensor<Dim>(state.F.block(b), 1);
   if (state.unknowns == Unknowns::FHJ) {
-    X.H = algebra::load_H<Dim>(state.H.block(b));
+    X.H = get_tensor<Dim>(state.records, b, NodeRecord<Dim>::H);
+    if constexpr (Dim == 2) X.H(2, 2) = algebra::load(state.H_33.block(b));
     X.J = algebra::load(state.J.block(b));
   } else {
     X.H = algebra::cofactor(X.F);
@@ -56,7 +95,7 @@ DIPTYCH_INLINE RelaxationDrive gauss_drive(const State<Dim>& state,
   const Tensor<Lanes> F_0 = algebra::load_tensor<Dim>(state.F_0.block(b), 1);
   const Tensor<Lanes> F = algebra::load_tensor<Dim>(state.F.block(b), 1);
   const Tensor<Lanes> L_0 = algebra::load_tensor<Dim>(state.L_0.block(b), 0);
-  const Tensor<Lanes> L = algebra::load_tensor<Dim>(state.L.block(b), 0);
+  const Tensor<Lanes> L = velocity_gradient(state, b);
   const auto at = [&](double theta) DIPTYCH_INLINE_LAMBDA {
     return physics::right_tensors(physics::hermite(theta, dt, F_0, L_0, F, L));
   };

@@ -17,14 +17,14 @@ State<Dim>::State(std::int64_t n,
       unknowns(which),
       shape(table_shape) {
   using Layout = algebra::Layout<Dim>;
-  for (BlockField* f : {&v, &u, &v_0, &u_0, &T})
+  for (BlockField* f : {&u, &v_0, &u_0})
     *f = BlockField(n, Dim);
-  for (BlockField* f : {&F, &F_0, &L})
+  for (BlockField* f : {&F, &F_0})
     *f = BlockField(n, Layout::n_F);
   if (keep_L_0) L_0 = BlockField(n, Layout::n_F);
   if (which == Unknowns::FHJ) {
-    for (BlockField* f : {&H, &H_0})
-      *f = BlockField(n, Layout::n_H);
+    H_0 = BlockField(n, Layout::n_H);
+    if (Dim == 2) H_33 = BlockField(n, 1);
   }
   if (which != Unknowns::F) {
     for (BlockField* f : {&J, &J_0})
@@ -34,12 +34,12 @@ State<Dim>::State(std::int64_t n,
     A = BlockField(n, branches * Layout::n_A);
     if (G) S = BlockField(n, branches * Layout::n_S);
   }
-  velocity = algebra::NodeTable(n, Dim, vector_stride<Dim>, shape);
+  v = algebra::NodeTable(n, Dim, vector_stride<Dim>, shape);
   using Record = NodeRecord<Dim>;
   records =
       algebra::NodeTable(n, Record::n(exact_impedance), Record::stride(exact_impedance), shape);
-  if (shape.arrangement == algebra::Arrangement::runs)
-    pair_sums = algebra::NodeTable(n, Dim + 1, Dim + 1, shape);
+  const bool runs = shape.arrangement == algebra::Arrangement::runs;
+  T = algebra::NodeTable(n, runs ? Dim + 1 : Dim, vector_stride<Dim>, shape);
 }
 
 template <int Dim>
@@ -50,19 +50,18 @@ void State<Dim>::allow_face_correction() {
 
 template <int Dim>
 std::int64_t State<Dim>::bytes() const {
-  std::int64_t sum =
-      velocity.bytes() + records.bytes() + gradients.bytes() + stresses.bytes() + pair_sums.bytes();
-  for (const BlockField* f :
-       {&v, &u, &F, &H, &J, &A, &S, &v_0, &u_0, &F_0, &H_0, &J_0, &L_0, &L, &T}) {
+  std::int64_t sum = 0;
+  for (const algebra::NodeTable* t : {&v, &records, &T, &gradients, &stresses})
+    sum += t->bytes();
+  for (const BlockField* f : {&u, &F, &J, &H_33, &A, &S, &v_0, &u_0, &F_0, &H_0, &J_0, &L_0})
     sum += f->bytes();
-  }
   return sum;
 }
 
 template <int Dim>
 int State<Dim>::unknowns_per_node() const {
-  int n = 0;
-  for (const BlockField* f : {&v, &u, &F, &H, &J, &A, &S})
+  int n = Dim;  // v
+  for (const BlockField* f : {&u, &F, &H_0, &J, &A, &S})
     n += f->n_components();
   return n;
 }

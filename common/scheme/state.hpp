@@ -1,8 +1,8 @@
 #pragma once
 /// The unknowns of a body and what the sweeps keep beside them.
 ///
-/// Two forms of the same values: block fields (algebra/field.hpp) for pointwise work, and node
-/// tables (algebra/node_table.hpp) that pair sweeps read of neighbours.
+/// What pair sweeps read of neighbours stands in node tables (algebra/node_table.hpp), all else in
+/// block fields (algebra/field.hpp). No value stands twice, but for the velocity in rows.
 
 #include "common/algebra/field.hpp"
 #include "common/algebra/layout.hpp"
@@ -15,11 +15,11 @@ using algebra::BlockField;
 /// Which of H and J are unknowns of their own, evolved by (18c,d); the others follow from F.
 enum class Unknowns { F, FJ, FHJ };
 
-/// Layout of the record that neighbours read in the momentum sweep (doubles).
+/// Layout of the record that neighbours read in the momentum sweep (doubles). The only home of H
+/// and of L. In rows a copy of v ends it, so that one gather brings all.
 template <int Dim>
 struct NodeRecord {
-  static constexpr int v = 0;                ///< velocity [m/s]
-  static constexpr int P = Dim;              ///< in-plane first Piola stress, row-major [Pa]
+  static constexpr int P = 0;                ///< in-plane first Piola stress, row-major [Pa]
   static constexpr int L = P + Dim * Dim;    ///< velocity gradient dF/dt, row-major [1/s]
   static constexpr int H = L + Dim * Dim;    ///< in-plane cofactor, row-major [-]
   static constexpr int z_p = H + Dim * Dim;  ///< rho_R c_p [kg/(m^2 s)]
@@ -33,8 +33,11 @@ struct NodeRecord {
   static constexpr int W_FJ = W_JJ + 1;
   static constexpr int n_exact = W_FJ + 1;
   static constexpr int n(bool exact) { return exact ? n_exact : n_isotropic; }
+  // rows only
+  static constexpr int v(bool exact) { return n(exact); }  ///< velocity [m/s]
+  static constexpr int n_row(bool exact) { return n(exact) + Dim; }
   /// Length of a row in doubles, padded to whole cache lines.
-  static constexpr int stride(bool exact) { return (n(exact) + 7) / 8 * 8; }
+  static constexpr int stride(bool exact) { return (n_row(exact) + 7) / 8 * 8; }
 };
 
 /// Row of a tensor, padded to whole gathers (face correction).
@@ -50,19 +53,16 @@ struct State {
   algebra::TableShape shape;  ///< of the tables
 
   // unknowns
-  BlockField v, u, F;  ///< velocity p/rho_R [m/s], displacement [m], deformation gradient [-]
-  BlockField H, J;     ///< where evolved
-  BlockField A, S;     ///< [n_branches * n_A], [n_branches * n_S]: C_v^-1, G_v^-1 at step begin
+  algebra::NodeTable v;  ///< velocity p/rho_R [m/s]
+  BlockField u, F;       ///< displacement [m], deformation gradient [-]
+  BlockField J, H_33;    ///< where evolved; H_33 in plane strain; the other H in the records
+  BlockField A, S;       ///< [n_branches * n_A], [n_branches * n_S]: C_v^-1, G_v^-1 at step begin
   // at the beginning of the step
   BlockField v_0, u_0, F_0, H_0, J_0, L_0;
-  // rates
-  BlockField L;  ///< dF/dt = velocity gradient [1/s]
-  BlockField T;  ///< internal force and loads, force on the node [N]
-  // what neighbours read
-  algebra::NodeTable velocity;
-  algebra::NodeTable records;  ///< NodeRecord
-  // runs only: what the momentum sweep adds up for both nodes of a pair
-  algebra::NodeTable pair_sums;  ///< 2 T before the loads [N]; 2 rho_R Omega times the rate [kg/s]
+  algebra::NodeTable records;  ///< NodeRecord: H, L = dF/dt, P and wave speeds
+  /// Internal force and loads on the node [N]. Runs, during the momentum sweep: twice that, and a
+  /// last component with 2 rho_R Omega times the rate [kg/s].
+  algebra::NodeTable T;
   // face correction only: what its sweeps read
   algebra::NodeTable gradients;  ///< uncorrected dF/dt
   algebra::NodeTable stresses;   ///< P
@@ -81,6 +81,13 @@ struct State {
   bool has_face_correction() const { return !gradients.empty(); }
   /// Unknowns per node, as reported: v, u, F, H, J, A, S as stored.
   int unknowns_per_node() const;
+  /// Component k < Layout::n_H of H of a node, where H is evolved.
+  double& H(std::int64_t node, int k) {
+    return k < Dim * Dim ? records.at(node, NodeRecord<Dim>::H + k) : H_33.at(node, 0);
+  }
+  double H(std::int64_t node, int k) const {
+    return k < Dim * Dim ? records.at(node, NodeRecord<Dim>::H + k) : H_33.at(node, 0);
+  }
 };
 
 extern template struct State<2>;

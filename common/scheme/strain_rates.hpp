@@ -67,34 +67,26 @@ DIPTYCH_INLINE void strain_rates_of_block(const SweepGraph<Dim>& graph,
                                           const State<Dim>& state,
                                           std::int64_t b,
                                           Lanes (&L)[Dim * Dim]) {
+#pragma GCC unroll 9
   for (int k = 0; k < Dim * Dim; ++k)
     L[k] = Lanes{};
   if (graph.shape.arrangement == Arrangement::runs) {
-    sum_gradients<isa, Arrangement::runs>(graph, state.velocity, b, L);
+    sum_gradients<isa, Arrangement::runs>(graph, state.v, b, L);
   } else {
     for (int lane = 0; lane < n_lanes; ++lane) {
       Lanes sum[Dim * Dim] = {};
-      sum_gradients<isa, Arrangement::rows>(graph, state.velocity, b * n_lanes + lane, sum);
+      sum_gradients<isa, Arrangement::rows>(graph, state.v, b * n_lanes + lane, sum);
       for (int k = 0; k < Dim * Dim; ++k)
         L[k][lane] = algebra::lane_sum(sum[k]);
     }
   }
   const Lanes scale = 0.5 * algebra::load(graph.inverse_Omega.data() + b * n_lanes);
+#pragma GCC unroll 9
   for (int k = 0; k < Dim * Dim; ++k)
     L[k] *= scale;
 }
 
-/// Writes the in-plane part of a tensor of block b to components c.. of a table.
-template <int Dim>
-DIPTYCH_INLINE void put_tensor(NodeTable& table,
-                               std::int64_t b,
-                               int c,
-                               const Tensor<Lanes>& value) {
-  for (int k = 0; k < Dim * Dim; ++k)
-    table.put(b, c + k, value(k / Dim, k % Dim));
-}
-
-/// Fills the records of block b: what the momentum sweep reads of a neighbour.
+/// Fills the records of block b, but for L, and for H where it is evolved, which are there.
 template <int Dim>
 DIPTYCH_INLINE void write_records(State<Dim>& state,
                                   std::int64_t b,
@@ -103,15 +95,16 @@ DIPTYCH_INLINE void write_records(State<Dim>& state,
                                   const Tensor<Lanes>& P,
                                   bool exact_impedance) {
   using Record = NodeRecord<Dim>;
-  for (int i = 0; i < Dim; ++i)
-    state.records.put(b, Record::v + i, algebra::load(state.v.block(b) + i * n_lanes));
+  if (state.records.arrangement() == Arrangement::rows) {
+    for (int i = 0; i < Dim; ++i)
+      state.records.put(b, Record::v(exact_impedance) + i, state.v.get(b, i));
+  }
   if (state.has_face_correction()) {
     put_tensor<Dim>(state.stresses, b, 0, P);  // P' follows in a sweep of its own
   } else {
     put_tensor<Dim>(state.records, b, Record::P, P);
   }
-  put_tensor<Dim>(state.records, b, Record::L, algebra::load_tensor<Dim>(state.L.block(b), 0));
-  put_tensor<Dim>(state.records, b, Record::H, X.H);
+  if (state.unknowns != Unknowns::FHJ) put_tensor<Dim>(state.records, b, Record::H, X.H);
   if (!exact_impedance) return;
   put_tensor<Dim>(state.records, b, Record::F, X.F);
   constexpr int order_A[6] = {0, 1, Dim == 3 ? 2 : 3, 3, 4, 5};
@@ -135,6 +128,9 @@ DIPTYCH_INLINE double evaluate_block(const StrainRateSweep<Dim, Material>& sweep
   using Layout = algebra::Layout<Dim>;
   constexpr bool has_H = Material::has_H;
   State<Dim>& state = sweep.state;
+  if (state.records.arrangement() == Arrangement::runs) {
+    prefetch_to_write<NodeRecord<Dim>::n_isotropic>(state.records, b);
+  }
   if (sweep.stage != nullptr) update_deformation_of_block(state, *sweep.stage, b);
   Lanes L[Dim * Dim];
   if (sweep.face_correction == 0) {
@@ -142,8 +138,7 @@ DIPTYCH_INLINE double evaluate_block(const StrainRateSweep<Dim, Material>& sweep
   } else {
     corrected_block<isa, Side::rates>(sweep.graph, state.gradients, sweep.face_correction, b, L);
   }
-  for (int k = 0; k < Dim * Dim; ++k)
-    algebra::store(state.L.block(b) + k * n_lanes, L[k]);
+  state.records.put_all(b, NodeRecord<Dim>::L, L);
   if (sweep.drift != 0) drift_block(state, sweep.drift, b);
   const Deformation<Lanes> X = load_deformation(state, b);
   least_J = algebra::smaller(least_J, X.J);

@@ -15,7 +15,7 @@ struct StageCombination {
   bool first = false;  ///< U_0 <- U before the update
 };
 
-/// v and u of a stage, and v as neighbours read it.
+/// v and u of a stage.
 template <int Dim>
 void update_motion(State<Dim>& state,
                    const SweepGraph<Dim>& graph,
@@ -24,8 +24,22 @@ void update_motion(State<Dim>& state,
                    std::int64_t begin,
                    std::int64_t end);
 
-/// q <- alpha q_0 + beta (q + dt rate), component k of block b, as q_0 + beta (q - q_0 + dt rate):
-/// what does not change stays the same to the last bit, and momentum gathers no rounding.
+/// alpha q_0 + beta (q + dt rate), component k of block b, as q_0 + beta (q - q_0 + dt rate): what
+/// does not change stays the same to the last bit, and momentum gathers no rounding.
+DIPTYCH_INLINE Lanes combined(const Lanes& q,
+                              algebra::BlockField& q_0,
+                              const StageCombination& stage,
+                              std::int64_t b,
+                              int k,
+                              const Lanes& rate) {
+  double* old = q_0.block(b) + k * n_lanes;
+  if (stage.first) algebra::store(old, q);
+  const Lanes base = stage.first ? q : algebra::load(old);
+  const Lanes change = stage.dt * rate;
+  return stage.alpha == 0 ? q + change : base + stage.beta * ((q - base) + change);
+}
+
+/// q <- that.
 DIPTYCH_INLINE void combine(algebra::BlockField& q,
                             algebra::BlockField& q_0,
                             const StageCombination& stage,
@@ -33,13 +47,7 @@ DIPTYCH_INLINE void combine(algebra::BlockField& q,
                             int k,
                             const Lanes& rate) {
   double* now = q.block(b) + k * n_lanes;
-  double* old = q_0.block(b) + k * n_lanes;
-  const Lanes value = algebra::load(now);
-  if (stage.first) algebra::store(old, value);
-  const Lanes base = stage.first ? value : algebra::load(old);
-  const Lanes change = stage.dt * rate;
-  algebra::store(now,
-                 stage.alpha == 0 ? value + change : base + stage.beta * ((value - base) + change));
+  algebra::store(now, combined(algebra::load(now), q_0, stage, b, k, rate));
 }
 
 /// F, H, J of a stage by the L of its beginning. Part of the strain-rate sweep, which needs them
@@ -48,18 +56,22 @@ template <int Dim>
 DIPTYCH_INLINE void update_deformation_of_block(State<Dim>& state,
                                                 const StageCombination& stage,
                                                 std::int64_t b) {
-  const Tensor<Lanes> L = algebra::load_tensor<Dim>(state.L.block(b), 0);
+  const Tensor<Lanes> L = velocity_gradient(state, b);
   if (state.unknowns != Unknowns::F) {
     const Deformation<Lanes> X = load_deformation(state, b);
     combine(state.J, state.J_0, stage, b, 0, algebra::contract(X.H, L));
     if (state.unknowns == Unknowns::FHJ) {
       const Tensor<Lanes> rate = algebra::cross(X.F, L);
+      Tensor<Lanes> H{};
+#pragma GCC unroll 9
       for (int k = 0; k < algebra::Layout<Dim>::n_H; ++k) {
-        combine(state.H, state.H_0, stage, b, k,
-                Dim == 2 && k == 4 ? rate(2, 2) : rate(k / Dim, k % Dim));
+        const int i = Dim == 2 && k == 4 ? 2 : k / Dim, j = Dim == 2 && k == 4 ? 2 : k % Dim;
+        H(i, j) = combined(X.H(i, j), state.H_0, stage, b, k, rate(i, j));
       }
+      put_H(state, b, H);
     }
   }
+#pragma GCC unroll 9
   for (int k = 0; k < Dim * Dim; ++k) {
     const Lanes rate = L(k / Dim, k % Dim);
     if (stage.first && !state.L_0.empty()) algebra::store(state.L_0.block(b) + k * n_lanes, rate);
@@ -83,25 +95,22 @@ template <int Dim>
 DIPTYCH_INLINE void drift_block(State<Dim>& state, double dt, std::int64_t b) {
   for (int i = 0; i < Dim; ++i) {
     double* u = state.u.block(b) + i * n_lanes;
-    algebra::store(u, algebra::load(u) + dt * algebra::load(state.v.block(b) + i * n_lanes));
+    algebra::store(u, algebra::load(u) + dt * state.v.get(b, i));
   }
-  const Tensor<Lanes> L = algebra::load_tensor<Dim>(state.L.block(b), 0);
+  const Tensor<Lanes> L = velocity_gradient(state, b);
   if (state.unknowns != Unknowns::F) {
     const Deformation<Lanes> X = load_deformation(state, b);
     const Tensor<Lanes> H_middle = X.H + algebra::cross(X.F + (0.25 * dt) * L, (0.5 * dt) * L);
     const Tensor<Lanes> H_end = X.H + algebra::cross(X.F + (0.5 * dt) * L, dt * L);
     const Tensor<Lanes> H_mean = (1.0 / 6.0) * (X.H + 4.0 * H_middle + H_end);
     algebra::store(state.J.block(b), X.J + dt * algebra::contract(H_mean, L));
-    if (state.unknowns == Unknowns::FHJ) algebra::store_H<Dim>(state.H.block(b), H_end);
+    if (state.unknowns == Unknowns::FHJ) put_H(state, b, H_end);
   }
+#pragma GCC unroll 9
   for (int k = 0; k < Dim * Dim; ++k) {
     double* F = state.F.block(b) + k * n_lanes;
     algebra::store(F, algebra::load(F) + dt * L(k / Dim, k % Dim));
   }
 }
-
-/// Copies v into the array that the strain-rate sweep gathers from.
-template <int Dim>
-void publish_velocity(State<Dim>& state, std::int64_t begin, std::int64_t end);
 
 }  // namespace diptych::scheme

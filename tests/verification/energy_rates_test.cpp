@@ -164,10 +164,10 @@ class LoadedBody {
         F(k / 3, k % 3) = lanes(0.2) + (k % 4 == 0 ? 1.0 : 0.0);
       algebra::store_tensor<Dim>(state_.F.block(b), F);
       const auto X = physics::deformation_of(algebra::load_tensor<Dim>(state_.F.block(b), 1));
-      algebra::store_H<Dim>(state_.H.block(b), X.H);
+      scheme::put_H(state_, b, X.H);
       algebra::store(state_.J.block(b), X.J);
       for (int i = 0; i < Dim; ++i)
-        algebra::store(state_.v.block(b) + i * n_lanes, lanes(1));
+        state_.v.put(b, i, lanes(1));
       for (int k = 0; k < state_.n_branches; ++k) {
         auto A = algebra::symmetric_identity<Lanes>(), S = A;
         for (int i = 0; i < 6; ++i) {
@@ -182,7 +182,6 @@ class LoadedBody {
 
   void evaluate() {
     const auto blocks = pairs_.n_blocks;
-    scheme::publish_velocity(state_, 0, blocks);
     boundary_.begin_step(0, 1e-3);
     boundary_.constrain(state_, model_.rho_R, 0.0);
     const auto face = scheme::face_correction_sweeps<Dim>();
@@ -222,7 +221,7 @@ class LoadedBody {
     double power = 0;
     for (std::int64_t b = 0; b < pairs_.n_blocks; ++b) {
       const auto X = scheme::load_deformation(state_, b);
-      const Tensor<Lanes> L = algebra::load_tensor<Dim>(state_.L.block(b), 0);
+      const Tensor<Lanes> L = scheme::velocity_gradient(state_, b);
       const physics::Deformation<Dual> moving{dual(X.F, L), dual(X.H, algebra::cross(X.F, L)),
                                               dual(X.J, algebra::contract(X.H, L))};
       Dual W = model_.material.energy(moving);

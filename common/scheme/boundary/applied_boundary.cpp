@@ -210,10 +210,8 @@ Impulse AppliedBoundary::overwrite(State<Dim>& state, double rho_R) const {
       const Vec3 before = vector_at<Dim>(state.v, c.node);
       Vec3 after = c.keep * before;
       if (has_velocities_) after += target_[k];
-      for (int i = 0; i < Dim; ++i) {
+      for (int i = 0; i < Dim; ++i)
         state.v.at(c.node, i) = after[i];
-        state.velocity.at(c.node, i) = after[i];
-      }
       if constexpr (Dim == 2) after[2] = 0;
       const Vec3 impulse = rho_R * c.Omega * (after - before);
       const Vec3 x = X_[c.node] + vector_at<Dim>(state.u, c.node);

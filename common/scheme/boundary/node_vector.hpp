@@ -7,8 +7,9 @@
 namespace diptych::scheme {
 
 /// In plane strain the third component is zero.
-template <int Dim>
-algebra::Vec3 vector_at(const algebra::BlockField& field, std::int64_t node) {
+/// @param field  block field or node table
+template <int Dim, class Field>
+algebra::Vec3 vector_at(const Field& field, std::int64_t node) {
   algebra::Vec3 r = algebra::Vec3::Zero();
   for (int i = 0; i < Dim; ++i)
     r[i] = field.at(node, i);

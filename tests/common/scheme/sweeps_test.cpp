@@ -70,7 +70,6 @@ class RandomBody {
         state.v.at(a, i) = v;
       }
     }
-    scheme::publish_velocity(state, 0, pairs.n_blocks);
   }
 
   /// Evaluates strain rates and forces with one instruction set.
@@ -94,7 +93,7 @@ class RandomBody {
 
   const scheme::PairGraph& graph() const { return graph_; }
   double numerical_power() const { return parallel::sum_in_order(numerical); }
-  Vec3 vector(const algebra::BlockField& field, std::int64_t a) const {
+  Vec3 vector(const algebra::NodeTable& field, std::int64_t a) const {
     return {field.at(a, 0), field.at(a, 1), field.at(a, 2)};
   }
   /// sum Omega P : L, with P as the sweep left it for the neighbours
@@ -102,8 +101,8 @@ class RandomBody {
     double power = 0;
     for (std::int64_t a = 0; a < graph_.n_nodes(); ++a) {
       for (int k = 0; k < 9; ++k) {
-        power +=
-            graph_.Omega[a] * state.L.at(a, k) * state.records.at(a, scheme::NodeRecord<3>::P + k);
+        power += graph_.Omega[a] * state.records.at(a, scheme::NodeRecord<3>::L + k) *
+                 state.records.at(a, scheme::NodeRecord<3>::P + k);
       }
     }
     return power;
@@ -196,7 +195,7 @@ std::vector<double> results(const RandomBody& body) {
     for (int i = 0; i < 3; ++i)
       all.push_back(body.state.T.at(a, i));
     for (int k = 0; k < 9; ++k)
-      all.push_back(body.state.L.at(a, k));
+      all.push_back(body.state.records.at(a, scheme::NodeRecord<3>::L + k));
   }
   return all;
 }
