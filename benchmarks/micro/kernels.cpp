@@ -110,7 +110,7 @@ DIPTYCH_CLONES void stress_and_speeds(Scene& scene, std::int64_t n_blocks) {
     const auto P = physics::piola_stress<true>(response, X);
     using Record = scheme::NodeRecord<3>;
     scheme::put_tensor<3>(scene.state.records, b, Record::P, P);
-    const auto speeds = physics::speed_bounds(response, X, scene.model.rho_R, true);
+    const auto speeds = physics::speed_bounds(response, X, scene.model.rho_R, true, false);
     scene.state.records.put(b, Record::z_p, scene.model.rho_R * speeds.c_p);
     scene.state.records.put(b, Record::z_s, scene.model.rho_R * speeds.c_s);
   }

@@ -20,20 +20,6 @@ struct Layout {
   static constexpr int n_S = Dim == 3 ? 6 : 4;
 };
 
-/// Block of Dim components -> vector with a zero third component in the plane.
-template <int Dim>
-DIPTYCH_INLINE Vector<Lanes> load_vector(const double* block) {
-  Vector<Lanes> v{};
-  for (int i = 0; i < Dim; ++i)
-    v[i] = load(block + i * n_lanes);
-  return v;
-}
-template <int Dim>
-DIPTYCH_INLINE void store_vector(double* block, const Vector<Lanes>& v) {
-  for (int i = 0; i < Dim; ++i)
-    store(block + i * n_lanes, v[i]);
-}
-
 /// In-plane part of a tensor, row-major; out-of-plane diagonal as given (1 for F, 0 for rates).
 template <int Dim>
 DIPTYCH_INLINE Tensor<Lanes> load_tensor(const double* block, double diagonal_33) {
@@ -51,18 +37,6 @@ DIPTYCH_INLINE void store_tensor(double* block, const Tensor<Lanes>& T) {
   for (int i = 0; i < Dim; ++i)
     for (int j = 0; j < Dim; ++j)
       store(block + (i * Dim + j) * n_lanes, T(i, j));
-}
-
-template <int Dim>
-DIPTYCH_INLINE Tensor<Lanes> load_H(const double* block) {
-  Tensor<Lanes> H = load_tensor<Dim>(block, 0);
-  if constexpr (Dim == 2) H(2, 2) = load(block + 4 * n_lanes);
-  return H;
-}
-template <int Dim>
-DIPTYCH_INLINE void store_H(double* block, const Tensor<Lanes>& H) {
-  store_tensor<Dim>(block, H);
-  if constexpr (Dim == 2) store(block + 4 * n_lanes, H(2, 2));
 }
 
 template <int Dim>

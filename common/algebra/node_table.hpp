@@ -70,37 +70,43 @@ class NodeTable {
     for (int lane = 0; lane < n_lanes; ++lane)
       p[lane * node_stride_] = value[lane];
   }
-  /// Components first.. of the eight nodes of block b. Asks for the arrangement once.
-  template <int n>
-  DIPTYCH_INLINE void get_all(std::int64_t b, int first, Lanes (&values)[n]) const {
+  /// take(c, value) for n components from first on of the eight nodes of block b. Asks for the
+  /// arrangement once, so that loops over components unroll.
+  template <int n, class Take>
+  DIPTYCH_INLINE void get_each(std::int64_t b, int first, const Take& take) const {
     const double* p = origin() + b * n_lanes * node_stride_ + first * component_stride_;
     if (arrangement_ == Arrangement::runs) {
 #pragma GCC unroll 9
       for (int c = 0; c < n; ++c)
-        values[c] = load(p + c * component_stride_);
+        take(c, load(p + c * component_stride_));
       return;
     }
 #pragma GCC unroll 9
-    for (int c = 0; c < n; ++c)
+    for (int c = 0; c < n; ++c) {
+      Lanes value;
 #pragma GCC unroll 8
       for (int lane = 0; lane < n_lanes; ++lane)
-        values[c][lane] = p[lane * node_stride_ + c];
+        value[lane] = p[lane * node_stride_ + c];
+      take(c, value);
+    }
   }
-  /// Sets components first.. of the eight nodes of block b.
-  template <int n>
-  DIPTYCH_INLINE void put_all(std::int64_t b, int first, const Lanes (&values)[n]) {
+  /// Sets them to give(c).
+  template <int n, class Give>
+  DIPTYCH_INLINE void put_each(std::int64_t b, int first, const Give& give) {
     double* p = origin() + b * n_lanes * node_stride_ + first * component_stride_;
     if (arrangement_ == Arrangement::runs) {
 #pragma GCC unroll 9
       for (int c = 0; c < n; ++c)
-        store(p + c * component_stride_, values[c]);
+        store(p + c * component_stride_, give(c));
       return;
     }
 #pragma GCC unroll 9
-    for (int c = 0; c < n; ++c)
+    for (int c = 0; c < n; ++c) {
+      const Lanes value = give(c);
 #pragma GCC unroll 8
       for (int lane = 0; lane < n_lanes; ++lane)
-        p[lane * node_stride_ + c] = values[c][lane];
+        p[lane * node_stride_ + c] = value[lane];
+    }
   }
 
  private:

@@ -126,7 +126,8 @@ template <class T>
 DIPTYCH_INLINE SpeedBounds<T> speed_bounds(const Response<T>& r,
                                            const Deformation<T>& X,
                                            double rho_R,
-                                           bool has_H) {
+                                           bool has_H,
+                                           bool has_W_FJ) {
   const SymmetricTensor<T> C = algebra::transpose_times_self(X.F);
   const SymmetricTensor<T> G = algebra::transpose_times_self(X.H);
   SymmetricTensor<T> K_p = r.A_tot + r.W_JJ * G;
@@ -141,9 +142,11 @@ DIPTYCH_INLINE SpeedBounds<T> speed_bounds(const Response<T>& r,
   // Kantorovich's inequality 4 (|f|^2 |h|^2 - J^2) <= tr C tr G - 9 J^2
   // (Where W_JJ |h|^2 + 2 W_FJ J < 0, along a large stretch, a direction needs more than its own
   // gram, but at most 3/4 of the largest: scanned over all stretch ratios at kappa = 0.)
-  const T gram = algebra::larger(algebra::trace(C) * algebra::trace(G) - 9.0 * X.J * X.J, T{});
-  rho_cp2 =
-      rho_cp2 + 2.0 * r.W_FJ * X.J + algebra::magnitude(r.W_FJ) * 0.5 * algebra::square_root(gram);
+  if (has_W_FJ) {
+    const T gram = algebra::larger(algebra::trace(C) * algebra::trace(G) - 9.0 * X.J * X.J, T{});
+    rho_cp2 = rho_cp2 + 2.0 * r.W_FJ * X.J +
+              algebra::magnitude(r.W_FJ) * 0.5 * algebra::square_root(gram);
+  }
   const double inverse_rho = 1.0 / rho_R;
   return {algebra::square_root(inverse_rho * rho_cp2),
           algebra::square_root(0.5 * inverse_rho * algebra::largest_eigenvalue_bound(K_s))};

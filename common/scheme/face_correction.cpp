@@ -17,7 +17,8 @@ DIPTYCH_INLINE void plain_gradients(const SweepGraph<Dim>& graph,
   for (std::int64_t b = begin; b < end; ++b) {
     Lanes L[Dim * Dim];
     strain_rates_of_block<isa>(graph, state, b, L);
-    state.gradients.put_all(b, 0, L);
+    state.gradients.template put_each<Dim * Dim>(b, 0,
+                                                 [&](int k) DIPTYCH_INLINE_LAMBDA { return L[k]; });
   }
 }
 

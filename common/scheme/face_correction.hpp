@@ -85,7 +85,8 @@ DIPTYCH_INLINE void correct_stresses(const SweepGraph<Dim>& graph,
   for (std::int64_t b = begin; b < end; ++b) {
     Lanes P[Dim * Dim];
     corrected_block<isa, Side::stress>(graph, state.stresses, kappa_f, b, P);
-    state.records.put_all(b, NodeRecord<Dim>::P, P);
+    state.records.template put_each<Dim * Dim>(b, NodeRecord<Dim>::P,
+                                               [&](int k) DIPTYCH_INLINE_LAMBDA { return P[k]; });
   }
 }
 

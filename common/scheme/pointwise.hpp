@@ -21,12 +21,9 @@ using physics::Response;
 /// A tensor of block b from components c.. of a table, zero out of plane.
 template <int Dim>
 DIPTYCH_INLINE Tensor<Lanes> get_tensor(const NodeTable& table, std::int64_t b, int c) {
-  Lanes in_plane[Dim * Dim] = {};
-  table.get_all(b, c, in_plane);
   Tensor<Lanes> T{};
-#pragma GCC unroll 9
-  for (int k = 0; k < Dim * Dim; ++k)
-    T(k / Dim, k % Dim) = in_plane[k];
+  table.get_each<Dim * Dim>(
+      b, c, [&](int k, const Lanes& value) DIPTYCH_INLINE_LAMBDA { T(k / Dim, k % Dim) = value; });
   return T;
 }
 /// Writes the in-plane part of a tensor of block b to components c.. of a table.
@@ -35,11 +32,8 @@ DIPTYCH_INLINE void put_tensor(NodeTable& table,
                                std::int64_t b,
                                int c,
                                const Tensor<Lanes>& value) {
-  Lanes in_plane[Dim * Dim] = {};
-#pragma GCC unroll 9
-  for (int k = 0; k < Dim * Dim; ++k)
-    in_plane[k] = value(k / Dim, k % Dim);
-  table.put_all(b, c, in_plane);
+  table.put_each<Dim * Dim>(b, c,
+                            [&](int k) DIPTYCH_INLINE_LAMBDA { return value(k / Dim, k % Dim); });
 }
 
 /// dF/dt of block b.

@@ -138,7 +138,8 @@ DIPTYCH_INLINE double evaluate_block(const StrainRateSweep<Dim, Material>& sweep
   } else {
     corrected_block<isa, Side::rates>(sweep.graph, state.gradients, sweep.face_correction, b, L);
   }
-  state.records.put_all(b, NodeRecord<Dim>::L, L);
+  state.records.template put_each<Dim * Dim>(b, NodeRecord<Dim>::L,
+                                             [&](int k) DIPTYCH_INLINE_LAMBDA { return L[k]; });
   if (sweep.drift != 0) drift_block(state, sweep.drift, b);
   const Deformation<Lanes> X = load_deformation(state, b);
   least_J = algebra::smaller(least_J, X.J);
@@ -160,7 +161,7 @@ DIPTYCH_INLINE double evaluate_block(const StrainRateSweep<Dim, Material>& sweep
   const Tensor<Lanes> P = physics::piola_stress<has_H>(response, X);
   write_records(state, b, X, response, P, sweep.exact_impedance);
   const double rho_R = sweep.model.rho_R;
-  const auto speeds = physics::speed_bounds(response, X, rho_R, has_H);
+  const auto speeds = physics::speed_bounds(response, X, rho_R, has_H, Material::has_W_FJ);
   state.records.put(b, NodeRecord<Dim>::z_p, rho_R * speeds.c_p);
   state.records.put(b, NodeRecord<Dim>::z_s, rho_R * speeds.c_s);
   return algebra::lane_sum(dissipation * algebra::load(sweep.graph.Omega.data() + b * n_lanes));

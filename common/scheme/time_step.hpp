@@ -58,7 +58,7 @@ double undeformed_speed(const Model<Material>& model) {
   for (const physics::MaxwellBranch& branch : model.branches) {
     physics::add_branch_response<Material::has_H>(branch, virgin, X, response);
   }
-  return physics::speed_bounds(response, X, model.rho_R, Material::has_H).c_p;
+  return physics::speed_bounds(response, X, model.rho_R, Material::has_H, Material::has_W_FJ).c_p;
 }
 
 }  // namespace diptych::scheme

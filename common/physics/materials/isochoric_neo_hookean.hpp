@@ -13,6 +13,7 @@ namespace diptych::physics {
 template <bool squared_J>
 struct IsochoricNeoHookeanFamily {
   static constexpr bool has_H = false;
+  static constexpr bool has_W_FJ = true;
   double mu = 0;     ///< Pa
   double kappa = 0;  ///< Pa
 

@@ -34,12 +34,8 @@ void expect_round_trip(Load load_block, Store store_block) {
 template <int Dim>
 void expect_all_round_trips() {
   using Sizes = Layout<Dim>;
-  expect_round_trip<Dim>([](const double* b) { return load_vector<Dim>(b); },
-                         [](double* b, const auto& v) { store_vector<Dim>(b, v); });
   expect_round_trip<Sizes::n_F>([](const double* b) { return load_tensor<Dim>(b, 1); },
                                 [](double* b, const auto& F) { store_tensor<Dim>(b, F); });
-  expect_round_trip<Sizes::n_H>([](const double* b) { return load_H<Dim>(b); },
-                                [](double* b, const auto& H) { store_H<Dim>(b, H); });
   expect_round_trip<Sizes::n_A>([](const double* b) { return load_A<Dim>(b); },
                                 [](double* b, const auto& A) { store_A<Dim>(b, A); });
   expect_round_trip<Sizes::n_S>([](const double* b) { return load_S<Dim>(b); },
@@ -60,13 +56,11 @@ TEST(Layout, PlaneStrainKeepsWhatChangesAndPutsInTheConstants) {
   EXPECT_EQ(F(0, 2)[3], 0);
   EXPECT_EQ(F(2, 1)[3], 0);
   EXPECT_EQ(load_tensor<2>(block.data(), 0)(2, 2)[3], 0);
-  EXPECT_EQ(load_H<2>(block.data())(2, 2)[3], 403);  // J
   const auto A = load_A<2>(block.data());
   EXPECT_EQ(A(0, 1)[3], 203);
   EXPECT_EQ(A(2, 2)[3], 1);                          // stays
   EXPECT_EQ(load_S<2>(block.data())(2, 2)[3], 303);  // evolves
   EXPECT_EQ(load_S<2>(block.data())(0, 2)[3], 0);
-  EXPECT_EQ(load_vector<2>(block.data())[2][3], 0);
 }
 
 TEST(BlockField, PutsNodeIInLaneIOfBlocksOfEight) {
