@@ -33,8 +33,8 @@ constexpr int most_rings = 2, most_passes = 4, most_refinements = 8;
 
 /// Rows of one class and what changes of them.
 struct ClassOfRows {
-  std::int64_t node = -1;   ///< one of the class
-  bool free = true;         ///< the rest is set where it is
+  std::int64_t node = -1;  ///< one of the class
+  // of those that may change only
   Eigen::Matrix3d inverse;  ///< pseudo-inverse of M_c
   MatrixX3d X;              ///< [pairs]
   Eigen::VectorXd k;        ///< [pairs]
@@ -47,21 +47,6 @@ struct ClassOfRows {
   std::vector<Entry> entries;
 };
 
-/// Classes of rows whose neighbours' rows are of the same classes too.
-EqualGroups by_neighbours(const PairGraph& graph, const RowClasses& rows) {
-  std::vector<std::uint64_t> hash(graph.X.size());
-  for_each_node(hash.size(), [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t a = begin; a < end; ++a) {
-      Hash h;
-      h.add(static_cast<std::uint64_t>(rows.rows.of[a]));
-      for (std::int64_t q = graph.row[a]; q < graph.row[a + 1]; ++q)
-        h.add(static_cast<std::uint64_t>(rows.rows.of[graph.neighbour[rows.order[q]]]));
-      hash[a] = h.value();
-    }
-  });
-  return group_equal(hash, [](std::int32_t, std::int32_t) { return true; });
-}
-
 class ClassRepair {
  public:
   /// @param gap  closure_gap(graph)
@@ -73,12 +58,21 @@ class ClassRepair {
 
   Index n_conditions() const { return static_cast<Index>(node_of_.size()); }
 
-  bool repair(const std::vector<double>& k, const RepairLimits& limits) {
+  /// @return whether the graph is closed now; it is left as it was where not
+  bool repair(const PairWeight& k, const RepairLimits& limits) {
     for (ClassOfRows& c : classes_)
-      if (c.free) set_geometry(k, c);
+      if (is_free(c.node)) set_geometry(k, c);
     for (Index e = 0; e < n_conditions(); ++e)
       add_entries(e, node_of_[static_cast<size_t>(e)]);
     set_system();
+    const std::vector<Vec3> C = free_rows();
+    if (close(limits)) return true;
+    restore_free_rows(C);
+    return false;
+  }
+
+ private:
+  bool close(const RepairLimits& limits) {
     double before = greatest(gap_, unit_);
     for (int pass = 0; pass < most_passes && !(before <= limits.closure); ++pass) {
       change();
@@ -90,36 +84,51 @@ class ClassRepair {
     return before <= limits.closure;
   }
 
- private:
-  std::int64_t length(std::int64_t a) const { return graph_.row[a + 1] - graph_.row[a]; }
-  /// Pair k of node a in the common order of its class.
-  std::int64_t pair(std::int64_t a, std::int64_t k) const { return rows_.order[graph_.row[a] + k]; }
-  std::int32_t class_of(std::int64_t a) const { return rows_.rows.of[a]; }
-
-  /// Place of pair p of node a in that order.
-  int place(std::int64_t a, std::int64_t p) const {
-    const auto begin = rows_.order.begin() + graph_.row[a], end = begin + length(a);
-    return static_cast<int>(std::find(begin, end, p) - begin);
+  /// The C_ab that a repair may change.
+  std::vector<Vec3> free_rows() const {
+    std::int64_t n = 0;
+    for (std::int64_t a = 0; a < graph_.n_nodes(); ++a)
+      n += is_free(a) ? length(a) : 0;
+    std::vector<Vec3> C;
+    C.reserve(static_cast<size_t>(n));
+    for (std::int64_t a = 0; a < graph_.n_nodes(); ++a) {
+      if (is_free(a))
+        C.insert(C.end(), graph_.C.begin() + graph_.row[a], graph_.C.begin() + graph_.row[a + 1]);
+    }
+    return C;
   }
+  void restore_free_rows(const std::vector<Vec3>& C) {
+    auto from = C.begin();
+    for (std::int64_t a = 0; a < graph_.n_nodes(); ++a) {
+      if (!is_free(a)) continue;
+      std::copy(from, from + length(a), graph_.C.begin() + graph_.row[a]);
+      from += length(a);
+    }
+  }
+
+  std::int64_t length(std::int64_t a) const { return graph_.row[a + 1] - graph_.row[a]; }
+  std::int64_t pair(std::int64_t a, std::int64_t k) const { return rows_.pair(graph_, a, k); }
+  std::int32_t class_of(std::int64_t a) const { return rows_.rows.of[a]; }
 
   /// Classes may change where all of their nodes have a gap.
   void find_free_classes() {
     classes_.resize(rows_.rows.representative.size());
     for (size_t c = 0; c < classes_.size(); ++c)
       classes_[c].node = rows_.rows.representative[c];
+    free_.assign(classes_.size(), 1);
     for (std::int64_t a = 0; a < graph_.n_nodes(); ++a) {
-      if (gap_[a].norm() * unit_[a] < least_gap) classes_[class_of(a)].free = false;
+      if (gap_[a].norm() * unit_[a] < least_gap) free_[class_of(a)] = 0;
     }
   }
 
-  void set_geometry(const std::vector<double>& k, ClassOfRows& c) const {
+  void set_geometry(const PairWeight& k, ClassOfRows& c) const {
     const auto n = static_cast<Index>(length(c.node));
     c.X.resize(n, 3);
     c.k.resize(n);
     for (Index i = 0; i < n; ++i) {
       const std::int64_t p = pair(c.node, i);
       c.X.row(i) = (graph_.X[graph_.neighbour[p]] - graph_.X[c.node]).transpose();
-      c.k[i] = k[p];
+      c.k[i] = k(c.node, p);
     }
     const Eigen::Matrix3d M = c.X.transpose() * c.k.asDiagonal() * c.X;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> of(M);
@@ -130,7 +139,7 @@ class ClassRepair {
     c.inverse = of.eigenvectors() * inverse.asDiagonal() * of.eigenvectors().transpose();
   }
 
-  bool is_free(std::int64_t a) const { return classes_[class_of(a)].free; }
+  bool is_free(std::int64_t a) const { return free_[class_of(a)] != 0; }
 
   /// Nodes with the same row, area and neighbours have the same condition; those that nothing
   /// changes have none.
@@ -161,7 +170,9 @@ class ClassRepair {
 
   void add_entries(Index e, std::int64_t a) {
     const auto add = [&](std::int64_t node, std::int64_t p, double factor) {
-      if (is_free(node)) classes_[class_of(node)].entries.push_back({e, place(node, p), factor});
+      if (is_free(node))
+        classes_[class_of(node)].entries.push_back(
+            {e, static_cast<int>(rows_.place_of(graph_, node, p)), factor});
     };
     for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
       add(a, p, 0.5);
@@ -174,7 +185,7 @@ class ClassRepair {
     const Index n = n_conditions();
     S_ = Eigen::MatrixXd::Zero(n, n);
     for (const ClassOfRows& c : classes_) {
-      if (!c.free) continue;
+      if (!is_free(c.node)) continue;
       std::vector<Index> conditions;
       for (const auto& entry : c.entries)
         conditions.push_back(entry.condition);
@@ -217,7 +228,7 @@ class ClassRepair {
     std::vector<MatrixX3d> dC(classes_.size());
     for (size_t i = 0; i < classes_.size(); ++i) {
       const ClassOfRows& c = classes_[i];
-      if (!c.free) continue;
+      if (!is_free(c.node)) continue;
       MatrixX3d z = MatrixX3d::Zero(c.k.size(), 3);
       for (const auto& entry : c.entries)
         z.row(entry.pair) += entry.factor * y.row(entry.condition);
@@ -239,6 +250,7 @@ class ClassRepair {
   std::vector<double> unit_;
   Field gap_;
   std::vector<ClassOfRows> classes_;
+  std::vector<char> free_;             ///< [classes] whether their rows may change
   std::vector<std::int64_t> node_of_;  ///< [conditions] a node of each kind
   Eigen::MatrixXd S_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
@@ -246,9 +258,7 @@ class ClassRepair {
 
 }  // namespace
 
-bool repair_closure_by_classes(PairGraph& graph,
-                               const std::vector<double>& k,
-                               const RepairLimits& limits) {
+bool repair_closure_by_classes(PairGraph& graph, const PairWeight& k, const RepairLimits& limits) {
   RowClasses rows = classify_rows(graph);
   const auto n_classes = static_cast<double>(rows.rows.representative.size());
   if (n_classes > most_classes_per_node * static_cast<double>(graph.n_nodes())) return false;
@@ -256,14 +266,11 @@ bool repair_closure_by_classes(PairGraph& graph,
   const auto closes = [&](Index most) {
     ClassRepair repair(graph, rows, gap);
     if (repair.n_conditions() > most) return false;
-    std::vector<Vec3> C = graph.C;
-    if (repair.repair(k, limits)) return true;
-    graph.C.swap(C);
-    return false;
+    return repair.repair(k, limits);
   };
   std::vector<EqualGroups> choices{rows.rows};
   for (int ring = 1; ring <= most_rings; ++ring) {
-    rows.rows = by_neighbours(graph, rows);
+    rows.rows = group_by_neighbours(graph, rows, false);
     choices.push_back(rows.rows);
   }
   for (size_t rings = choices.size(); rings-- > 0;) {

@@ -27,6 +27,11 @@ std::vector<double> sizes(const PairGraph& graph) {
   return k;
 }
 
+/// The same, one by one.
+scheme::PairWeight from(const std::vector<double>& k) {
+  return [&k](std::int64_t, std::int64_t p) { return k[p]; };
+}
+
 TEST(ClosureRepair, ByPairsChangesTheGraphLessThanByRows) {
   const PairGraph open = open_cloud(CellType::quadrilateral, 10, 0.2);
   PairGraph by_pairs = open, by_rows = open;
@@ -81,7 +86,7 @@ TEST(ClosureRepair, ByClassesKeepsEqualRowsEqual) {
     const std::vector<double> k = sizes(open);
     PairGraph by_classes = open, by_pairs = open;
     EXPECT_GT(quality(open).closure, 0.1);
-    ASSERT_TRUE(scheme::repair_closure_by_classes(by_classes, k)) << name_of(type);
+    ASSERT_TRUE(scheme::repair_closure_by_classes(by_classes, from(k))) << name_of(type);
     scheme::repair_closure_pairs(by_pairs, k);
     EXPECT_LE(quality(by_classes).closure, 1e-13);
     EXPECT_LE(quality(by_classes).linear_exactness, 1e-13);
@@ -103,7 +108,8 @@ TEST(ClosureRepair, ByClassesKeepsEqualRowsEqual) {
 TEST(ClosureRepair, ByClassesLeavesDisorderToTheRepairByPairs) {
   PairGraph graph = open_cloud(CellType::quadrilateral, 12, 0.2);
   const std::vector<Vec3> C = graph.C;
-  EXPECT_FALSE(scheme::repair_closure_by_classes(graph, sizes(graph)));
+  const std::vector<double> k = sizes(graph);
+  EXPECT_FALSE(scheme::repair_closure_by_classes(graph, from(k)));
   EXPECT_EQ(graph.C, C);
 }
 
