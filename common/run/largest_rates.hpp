@@ -11,14 +11,29 @@
 /// fixed order. Reconstruction is left out: the roughest modes have hardly a gradient. Test:
 /// tests/common/run/default_cfl_test.cpp
 
-#include "common/scheme/pair_graph.hpp"
+#include "common/scheme/row_classes.hpp"
 
 namespace diptych::run {
 
-/// d of plain jumps with scheme.dissipation = 1, per unit of c_p  [1/m]
-double largest_dissipation(const scheme::PairGraph& graph, double shear_ratio);
+class LargestRates {
+ public:
+  /// @param graph  must outlive this
+  explicit LargestRates(const scheme::PairGraph& graph);
 
-/// omega per unit of c_p  [1/m]
-double largest_frequency(const scheme::PairGraph& graph, double kappa_f);
+  /// d of plain jumps with scheme.dissipation = 1, per unit of c_p  [1/m]
+  double dissipation(double shear_ratio) const;
+
+  /// omega per unit of c_p  [1/m]
+  double frequency(double kappa_f) const;
+
+ private:
+  /// Calls set(kind, i, k) for the pairs k of one node of each kind, i counting them all.
+  template <class Set>
+  void for_geometry(const Set& set) const;
+
+  const scheme::PairGraph& graph_;
+  scheme::EqualGroups kinds_;        ///< of nodes with the same C_ab and C_ba up to rounding
+  std::vector<std::int64_t> first_;  ///< [kinds + 1] into their pairs
+};
 
 }  // namespace diptych::run
