@@ -3,6 +3,7 @@
 #include "common/algebra/field.hpp"
 #include "common/algebra/four.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/scheme/classify_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -257,7 +258,7 @@ constexpr double most_kinds_per_node = 0.25;
 }  // namespace
 
 LargestRates::LargestRates(const PairGraph& graph) : graph_(graph) {
-  const scheme::RowClasses classes = scheme::classify_rows(graph);
+  const scheme::RowClasses classes = scheme::classes_of(graph);
   if (classes.order.empty()) kinds_ = group_by_neighbours(graph, classes, false);
   const auto n_nodes = static_cast<double>(graph.n_nodes());
   const auto n_kinds = static_cast<double>(kinds_.representative.size());

@@ -1,7 +1,7 @@
 #include "common/scheme/class_repair.hpp"
 
+#include "common/scheme/classify_rows.hpp"
 #include "common/scheme/closure_gap.hpp"
-#include "common/scheme/row_classes.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -107,7 +107,7 @@ class ClassRepair {
   }
 
   std::int64_t length(std::int64_t a) const { return graph_.row[a + 1] - graph_.row[a]; }
-  std::int64_t pair(std::int64_t a, std::int64_t k) const { return rows_.pair(graph_, a, k); }
+  std::int64_t pair(std::int64_t a, std::int64_t k) const { return rows_.pair(graph_.row[a], k); }
   std::int32_t class_of(std::int64_t a) const { return rows_.rows.of[a]; }
 
   /// Classes may change where all of their nodes have a gap.
@@ -172,7 +172,7 @@ class ClassRepair {
     const auto add = [&](std::int64_t node, std::int64_t p, double factor) {
       if (is_free(node))
         classes_[class_of(node)].entries.push_back(
-            {e, static_cast<int>(rows_.place_of(graph_, node, p)), factor});
+            {e, static_cast<int>(rows_.place_of(graph_.row[node], p)), factor});
     };
     for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
       add(a, p, 0.5);
@@ -275,7 +275,10 @@ bool repair_closure_by_classes(PairGraph& graph, const PairWeight& k, const Repa
   }
   for (size_t rings = choices.size(); rings-- > 0;) {
     rows.rows = choices[rings];
-    if (closes(rings > 0 ? most_conditions_of_rings : most_conditions)) return true;
+    if (!closes(rings > 0 ? most_conditions_of_rings : most_conditions)) continue;
+    // what was equal has been changed in the same way
+    if (rows.order.empty()) set_classes(graph, rows.rows);
+    return true;
   }
   return false;
 }

@@ -1,8 +1,8 @@
 #include "common/scheme/sweep_graph.hpp"
 
 #include "common/parallel/for_chunks.hpp"
+#include "common/scheme/classify_rows.hpp"
 #include "common/scheme/pair_runs.hpp"
-#include "common/scheme/row_classes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -61,7 +61,7 @@ class RowLayouts : public Layouts {
     const std::int64_t n = graph_.row[a + 1] - graph_.row[a];
     pairs.assign(static_cast<size_t>(chunks_of(n) * n_lanes), -1);
     for (std::int64_t k = 0; k < n; ++k)
-      pairs[k] = classes_.pair(graph_, a, k);
+      pairs[k] = classes_.pair(graph_.row[a], k);
   }
 
  private:
@@ -90,8 +90,8 @@ void geometry_of(const PairGraph& graph,
     const std::int64_t p = pairs[k];
     if (p < 0) continue;
     const std::int64_t reverse = graph.reverse[p];
-    C[2 * k] = classes.C(graph, graph.neighbour[reverse], p);
-    C[2 * k + 1] = classes.C(graph, graph.neighbour[p], reverse);
+    C[2 * k] = shared_C(graph, classes, graph.neighbour[reverse], p);
+    C[2 * k + 1] = shared_C(graph, classes, graph.neighbour[p], reverse);
   }
 }
 
@@ -124,18 +124,11 @@ EqualGroups group_units(const PairGraph& graph,
     read(static_cast<std::int32_t>(g), one);
     hash[g] = hash_of(one);
   }
-  EqualGroups groups = group_equal(hash, [&](std::int32_t g, std::int32_t h) {
-    read(g, one);
-    read(h, other);
-    return one == other;
-  });
-  for (std::int32_t& unit : groups.representative)
-    unit = alike.representative[unit];
-  std::vector<std::int32_t> of(alike.of.size());
-  for (size_t u = 0; u < of.size(); ++u)
-    of[u] = groups.of[alike.of[u]];
-  groups.of = std::move(of);
-  return groups;
+  return joined(alike, group_equal(hash, [&](std::int32_t g, std::int32_t h) {
+                  read(g, one);
+                  read(h, other);
+                  return one == other;
+                }));
 }
 
 /// Blocks whose nodes have rows of the same classes, at the same offsets.
@@ -252,7 +245,7 @@ void set_nodes(const PairGraph& graph, const RowClasses& classes, SweepGraph<Dim
       sweep.X.at(a, i) = graph.X[a][i];
     if (sweep.C_sum.empty()) continue;
     for (std::int64_t k = 0; k < graph.row[a + 1] - graph.row[a]; ++k) {
-      const Vec3& C = classes.C(graph, a, classes.pair(graph, a, k));
+      const Vec3& C = shared_C(graph, classes, a, classes.pair(graph.row[a], k));
       for (int i = 0; i < Dim; ++i)
         sweep.C_sum.at(a, i) += C[i];
     }
@@ -272,7 +265,7 @@ void set_rows(const PairGraph& graph, const RowClasses& classes, SweepGraph<Dim>
     std::int32_t* node = sweep.neighbours.data()[sweep.row[a]].node;
     std::fill_n(node, (sweep.row[a + 1] - sweep.row[a]) * n_lanes, static_cast<std::int32_t>(a));
     for (std::int64_t k = 0; k < graph.row[a + 1] - graph.row[a]; ++k)
-      node[k] = graph.neighbour[classes.pair(graph, a, k)];
+      node[k] = graph.neighbour[classes.pair(graph.row[a], k)];
   }
   sweep.first = algebra::AlignedArray<std::int64_t>(n);
   const EqualGroups alike = group_by_neighbours(graph, classes, false);
@@ -315,7 +308,7 @@ SweepGraph<Dim>::SweepGraph(const PairGraph& graph, Arrangement arrangement, con
       inverse_Omega(n_blocks * n_lanes),
       Omega(n_blocks * n_lanes),
       C_sum(arrangement == Arrangement::rows ? graph.n_nodes() : 0, Dim) {
-  const RowClasses classes = classify_rows(graph);
+  const RowClasses classes = classes_of(graph);
   if (arrangement == Arrangement::runs) {
     set_runs(graph, classes, runs, *this);
   } else {

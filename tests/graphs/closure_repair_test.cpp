@@ -1,8 +1,8 @@
 #include "common/scheme/closure_repair.hpp"
 
 #include "common/scheme/class_repair.hpp"
+#include "common/scheme/classify_rows.hpp"
 #include "common/scheme/conjugate_gradients.hpp"
-#include "common/scheme/row_classes.hpp"
 #include "sph/sph_graph.hpp"
 #include "tests/graphs/graph_checks.hpp"
 

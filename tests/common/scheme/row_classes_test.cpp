@@ -1,5 +1,4 @@
-#include "common/scheme/row_classes.hpp"
-
+#include "common/scheme/classify_rows.hpp"
 #include "common/scheme/sweep_graph.hpp"
 #include "meshes/renumber.hpp"
 #include "tests/common/scheme/scenes.hpp"
@@ -44,7 +43,7 @@ TEST(RowClasses, KeepTheGeometry) {
       ASSERT_EQ(graph.row[a + 1] - graph.row[a], graph.row[b + 1] - graph.row[b]);
       for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
         largest = std::max(largest, graph.C[p].norm());
-        change = std::max(change, (classes.C(graph, a, p) - graph.C[p]).norm());
+        change = std::max(change, (shared_C(graph, classes, a, p) - graph.C[p]).norm());
       }
     }
     EXPECT_LE(change, 2e-12 * largest) << method;
@@ -69,7 +68,7 @@ TEST(RowClasses, AreThoseOfEveryNumbering) {
     EXPECT_GT(group_by_neighbours(shuffled, same, true).representative.size(), 300U) << method;
     for (std::int64_t a = 0; a < shuffled.n_nodes(); ++a) {
       for (std::int64_t k = 0; k < shuffled.row[a + 1] - shuffled.row[a]; ++k)
-        ASSERT_EQ(same.place_of(shuffled, a, same.pair(shuffled, a, k)), k);
+        ASSERT_EQ(same.place_of(shuffled.row[a], same.pair(shuffled.row[a], k)), k);
     }
   }
 }
