@@ -8,12 +8,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace diptych::scheme {
 
 namespace {
 
 using Eigen::Index;
+using Eigen::Matrix3Xd;
 using Eigen::MatrixX3d;
 
 /// Beyond these the repair by pairs is the cheaper one: the dense system takes seconds. Classes
@@ -38,6 +40,7 @@ struct ClassOfRows {
   Eigen::Matrix3d inverse;  ///< pseudo-inverse of M_c
   MatrixX3d X;              ///< [pairs]
   Eigen::VectorXd k;        ///< [pairs]
+  Matrix3Xd step, change;   ///< [pairs] dC of the last pass and of all
   /// (condition, pair, +-1/2): how dC enters the conditions.
   struct Entry {
     Index condition;
@@ -58,54 +61,29 @@ class ClassRepair {
 
   Index n_conditions() const { return static_cast<Index>(node_of_.size()); }
 
-  /// @return whether the graph is closed now; it is left as it was where not
+  /// @return whether the graph is closed now; it is left as it was, up to rounding, where not
   bool repair(const PairWeight& k, const RepairLimits& limits) {
     for (ClassOfRows& c : classes_)
       if (is_free(c.node)) set_geometry(k, c);
     for (Index e = 0; e < n_conditions(); ++e)
       add_entries(e, node_of_[static_cast<size_t>(e)]);
     set_system();
-    const std::vector<Vec3> C = free_rows();
-    if (close(limits)) return true;
-    restore_free_rows(C);
+    double before = greatest(gap_, unit_);
+    for (int pass = 0; pass < most_passes && !(before <= limits.closure); ++pass) {
+      solve();
+      add_to_rows(1, &ClassOfRows::step);
+      update_closure_gap(graph_, touched_, gap_);
+      const double after = greatest(gap_, unit_);
+      const bool halved = after < 0.5 * before;
+      before = after;
+      if (!halved) break;
+    }
+    if (before <= limits.closure) return true;
+    add_to_rows(-1, &ClassOfRows::change);
     return false;
   }
 
  private:
-  bool close(const RepairLimits& limits) {
-    double before = greatest(gap_, unit_);
-    for (int pass = 0; pass < most_passes && !(before <= limits.closure); ++pass) {
-      change();
-      gap_ = closure_gap(graph_);
-      const double after = greatest(gap_, unit_);
-      if (!(after < 0.5 * before)) return after <= limits.closure;
-      before = after;
-    }
-    return before <= limits.closure;
-  }
-
-  /// The C_ab that a repair may change.
-  std::vector<Vec3> free_rows() const {
-    std::int64_t n = 0;
-    for (std::int64_t a = 0; a < graph_.n_nodes(); ++a)
-      n += is_free(a) ? length(a) : 0;
-    std::vector<Vec3> C;
-    C.reserve(static_cast<size_t>(n));
-    for (std::int64_t a = 0; a < graph_.n_nodes(); ++a) {
-      if (is_free(a))
-        C.insert(C.end(), graph_.C.begin() + graph_.row[a], graph_.C.begin() + graph_.row[a + 1]);
-    }
-    return C;
-  }
-  void restore_free_rows(const std::vector<Vec3>& C) {
-    auto from = C.begin();
-    for (std::int64_t a = 0; a < graph_.n_nodes(); ++a) {
-      if (!is_free(a)) continue;
-      std::copy(from, from + length(a), graph_.C.begin() + graph_.row[a]);
-      from += length(a);
-    }
-  }
-
   std::int64_t length(std::int64_t a) const { return graph_.row[a + 1] - graph_.row[a]; }
   std::int64_t pair(std::int64_t a, std::int64_t k) const { return rows_.pair(graph_.row[a], k); }
   std::int32_t class_of(std::int64_t a) const { return rows_.rows.of[a]; }
@@ -130,6 +108,7 @@ class ClassRepair {
       c.X.row(i) = (graph_.X[graph_.neighbour[p]] - graph_.X[c.node]).transpose();
       c.k[i] = k(c.node, p);
     }
+    c.change = Matrix3Xd::Zero(3, n);
     const Eigen::Matrix3d M = c.X.transpose() * c.k.asDiagonal() * c.X;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> of(M);
     Eigen::Vector3d inverse = Eigen::Vector3d::Zero();
@@ -145,7 +124,7 @@ class ClassRepair {
   /// changes have none.
   void find_conditions() {
     std::vector<std::uint64_t> hash(gap_.size());
-    std::vector<char> touched(gap_.size(), 0);
+    touched_.assign(gap_.size(), 0);
     for_each_node(gap_.size(), [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t a = begin; a < end; ++a) {
         Hash h;
@@ -154,18 +133,19 @@ class ClassRepair {
           const double area = graph_.boundary_area[a][i] * unit_[a];
           h.add(static_cast<std::uint64_t>(std::llround(area * 1e6 + 0.2718)));
         }
+        bool touched = is_free(a);
         for (std::int64_t k = 0; k < length(a); ++k) {
-          const std::int64_t p = pair(a, k);
-          const std::int32_t b = graph_.neighbour[p];
+          const std::int32_t b = graph_.neighbour[pair(a, k)];
           h.add(static_cast<std::uint64_t>(class_of(b)));
-          touched[a] |= is_free(a) || is_free(b);
+          touched |= is_free(b);
         }
+        touched_[a] = touched;
         hash[a] = h.value();
       }
     });
     const EqualGroups kinds = group_equal(hash, [](std::int32_t, std::int32_t) { return true; });
     for (const std::int32_t a : kinds.representative)
-      if (touched[a]) node_of_.push_back(a);
+      if (touched_[a]) node_of_.push_back(a);
   }
 
   void add_entries(Index e, std::int64_t a) {
@@ -204,13 +184,13 @@ class ClassRepair {
           S_(conditions[static_cast<size_t>(i)], conditions[static_cast<size_t>(j)]) += part(i, j);
       }
     }
-    Eigen::MatrixXd positive = S_;
-    positive.diagonal().array() += regularisation * S_.diagonal().maxCoeff();
-    factor_.compute(positive);
+    positive_ = S_;
+    positive_.diagonal().array() += regularisation * S_.diagonal().maxCoeff();
+    factor_.emplace(positive_);
   }
 
-  /// Solves for the gaps and changes C.
-  void change() {
+  /// Solves for the gaps: the step of each class.
+  void solve() {
     MatrixX3d r(n_conditions(), 3);
     for (Index e = 0; e < r.rows(); ++e)
       r.row(e) = -gap_[node_of_[static_cast<size_t>(e)]].transpose();
@@ -218,29 +198,32 @@ class ClassRepair {
     MatrixX3d y = MatrixX3d::Zero(r.rows(), 3);
     double left = wanted.norm();
     for (int i = 0; i < most_refinements; ++i) {
-      const MatrixX3d next = y + factor_.solve(r);
+      const MatrixX3d next = y + factor_->solve(r);
       const MatrixX3d r_next = wanted - S_ * next;
       if (!(r_next.norm() < 0.5 * left)) break;
       left = r_next.norm();
       y = next;
       r = r_next;
     }
-    std::vector<MatrixX3d> dC(classes_.size());
-    for (size_t i = 0; i < classes_.size(); ++i) {
-      const ClassOfRows& c = classes_[i];
+    for (ClassOfRows& c : classes_) {
       if (!is_free(c.node)) continue;
       MatrixX3d z = MatrixX3d::Zero(c.k.size(), 3);
       for (const auto& entry : c.entries)
         z.row(entry.pair) += entry.factor * y.row(entry.condition);
       const Eigen::Matrix3d slope = c.inverse * (c.X.transpose() * c.k.asDiagonal() * z);
-      dC[i] = c.k.asDiagonal() * (z - c.X * slope);
+      c.step = (c.k.asDiagonal() * (z - c.X * slope)).transpose();
+      c.change += c.step;
     }
+  }
+
+  /// C += sign * change of the rows, where they may change.
+  void add_to_rows(double sign, Matrix3Xd ClassOfRows::*change) {
     for_each_node(gap_.size(), [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t a = begin; a < end; ++a) {
         if (!is_free(a)) continue;
-        const MatrixX3d& change = dC[static_cast<size_t>(class_of(a))];
+        const Matrix3Xd& dC = classes_[static_cast<size_t>(class_of(a))].*change;
         for (std::int64_t k = 0; k < length(a); ++k)
-          graph_.C[pair(a, k)] += change.row(k).transpose();
+          graph_.C[pair(a, k)] += sign * dC.col(k);
       }
     });
   }
@@ -251,9 +234,10 @@ class ClassRepair {
   Field gap_;
   std::vector<ClassOfRows> classes_;
   std::vector<char> free_;             ///< [classes] whether their rows may change
+  std::vector<char> touched_;          ///< [nodes] whether anything changes their gap
   std::vector<std::int64_t> node_of_;  ///< [conditions] a node of each kind
-  Eigen::MatrixXd S_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::MatrixXd S_, positive_;       ///< S, and regularised, where its factor takes its place
+  std::optional<Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>>> factor_;
 };
 
 }  // namespace

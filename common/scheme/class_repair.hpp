@@ -27,7 +27,8 @@ namespace diptych::scheme {
 /// k_ab > 0 of pair p of node a. Asked for one row of each class only.
 using PairWeight = std::function<double(std::int64_t a, std::int64_t p)>;
 
-/// Leaves the graph as it is where its rows are of too many classes, or cannot close it this way.
+/// Leaves the graph as it is, up to rounding, where its rows are of too many classes, or cannot
+/// close it this way.
 /// @return whether the graph is closed to within the limit now
 /// @pre   rows and reverse pairs are linked
 bool repair_closure_by_classes(PairGraph& graph,
