@@ -125,15 +125,18 @@ double lanczos(const PairGraph& graph,
   return largest_eigenvalue(diagonal, beside2);
 }
 
-/// What the operators stream. Node a takes its pairs' vectors from first[kind[a]] on.
+/// What the operators read of pairs: those of node a are first[kind[a]] to first[kind[a] + 1].
 struct Rows {
-  const std::int64_t* row;
-  const std::int32_t* neighbour;
   const std::int32_t* kind;
   const std::int64_t* first;
+  const std::int32_t* neighbour;  ///< of the pairs; b - a where nodes share them
+  bool shared;
   const double* inverse_Omega;  ///< of 2 Omega or 4 Omega
 
-  DIPTYCH_INLINE std::int64_t geometry_of(std::int64_t a) const { return first[kind[a]]; }
+  DIPTYCH_INLINE std::int64_t begin(std::int64_t a) const { return first[kind[a]]; }
+  DIPTYCH_INLINE std::int64_t end(std::int64_t a) const { return first[kind[a] + 1]; }
+  /// From where neighbours of a are counted.
+  DIPTYCH_INLINE std::int64_t origin(std::int64_t a) const { return shared ? a : 0; }
 };
 
 /// out <- the dissipation operator of v. N_ab = S_ab/sqrt|S_ab| with S_ab twice its size, times
@@ -145,11 +148,11 @@ DIPTYCH_CLONES void apply_dissipation(const Rows& rows,
                                       std::int64_t begin,
                                       std::int64_t end) {
   for (std::int64_t a = begin; a < end; ++a) {
-    const Four* n = N + rows.geometry_of(a);
+    const Four* v_b = v + rows.origin(a);
     Four sum{};
-    for (std::int64_t k = rows.row[a]; k < rows.row[a + 1]; ++k, ++n) {
-      const Four jump = v[a] - v[rows.neighbour[k]];
-      sum += (*n)[3] * jump + sum_three(*n * jump) * *n;
+    for (std::int64_t i = rows.begin(a); i < rows.end(a); ++i) {
+      const Four n = N[i], jump = v[a] - v_b[rows.neighbour[i]];
+      sum += n[3] * jump + sum_three(n * jump) * n;
     }
     out[a] = sum * rows.inverse_Omega[a];
   }
@@ -163,10 +166,10 @@ DIPTYCH_CLONES void gradient(const Rows& rows,
                              std::int64_t begin,
                              std::int64_t end) {
   for (std::int64_t a = begin; a < end; ++a) {
-    const Vec3* C_ab = C + rows.geometry_of(a);
+    const double* u_b = u + rows.origin(a);
     Four sum{};
-    for (std::int64_t k = rows.row[a]; k < rows.row[a + 1]; ++k, ++C_ab)
-      sum += (u[rows.neighbour[k]] - u[a]) * load_three(*C_ab);
+    for (std::int64_t i = rows.begin(a); i < rows.end(a); ++i)
+      sum += (u_b[rows.neighbour[i]] - u[a]) * load_three(C[i]);
     g[a] = sum * rows.inverse_Omega[a];
   }
 }
@@ -182,10 +185,10 @@ DIPTYCH_CLONES void adjoint(const Rows& rows,
                             std::int64_t begin,
                             std::int64_t end) {
   for (std::int64_t a = begin; a < end; ++a) {
-    const Vec3* C_ba = C_reverse + rows.geometry_of(a);
+    const Four* p_b = p + rows.origin(a);
     Four sum{};
-    for (std::int64_t k = rows.row[a]; k < rows.row[a + 1]; ++k, ++C_ba)
-      sum += p[rows.neighbour[k]] * load_three(*C_ba);
+    for (std::int64_t i = rows.begin(a); i < rows.end(a); ++i)
+      sum += p_b[rows.neighbour[i]] * load_three(C_reverse[i]);
     f[a] = sum_three(sum - p[a] * C_sum[rows.kind[a]]) * rows.inverse_Omega[a];
   }
 }
@@ -202,10 +205,9 @@ DIPTYCH_INLINE void correct(const Rows& rows,
                             std::int64_t begin,
                             std::int64_t end) {
   for (std::int64_t a = begin; a < end; ++a) {
-    std::int64_t i = rows.geometry_of(a);
     Four sum{};
-    for (std::int64_t k = rows.row[a]; k < rows.row[a + 1]; ++k, ++i) {
-      const std::int32_t b = rows.neighbour[k];
+    for (std::int64_t i = rows.begin(a); i < rows.end(a); ++i) {
+      const std::int64_t b = rows.origin(a) + rows.neighbour[i];
       const Four S = load_three(C[i]) - load_three(C_reverse[i]);  // twice S_ab
       const Four X_ab = X[b] - X[a], jump = q[a] - q[b];
       sum += of_stress ? sum_three(jump * S) * X_ab : sum_three(jump * X_ab) * S;
@@ -257,22 +259,6 @@ constexpr double most_kinds_per_node = 0.25;
 
 }  // namespace
 
-LargestRates::LargestRates(const PairGraph& graph) : graph_(graph) {
-  const scheme::RowClasses classes = scheme::classes_of(graph);
-  if (classes.order.empty()) kinds_ = group_by_neighbours(graph, classes, false);
-  const auto n_nodes = static_cast<double>(graph.n_nodes());
-  const auto n_kinds = static_cast<double>(kinds_.representative.size());
-  if (!classes.order.empty() || n_kinds > most_kinds_per_node * n_nodes) {
-    kinds_.of.resize(graph.X.size());
-    std::iota(kinds_.of.begin(), kinds_.of.end(), 0);
-    kinds_.representative = kinds_.of;
-  }
-  first_.reserve(kinds_.representative.size() + 1);
-  first_.push_back(0);
-  for (const std::int32_t a : kinds_.representative)
-    first_.push_back(first_.back() + graph.row[a + 1] - graph.row[a]);
-}
-
 template <class Set>
 void LargestRates::for_geometry(const Set& set) const {
   parallel::for_chunks(static_cast<std::int64_t>(kinds_.representative.size()),
@@ -285,6 +271,35 @@ void LargestRates::for_geometry(const Set& set) const {
                        });
 }
 
+LargestRates::LargestRates(const PairGraph& graph) : graph_(graph) {
+  const scheme::RowClasses classes = scheme::classes_of(graph);
+  if (classes.order.empty()) kinds_ = group_by_neighbours(graph, classes, true);
+  const auto n_nodes = static_cast<double>(graph.n_nodes());
+  const auto n_kinds = static_cast<double>(kinds_.representative.size());
+  if (!classes.order.empty() || n_kinds > most_kinds_per_node * n_nodes) {
+    kinds_.of.resize(graph.X.size());
+    std::iota(kinds_.of.begin(), kinds_.of.end(), 0);
+    kinds_.representative = kinds_.of;
+  }
+  first_.reserve(kinds_.representative.size() + 1);
+  first_.push_back(0);
+  for (const std::int32_t a : kinds_.representative)
+    first_.push_back(first_.back() + graph.row[a + 1] - graph.row[a]);
+  if (!shared()) return;
+  offset_.resize(static_cast<size_t>(first_.back()));
+  for_geometry([&](std::int64_t kind, std::int64_t i, std::int64_t k) {
+    offset_[i] = graph.neighbour[k] - kinds_.representative[kind];
+  });
+}
+
+bool LargestRates::shared() const {
+  return first_.back() < graph_.n_pairs();
+}
+
+const std::int32_t* LargestRates::neighbours() const {
+  return shared() ? offset_.data() : graph_.neighbour.data();
+}
+
 double LargestRates::dissipation(double shear_ratio) const {
   Field<Four> N(first_.back());
   for_geometry([&](std::int64_t, std::int64_t i, std::int64_t k) {
@@ -295,8 +310,7 @@ double LargestRates::dissipation(double shear_ratio) const {
     N[i][3] = shear_ratio * area;
   });
   const std::vector<double> inverse = inverse_volumes(graph_, 0.25);
-  const Rows rows{graph_.row.data(), graph_.neighbour.data(), kinds_.of.data(), first_.data(),
-                  inverse.data()};
+  const Rows rows{kinds_.of.data(), first_.data(), neighbours(), shared(), inverse.data()};
   return lanczos<Four>(graph_, [&](const Field<Four>& v, Field<Four>& out) {
     for_ranges(graph_, [&](std::int64_t begin, std::int64_t end) {
       apply_dissipation(rows, N.data(), v.data(), out.data(), begin, end);
@@ -306,18 +320,16 @@ double LargestRates::dissipation(double shear_ratio) const {
 
 double LargestRates::frequency(double kappa_f) const {
   std::vector<Vec3> C_shared, C_reverse(static_cast<size_t>(first_.back()));
-  const bool shared = first_.back() < graph_.n_pairs();
-  if (shared) C_shared.resize(C_reverse.size());
+  if (shared()) C_shared.resize(C_reverse.size());
   Field<Four> C_sum(static_cast<std::int64_t>(kinds_.representative.size()));
   for_geometry([&](std::int64_t kind, std::int64_t i, std::int64_t k) {
     C_reverse[i] = graph_.C[graph_.reverse[k]];
-    if (shared) C_shared[i] = graph_.C[k];
+    if (shared()) C_shared[i] = graph_.C[k];
     C_sum[kind] += load_three(graph_.C[k]);
   });
-  const Vec3* C = shared ? C_shared.data() : graph_.C.data();
+  const Vec3* C = shared() ? C_shared.data() : graph_.C.data();
   const std::vector<double> inverse = inverse_volumes(graph_, 0.5);
-  const Rows rows{graph_.row.data(), graph_.neighbour.data(), kinds_.of.data(), first_.data(),
-                  inverse.data()};
+  const Rows rows{kinds_.of.data(), first_.data(), neighbours(), shared(), inverse.data()};
   Field<Four> X, g(graph_.n_nodes()), corrected;
   if (kappa_f != 0) {
     X = Field<Four>(graph_.n_nodes());

@@ -31,9 +31,16 @@ class LargestRates {
   template <class Set>
   void for_geometry(const Set& set) const;
 
+  /// Whether nodes share pairs; else every node is of a kind of its own.
+  bool shared() const;
+  /// Of the pairs of the kinds; b - a where they are shared.
+  const std::int32_t* neighbours() const;
+
   const scheme::PairGraph& graph_;
-  scheme::EqualGroups kinds_;        ///< of nodes with the same C_ab and C_ba up to rounding
-  std::vector<std::int64_t> first_;  ///< [kinds + 1] into their pairs
+  /// Of nodes with the same C_ab and C_ba up to rounding and neighbours as far in the numbering.
+  scheme::EqualGroups kinds_;
+  std::vector<std::int64_t> first_;   ///< [kinds + 1] into their pairs
+  std::vector<std::int32_t> offset_;  ///< b - a of shared pairs
 };
 
 }  // namespace diptych::run
