@@ -1,6 +1,7 @@
 #include "fvm/fvm_graph.hpp"
 
 #include "common/base/registry.hpp"
+#include "common/scheme/classify_rows.hpp"
 #include "common/scheme/closure_repair.hpp"
 #include "fvm/cell_stencil.hpp"
 #include "meshes/dual_measure.hpp"
@@ -44,6 +45,7 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
     }
     repair_closure_pairs(graph, k);
   }
+  set_classes(graph);
   validate(graph);
   return graph;
 }

@@ -159,6 +159,7 @@ Mat3 jacobian(const ReferenceCell& cell,
   // from the first node: a body far from the origin loses no digits
   Mat3 J = Mat3::Zero();
   for (int a = 1; a < cell.n_nodes; ++a) {
+    if (point.dN[a].isZero(0)) continue;  // at a node: all but its edges
     J += (X[nodes[a]] - X[nodes[0]]) * point.dN[a].transpose();
   }
   if (cell.dimension == 2) J(2, 2) = 1;

@@ -35,7 +35,7 @@ void check_neighbours(const scheme::PairGraph& graph, std::int64_t a) {
     if (square == 0) {
       refuse(graph, a, fmt::format("particle {} at the same place", graph.neighbour[p]));
     }
-    spread += X_ab * X_ab.transpose() / square;
+    spread += X_ab / square * X_ab.transpose();
   }
   spread /= static_cast<double>(end - begin);
   if (d == 2) spread(2, 2) = 1;

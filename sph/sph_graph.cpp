@@ -46,17 +46,20 @@ void repair_by_gamma(const Kernel& kernel, const std::vector<double>& h, scheme:
 /// gamma's, and the stable step stays that of the kernel without any repair. On lattices equal rows
 /// stay equal.
 void repair_by_pairs(const Kernel& kernel, const std::vector<double>& h, scheme::PairGraph& graph) {
+  const auto weight = [&](std::int64_t a, std::int64_t p) {
+    const std::int32_t b = graph.neighbour[p];
+    const double r = (graph.X[b] - graph.X[a]).norm(), h_ab = 0.5 * (h[a] + h[b]);
+    return graph.Omega[a] * graph.Omega[b] * kernel.value(r, h_ab, graph.dimension) / h_ab;
+  };
+  if (scheme::repair_closure_by_classes(graph, weight)) return;
   std::vector<double> k(graph.neighbour.size());
   parallel::for_chunks(graph.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
     for (std::int64_t a = begin; a < end; ++a) {
-      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-        const std::int32_t b = graph.neighbour[p];
-        const double r = (graph.X[b] - graph.X[a]).norm(), h_ab = 0.5 * (h[a] + h[b]);
-        k[p] = graph.Omega[a] * graph.Omega[b] * kernel.value(r, h_ab, graph.dimension) / h_ab;
-      }
+      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
+        k[p] = weight(a, p);
     }
   });
-  if (!scheme::repair_closure_by_classes(graph, k)) scheme::repair_closure_pairs(graph, k);
+  scheme::repair_closure_pairs(graph, k);
 }
 
 base::Registry<Repair> repairs() {

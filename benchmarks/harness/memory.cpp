@@ -33,6 +33,7 @@ void release_pairs(scheme::PairGraph& graph) {
   free(graph.neighbour);
   free(graph.reverse);
   free(graph.C);
+  graph.classes = {};
 }
 
 }  // namespace diptych::harness

@@ -51,8 +51,9 @@ double default_cfl(const Case& setup,
   const double kappa_f = setup.scheme.face_correction;
   const double strength = setup.scheme.dissipation *
                           scheme::strength_of(scheme::limiter_menu().at(setup.scheme.limiter));
-  const double omega = largest_frequency(graph, kappa_f);
-  const double d = strength * largest_dissipation(graph, shear_ratio_of(setup.material));
+  const LargestRates largest(graph);
+  const double omega = largest.frequency(kappa_f);
+  const double d = strength * largest.dissipation(shear_ratio_of(setup.material));
   // dt at a wave speed of one
   const double dt = std::min(integrator.default_dt_omega / omega,
                              dissipation_share * real_extent(integrator) / d);

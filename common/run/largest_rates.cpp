@@ -3,17 +3,18 @@
 #include "common/algebra/field.hpp"
 #include "common/algebra/four.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/scheme/classify_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 namespace diptych::run {
 
 namespace {
 
 using algebra::Four;
-using algebra::load_four;
 using algebra::load_three;
 using algebra::sum_three;
 using algebra::Vec3;
@@ -124,38 +125,34 @@ double lanczos(const PairGraph& graph,
   return largest_eigenvalue(diagonal, beside2);
 }
 
-/// A vector per pair, and one more number, so that the last is loaded like the others.
-class PairVectors {
- public:
-  explicit PairVectors(const PairGraph& graph) : data_(3 * graph.n_pairs() + 1) {}
-  double* operator[](std::int64_t k) { return data_.data() + 3 * k; }
-  const double* operator[](std::int64_t k) const { return data_.data() + 3 * k; }
-
- private:
-  algebra::AlignedArray<double> data_;
-};
-
-/// What the operators stream.
+/// What the operators read of pairs: those of node a are first[kind[a]] to first[kind[a] + 1].
 struct Rows {
-  const std::int64_t* row;
-  const std::int32_t* neighbour;
+  const std::int32_t* kind;
+  const std::int64_t* first;
+  const std::int32_t* neighbour;  ///< of the pairs; b - a where nodes share them
+  bool shared;
   const double* inverse_Omega;  ///< of 2 Omega or 4 Omega
+
+  DIPTYCH_INLINE std::int64_t begin(std::int64_t a) const { return first[kind[a]]; }
+  DIPTYCH_INLINE std::int64_t end(std::int64_t a) const { return first[kind[a] + 1]; }
+  /// From where neighbours of a are counted.
+  DIPTYCH_INLINE std::int64_t origin(std::int64_t a) const { return shared ? a : 0; }
 };
 
-/// out <- the dissipation operator of v; N_ab = S_ab/sqrt|S_ab| with S_ab twice its size.
+/// out <- the dissipation operator of v. N_ab = S_ab/sqrt|S_ab| with S_ab twice its size, times
+/// sqrt(1 - c_s/c_p); in its fourth place c_s/c_p |S_ab|.
 DIPTYCH_CLONES void apply_dissipation(const Rows& rows,
-                                      const PairVectors& N,
-                                      double shear_ratio,
+                                      const Four* N,
                                       const Four* v,
                                       Four* out,
                                       std::int64_t begin,
                                       std::int64_t end) {
   for (std::int64_t a = begin; a < end; ++a) {
+    const Four* v_b = v + rows.origin(a);
     Four sum{};
-    for (std::int64_t k = rows.row[a]; k < rows.row[a + 1]; ++k) {
-      const Four n = load_four(N[k]), jump = v[a] - v[rows.neighbour[k]];
-      const double along = sum_three(n * jump), area = sum_three(n * n);
-      sum += area * shear_ratio * jump + (1 - shear_ratio) * along * n;
+    for (std::int64_t i = rows.begin(a); i < rows.end(a); ++i) {
+      const Four n = N[i], jump = v[a] - v_b[rows.neighbour[i]];
+      sum += n[3] * jump + sum_three(n * jump) * n;
     }
     out[a] = sum * rows.inverse_Omega[a];
   }
@@ -169,28 +166,30 @@ DIPTYCH_CLONES void gradient(const Rows& rows,
                              std::int64_t begin,
                              std::int64_t end) {
   for (std::int64_t a = begin; a < end; ++a) {
+    const double* u_b = u + rows.origin(a);
     Four sum{};
-    for (std::int64_t k = rows.row[a]; k < rows.row[a + 1]; ++k)
-      sum += (u[rows.neighbour[k]] - u[a]) * load_three(C[k]);
+    for (std::int64_t i = rows.begin(a); i < rows.end(a); ++i)
+      sum += (u_b[rows.neighbour[i]] - u[a]) * load_three(C[i]);
     g[a] = sum * rows.inverse_Omega[a];
   }
 }
 
-/// f <- adjoint of the gradient, of p; C_reverse[k] is C_ba of the pair (a,b).
+/// f <- adjoint of the gradient, of p.
+/// @param C_reverse  C_ba of the pair (a,b)
+/// @param C_sum      [kinds] sum_b C_ab
 DIPTYCH_CLONES void adjoint(const Rows& rows,
-                            const Vec3* C,
-                            const PairVectors& C_reverse,
+                            const Vec3* C_reverse,
+                            const Four* C_sum,
                             const Four* p,
                             double* f,
                             std::int64_t begin,
                             std::int64_t end) {
   for (std::int64_t a = begin; a < end; ++a) {
-    Four sum{}, C_sum{};
-    for (std::int64_t k = rows.row[a]; k < rows.row[a + 1]; ++k) {
-      sum += p[rows.neighbour[k]] * load_four(C_reverse[k]);
-      C_sum += load_three(C[k]);
-    }
-    f[a] = sum_three(sum - p[a] * C_sum) * rows.inverse_Omega[a];
+    const Four* p_b = p + rows.origin(a);
+    Four sum{};
+    for (std::int64_t i = rows.begin(a); i < rows.end(a); ++i)
+      sum += p_b[rows.neighbour[i]] * load_three(C_reverse[i]);
+    f[a] = sum_three(sum - p[a] * C_sum[rows.kind[a]]) * rows.inverse_Omega[a];
   }
 }
 
@@ -198,7 +197,7 @@ DIPTYCH_CLONES void adjoint(const Rows& rows,
 template <bool of_stress>
 DIPTYCH_INLINE void correct(const Rows& rows,
                             const Vec3* C,
-                            const PairVectors& C_reverse,
+                            const Vec3* C_reverse,
                             const Four* X,
                             double kappa_f,
                             const Four* q,
@@ -207,9 +206,9 @@ DIPTYCH_INLINE void correct(const Rows& rows,
                             std::int64_t end) {
   for (std::int64_t a = begin; a < end; ++a) {
     Four sum{};
-    for (std::int64_t k = rows.row[a]; k < rows.row[a + 1]; ++k) {
-      const std::int32_t b = rows.neighbour[k];
-      const Four S = load_three(C[k]) - load_four(C_reverse[k]);  // twice S_ab
+    for (std::int64_t i = rows.begin(a); i < rows.end(a); ++i) {
+      const std::int64_t b = rows.origin(a) + rows.neighbour[i];
+      const Four S = load_three(C[i]) - load_three(C_reverse[i]);  // twice S_ab
       const Four X_ab = X[b] - X[a], jump = q[a] - q[b];
       sum += of_stress ? sum_three(jump * S) * X_ab : sum_three(jump * X_ab) * S;
     }
@@ -218,7 +217,7 @@ DIPTYCH_INLINE void correct(const Rows& rows,
 }
 DIPTYCH_CLONES void correct_gradient(const Rows& rows,
                                      const Vec3* C,
-                                     const PairVectors& C_reverse,
+                                     const Vec3* C_reverse,
                                      const Four* X,
                                      double kappa_f,
                                      const Four* q,
@@ -229,7 +228,7 @@ DIPTYCH_CLONES void correct_gradient(const Rows& rows,
 }
 DIPTYCH_CLONES void correct_stress(const Rows& rows,
                                    const Vec3* C,
-                                   const PairVectors& C_reverse,
+                                   const Vec3* C_reverse,
                                    const Four* X,
                                    double kappa_f,
                                    const Four* q,
@@ -255,56 +254,103 @@ void for_ranges(const PairGraph& graph, const Work& work) {
   });
 }
 
+/// A quarter of the nodes: beyond that, geometry that stands once for them is hardly smaller.
+constexpr double most_kinds_per_node = 0.25;
+
 }  // namespace
 
-double largest_dissipation(const PairGraph& graph, double shear_ratio) {
-  PairVectors N(graph);
-  for_nodes(graph, [&](std::int64_t a) {
-    for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k) {
-      const Vec3 S = graph.C[k] - graph.C[graph.reverse[k]];  // twice S_ab
-      const double area = S.norm();
-      if (area > 0) Vec3::Map(N[k]) = S / std::sqrt(area);
-    }
+template <class Set>
+void LargestRates::for_geometry(const Set& set) const {
+  parallel::for_chunks(static_cast<std::int64_t>(kinds_.representative.size()),
+                       [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+                         for (std::int64_t kind = begin; kind < end; ++kind) {
+                           const std::int64_t row = graph_.row[kinds_.representative[kind]];
+                           for (std::int64_t i = first_[kind]; i < first_[kind + 1]; ++i)
+                             set(kind, i, row + i - first_[kind]);
+                         }
+                       });
+}
+
+LargestRates::LargestRates(const PairGraph& graph) : graph_(graph) {
+  const scheme::RowClasses classes = scheme::classes_of(graph);
+  if (classes.order.empty()) kinds_ = group_by_neighbours(graph, classes, true);
+  const auto n_nodes = static_cast<double>(graph.n_nodes());
+  const auto n_kinds = static_cast<double>(kinds_.representative.size());
+  if (!classes.order.empty() || n_kinds > most_kinds_per_node * n_nodes) {
+    kinds_.of.resize(graph.X.size());
+    std::iota(kinds_.of.begin(), kinds_.of.end(), 0);
+    kinds_.representative = kinds_.of;
+  }
+  first_.reserve(kinds_.representative.size() + 1);
+  first_.push_back(0);
+  for (const std::int32_t a : kinds_.representative)
+    first_.push_back(first_.back() + graph.row[a + 1] - graph.row[a]);
+  if (!shared()) return;
+  offset_.resize(static_cast<size_t>(first_.back()));
+  for_geometry([&](std::int64_t kind, std::int64_t i, std::int64_t k) {
+    offset_[i] = graph.neighbour[k] - kinds_.representative[kind];
   });
-  const std::vector<double> inverse = inverse_volumes(graph, 0.25);
-  const Rows rows{graph.row.data(), graph.neighbour.data(), inverse.data()};
-  return lanczos<Four>(graph, [&](const Field<Four>& v, Field<Four>& out) {
-    for_ranges(graph, [&](std::int64_t begin, std::int64_t end) {
-      apply_dissipation(rows, N, shear_ratio, v.data(), out.data(), begin, end);
+}
+
+bool LargestRates::shared() const {
+  return first_.back() < graph_.n_pairs();
+}
+
+const std::int32_t* LargestRates::neighbours() const {
+  return shared() ? offset_.data() : graph_.neighbour.data();
+}
+
+double LargestRates::dissipation(double shear_ratio) const {
+  Field<Four> N(first_.back());
+  for_geometry([&](std::int64_t, std::int64_t i, std::int64_t k) {
+    const Vec3 S = graph_.C[k] - graph_.C[graph_.reverse[k]];  // twice S_ab
+    const double area = S.norm();
+    if (!(area > 0)) return;
+    N[i] = load_three(S) * std::sqrt((1 - shear_ratio) / area);
+    N[i][3] = shear_ratio * area;
+  });
+  const std::vector<double> inverse = inverse_volumes(graph_, 0.25);
+  const Rows rows{kinds_.of.data(), first_.data(), neighbours(), shared(), inverse.data()};
+  return lanczos<Four>(graph_, [&](const Field<Four>& v, Field<Four>& out) {
+    for_ranges(graph_, [&](std::int64_t begin, std::int64_t end) {
+      apply_dissipation(rows, N.data(), v.data(), out.data(), begin, end);
     });
   });
 }
 
-double largest_frequency(const PairGraph& graph, double kappa_f) {
-  PairVectors C_reverse(graph);
-  for_nodes(graph, [&](std::int64_t a) {
-    for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k)
-      Vec3::Map(C_reverse[k]) = graph.C[graph.reverse[k]];
+double LargestRates::frequency(double kappa_f) const {
+  std::vector<Vec3> C_shared, C_reverse(static_cast<size_t>(first_.back()));
+  if (shared()) C_shared.resize(C_reverse.size());
+  Field<Four> C_sum(static_cast<std::int64_t>(kinds_.representative.size()));
+  for_geometry([&](std::int64_t kind, std::int64_t i, std::int64_t k) {
+    C_reverse[i] = graph_.C[graph_.reverse[k]];
+    if (shared()) C_shared[i] = graph_.C[k];
+    C_sum[kind] += load_three(graph_.C[k]);
   });
-  const std::vector<double> inverse = inverse_volumes(graph, 0.5);
-  const Rows rows{graph.row.data(), graph.neighbour.data(), inverse.data()};
-  const Vec3* C = graph.C.data();
-  Field<Four> X, g(graph.n_nodes()), corrected;
+  const Vec3* C = shared() ? C_shared.data() : graph_.C.data();
+  const std::vector<double> inverse = inverse_volumes(graph_, 0.5);
+  const Rows rows{kinds_.of.data(), first_.data(), neighbours(), shared(), inverse.data()};
+  Field<Four> X, g(graph_.n_nodes()), corrected;
   if (kappa_f != 0) {
-    X = Field<Four>(graph.n_nodes());
-    corrected = Field<Four>(graph.n_nodes());
-    for_nodes(graph, [&](std::int64_t a) { X[a] = load_three(graph.X[a]); });
+    X = Field<Four>(graph_.n_nodes());
+    corrected = Field<Four>(graph_.n_nodes());
+    for_nodes(graph_, [&](std::int64_t a) { X[a] = load_three(graph_.X[a]); });
   }
-  return std::sqrt(lanczos<double>(graph, [&](const Field<double>& u, Field<double>& out) {
-    const auto pass = [&](const auto& work) { for_ranges(graph, work); };
+  return std::sqrt(lanczos<double>(graph_, [&](const Field<double>& u, Field<double>& out) {
+    const auto pass = [&](const auto& work) { for_ranges(graph_, work); };
     pass([&](auto begin, auto end) { gradient(rows, C, u.data(), g.data(), begin, end); });
     if (kappa_f != 0) {
       pass([&](auto begin, auto end) {
-        correct_gradient(rows, C, C_reverse, X.data(), kappa_f, g.data(), corrected.data(), begin,
-                         end);
+        correct_gradient(rows, C, C_reverse.data(), X.data(), kappa_f, g.data(), corrected.data(),
+                         begin, end);
       });
       pass([&](auto begin, auto end) {
-        correct_stress(rows, C, C_reverse, X.data(), kappa_f, corrected.data(), g.data(), begin,
-                       end);
+        correct_stress(rows, C, C_reverse.data(), X.data(), kappa_f, corrected.data(), g.data(),
+                       begin, end);
       });
     }
     pass([&](auto begin, auto end) {
-      adjoint(rows, C, C_reverse, g.data(), out.data(), begin, end);
+      adjoint(rows, C_reverse.data(), C_sum.data(), g.data(), out.data(), begin, end);
     });
   }));
 }

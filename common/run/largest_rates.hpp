@@ -15,10 +15,32 @@
 
 namespace diptych::run {
 
-/// d of plain jumps with scheme.dissipation = 1, per unit of c_p  [1/m]
-double largest_dissipation(const scheme::PairGraph& graph, double shear_ratio);
+class LargestRates {
+ public:
+  /// @param graph  must outlive this
+  explicit LargestRates(const scheme::PairGraph& graph);
 
-/// omega per unit of c_p  [1/m]
-double largest_frequency(const scheme::PairGraph& graph, double kappa_f);
+  /// d of plain jumps with scheme.dissipation = 1, per unit of c_p  [1/m]
+  double dissipation(double shear_ratio) const;
+
+  /// omega per unit of c_p  [1/m]
+  double frequency(double kappa_f) const;
+
+ private:
+  /// Calls set(kind, i, k) for the pairs k of one node of each kind, i counting them all.
+  template <class Set>
+  void for_geometry(const Set& set) const;
+
+  /// Whether nodes share pairs; else every node is of a kind of its own.
+  bool shared() const;
+  /// Of the pairs of the kinds; b - a where they are shared.
+  const std::int32_t* neighbours() const;
+
+  const scheme::PairGraph& graph_;
+  /// Of nodes with the same C_ab and C_ba up to rounding and neighbours as far in the numbering.
+  scheme::EqualGroups kinds_;
+  std::vector<std::int64_t> first_;   ///< [kinds + 1] into their pairs
+  std::vector<std::int32_t> offset_;  ///< b - a of shared pairs
+};
 
 }  // namespace diptych::run

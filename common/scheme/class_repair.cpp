@@ -1,19 +1,21 @@
 #include "common/scheme/class_repair.hpp"
 
+#include "common/scheme/classify_rows.hpp"
 #include "common/scheme/closure_gap.hpp"
-#include "common/scheme/row_classes.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace diptych::scheme {
 
 namespace {
 
 using Eigen::Index;
+using Eigen::Matrix3Xd;
 using Eigen::MatrixX3d;
 
 /// Beyond these the repair by pairs is the cheaper one: the dense system takes seconds. Classes
@@ -33,11 +35,12 @@ constexpr int most_rings = 2, most_passes = 4, most_refinements = 8;
 
 /// Rows of one class and what changes of them.
 struct ClassOfRows {
-  std::int64_t node = -1;   ///< one of the class
-  bool free = true;         ///< the rest is set where it is
+  std::int64_t node = -1;  ///< one of the class
+  // of those that may change only
   Eigen::Matrix3d inverse;  ///< pseudo-inverse of M_c
   MatrixX3d X;              ///< [pairs]
   Eigen::VectorXd k;        ///< [pairs]
+  Matrix3Xd step, change;   ///< [pairs] dC of the last pass and of all
   /// (condition, pair, +-1/2): how dC enters the conditions.
   struct Entry {
     Index condition;
@@ -46,21 +49,6 @@ struct ClassOfRows {
   };
   std::vector<Entry> entries;
 };
-
-/// Classes of rows whose neighbours' rows are of the same classes too.
-EqualGroups by_neighbours(const PairGraph& graph, const RowClasses& rows) {
-  std::vector<std::uint64_t> hash(graph.X.size());
-  for_each_node(hash.size(), [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t a = begin; a < end; ++a) {
-      Hash h;
-      h.add(static_cast<std::uint64_t>(rows.rows.of[a]));
-      for (std::int64_t q = graph.row[a]; q < graph.row[a + 1]; ++q)
-        h.add(static_cast<std::uint64_t>(rows.rows.of[graph.neighbour[rows.order[q]]]));
-      hash[a] = h.value();
-    }
-  });
-  return group_equal(hash, [](std::int32_t, std::int32_t) { return true; });
-}
 
 class ClassRepair {
  public:
@@ -73,54 +61,54 @@ class ClassRepair {
 
   Index n_conditions() const { return static_cast<Index>(node_of_.size()); }
 
-  bool repair(const std::vector<double>& k, const RepairLimits& limits) {
+  /// @return whether the graph is closed now; it is left as it was, up to rounding, where not
+  bool repair(const PairWeight& k, const RepairLimits& limits) {
     for (ClassOfRows& c : classes_)
-      if (c.free) set_geometry(k, c);
+      if (is_free(c.node)) set_geometry(k, c);
     for (Index e = 0; e < n_conditions(); ++e)
       add_entries(e, node_of_[static_cast<size_t>(e)]);
     set_system();
     double before = greatest(gap_, unit_);
     for (int pass = 0; pass < most_passes && !(before <= limits.closure); ++pass) {
-      change();
-      gap_ = closure_gap(graph_);
+      solve();
+      add_to_rows(1, &ClassOfRows::step);
+      update_closure_gap(graph_, touched_, gap_);
       const double after = greatest(gap_, unit_);
-      if (!(after < 0.5 * before)) return after <= limits.closure;
+      const bool halved = after < 0.5 * before;
       before = after;
+      if (!halved) break;
     }
-    return before <= limits.closure;
+    if (before <= limits.closure) return true;
+    add_to_rows(-1, &ClassOfRows::change);
+    return false;
   }
 
  private:
   std::int64_t length(std::int64_t a) const { return graph_.row[a + 1] - graph_.row[a]; }
-  /// Pair k of node a in the common order of its class.
-  std::int64_t pair(std::int64_t a, std::int64_t k) const { return rows_.order[graph_.row[a] + k]; }
+  std::int64_t pair(std::int64_t a, std::int64_t k) const { return rows_.pair(graph_.row[a], k); }
   std::int32_t class_of(std::int64_t a) const { return rows_.rows.of[a]; }
-
-  /// Place of pair p of node a in that order.
-  int place(std::int64_t a, std::int64_t p) const {
-    const auto begin = rows_.order.begin() + graph_.row[a], end = begin + length(a);
-    return static_cast<int>(std::find(begin, end, p) - begin);
-  }
 
   /// Classes may change where all of their nodes have a gap.
   void find_free_classes() {
     classes_.resize(rows_.rows.representative.size());
     for (size_t c = 0; c < classes_.size(); ++c)
       classes_[c].node = rows_.rows.representative[c];
+    free_.assign(classes_.size(), 1);
     for (std::int64_t a = 0; a < graph_.n_nodes(); ++a) {
-      if (gap_[a].norm() * unit_[a] < least_gap) classes_[class_of(a)].free = false;
+      if (gap_[a].norm() * unit_[a] < least_gap) free_[class_of(a)] = 0;
     }
   }
 
-  void set_geometry(const std::vector<double>& k, ClassOfRows& c) const {
+  void set_geometry(const PairWeight& k, ClassOfRows& c) const {
     const auto n = static_cast<Index>(length(c.node));
     c.X.resize(n, 3);
     c.k.resize(n);
     for (Index i = 0; i < n; ++i) {
       const std::int64_t p = pair(c.node, i);
       c.X.row(i) = (graph_.X[graph_.neighbour[p]] - graph_.X[c.node]).transpose();
-      c.k[i] = k[p];
+      c.k[i] = k(c.node, p);
     }
+    c.change = Matrix3Xd::Zero(3, n);
     const Eigen::Matrix3d M = c.X.transpose() * c.k.asDiagonal() * c.X;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> of(M);
     Eigen::Vector3d inverse = Eigen::Vector3d::Zero();
@@ -130,13 +118,13 @@ class ClassRepair {
     c.inverse = of.eigenvectors() * inverse.asDiagonal() * of.eigenvectors().transpose();
   }
 
-  bool is_free(std::int64_t a) const { return classes_[class_of(a)].free; }
+  bool is_free(std::int64_t a) const { return free_[class_of(a)] != 0; }
 
   /// Nodes with the same row, area and neighbours have the same condition; those that nothing
   /// changes have none.
   void find_conditions() {
     std::vector<std::uint64_t> hash(gap_.size());
-    std::vector<char> touched(gap_.size(), 0);
+    touched_.assign(gap_.size(), 0);
     for_each_node(gap_.size(), [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t a = begin; a < end; ++a) {
         Hash h;
@@ -145,23 +133,26 @@ class ClassRepair {
           const double area = graph_.boundary_area[a][i] * unit_[a];
           h.add(static_cast<std::uint64_t>(std::llround(area * 1e6 + 0.2718)));
         }
+        bool touched = is_free(a);
         for (std::int64_t k = 0; k < length(a); ++k) {
-          const std::int64_t p = pair(a, k);
-          const std::int32_t b = graph_.neighbour[p];
+          const std::int32_t b = graph_.neighbour[pair(a, k)];
           h.add(static_cast<std::uint64_t>(class_of(b)));
-          touched[a] |= is_free(a) || is_free(b);
+          touched |= is_free(b);
         }
+        touched_[a] = touched;
         hash[a] = h.value();
       }
     });
     const EqualGroups kinds = group_equal(hash, [](std::int32_t, std::int32_t) { return true; });
     for (const std::int32_t a : kinds.representative)
-      if (touched[a]) node_of_.push_back(a);
+      if (touched_[a]) node_of_.push_back(a);
   }
 
   void add_entries(Index e, std::int64_t a) {
     const auto add = [&](std::int64_t node, std::int64_t p, double factor) {
-      if (is_free(node)) classes_[class_of(node)].entries.push_back({e, place(node, p), factor});
+      if (is_free(node))
+        classes_[class_of(node)].entries.push_back(
+            {e, static_cast<int>(rows_.place_of(graph_.row[node], p)), factor});
     };
     for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
       add(a, p, 0.5);
@@ -174,7 +165,7 @@ class ClassRepair {
     const Index n = n_conditions();
     S_ = Eigen::MatrixXd::Zero(n, n);
     for (const ClassOfRows& c : classes_) {
-      if (!c.free) continue;
+      if (!is_free(c.node)) continue;
       std::vector<Index> conditions;
       for (const auto& entry : c.entries)
         conditions.push_back(entry.condition);
@@ -193,13 +184,13 @@ class ClassRepair {
           S_(conditions[static_cast<size_t>(i)], conditions[static_cast<size_t>(j)]) += part(i, j);
       }
     }
-    Eigen::MatrixXd positive = S_;
-    positive.diagonal().array() += regularisation * S_.diagonal().maxCoeff();
-    factor_.compute(positive);
+    positive_ = S_;
+    positive_.diagonal().array() += regularisation * S_.diagonal().maxCoeff();
+    factor_.emplace(positive_);
   }
 
-  /// Solves for the gaps and changes C.
-  void change() {
+  /// Solves for the gaps: the step of each class.
+  void solve() {
     MatrixX3d r(n_conditions(), 3);
     for (Index e = 0; e < r.rows(); ++e)
       r.row(e) = -gap_[node_of_[static_cast<size_t>(e)]].transpose();
@@ -207,29 +198,32 @@ class ClassRepair {
     MatrixX3d y = MatrixX3d::Zero(r.rows(), 3);
     double left = wanted.norm();
     for (int i = 0; i < most_refinements; ++i) {
-      const MatrixX3d next = y + factor_.solve(r);
+      const MatrixX3d next = y + factor_->solve(r);
       const MatrixX3d r_next = wanted - S_ * next;
       if (!(r_next.norm() < 0.5 * left)) break;
       left = r_next.norm();
       y = next;
       r = r_next;
     }
-    std::vector<MatrixX3d> dC(classes_.size());
-    for (size_t i = 0; i < classes_.size(); ++i) {
-      const ClassOfRows& c = classes_[i];
-      if (!c.free) continue;
+    for (ClassOfRows& c : classes_) {
+      if (!is_free(c.node)) continue;
       MatrixX3d z = MatrixX3d::Zero(c.k.size(), 3);
       for (const auto& entry : c.entries)
         z.row(entry.pair) += entry.factor * y.row(entry.condition);
       const Eigen::Matrix3d slope = c.inverse * (c.X.transpose() * c.k.asDiagonal() * z);
-      dC[i] = c.k.asDiagonal() * (z - c.X * slope);
+      c.step = (c.k.asDiagonal() * (z - c.X * slope)).transpose();
+      c.change += c.step;
     }
+  }
+
+  /// C += sign * change of the rows, where they may change.
+  void add_to_rows(double sign, Matrix3Xd ClassOfRows::*change) {
     for_each_node(gap_.size(), [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t a = begin; a < end; ++a) {
         if (!is_free(a)) continue;
-        const MatrixX3d& change = dC[static_cast<size_t>(class_of(a))];
+        const Matrix3Xd& dC = classes_[static_cast<size_t>(class_of(a))].*change;
         for (std::int64_t k = 0; k < length(a); ++k)
-          graph_.C[pair(a, k)] += change.row(k).transpose();
+          graph_.C[pair(a, k)] += sign * dC.col(k);
       }
     });
   }
@@ -239,16 +233,16 @@ class ClassRepair {
   std::vector<double> unit_;
   Field gap_;
   std::vector<ClassOfRows> classes_;
+  std::vector<char> free_;             ///< [classes] whether their rows may change
+  std::vector<char> touched_;          ///< [nodes] whether anything changes their gap
   std::vector<std::int64_t> node_of_;  ///< [conditions] a node of each kind
-  Eigen::MatrixXd S_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::MatrixXd S_, positive_;       ///< S, and regularised, where its factor takes its place
+  std::optional<Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>>> factor_;
 };
 
 }  // namespace
 
-bool repair_closure_by_classes(PairGraph& graph,
-                               const std::vector<double>& k,
-                               const RepairLimits& limits) {
+bool repair_closure_by_classes(PairGraph& graph, const PairWeight& k, const RepairLimits& limits) {
   RowClasses rows = classify_rows(graph);
   const auto n_classes = static_cast<double>(rows.rows.representative.size());
   if (n_classes > most_classes_per_node * static_cast<double>(graph.n_nodes())) return false;
@@ -256,19 +250,19 @@ bool repair_closure_by_classes(PairGraph& graph,
   const auto closes = [&](Index most) {
     ClassRepair repair(graph, rows, gap);
     if (repair.n_conditions() > most) return false;
-    std::vector<Vec3> C = graph.C;
-    if (repair.repair(k, limits)) return true;
-    graph.C.swap(C);
-    return false;
+    return repair.repair(k, limits);
   };
   std::vector<EqualGroups> choices{rows.rows};
   for (int ring = 1; ring <= most_rings; ++ring) {
-    rows.rows = by_neighbours(graph, rows);
+    rows.rows = group_by_neighbours(graph, rows, false);
     choices.push_back(rows.rows);
   }
   for (size_t rings = choices.size(); rings-- > 0;) {
     rows.rows = choices[rings];
-    if (closes(rings > 0 ? most_conditions_of_rings : most_conditions)) return true;
+    if (!closes(rings > 0 ? most_conditions_of_rings : most_conditions)) continue;
+    // what was equal has been changed in the same way
+    if (rows.order.empty()) set_classes(graph, rows.rows);
+    return true;
   }
   return false;
 }

@@ -20,14 +20,19 @@
 
 #include "common/scheme/closure_repair.hpp"
 
+#include <functional>
+
 namespace diptych::scheme {
 
-/// Leaves the graph as it is where its rows are of too many classes, or cannot close it this way.
-/// @param k [n_pairs] weights > 0
+/// k_ab > 0 of pair p of node a. Asked for one row of each class only.
+using PairWeight = std::function<double(std::int64_t a, std::int64_t p)>;
+
+/// Leaves the graph as it is, up to rounding, where its rows are of too many classes, or cannot
+/// close it this way.
 /// @return whether the graph is closed to within the limit now
 /// @pre   rows and reverse pairs are linked
 bool repair_closure_by_classes(PairGraph& graph,
-                               const std::vector<double>& k,
+                               const PairWeight& k,
                                const RepairLimits& limits = {});
 
 }  // namespace diptych::scheme

@@ -4,18 +4,31 @@
 
 namespace diptych::scheme {
 
+namespace {
+
+Vec3 gap_of(const PairGraph& graph, std::int64_t a) {
+  Vec3 sum = Vec3::Zero();
+  for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
+    sum += graph.C[p] - graph.C[graph.reverse[p]];
+  return graph.boundary_area[a] + 0.5 * sum;
+}
+
+}  // namespace
+
 Field closure_gap(const PairGraph& graph) {
-  Field gap = graph.boundary_area;
+  Field gap(graph.X.size());
   for_each_node(gap.size(), [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t a = begin; a < end; ++a) {
-      Vec3 sum = Vec3::Zero();
-      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-        sum += graph.C[p] - graph.C[graph.reverse[p]];
-      }
-      gap[a] += 0.5 * sum;
-    }
+    for (std::int64_t a = begin; a < end; ++a)
+      gap[a] = gap_of(graph, a);
   });
   return gap;
+}
+
+void update_closure_gap(const PairGraph& graph, const std::vector<char>& changed, Field& gap) {
+  for_each_node(gap.size(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a)
+      if (changed[a]) gap[a] = gap_of(graph, a);
+  });
 }
 
 std::vector<double> area_units(const PairGraph& graph) {

@@ -39,6 +39,17 @@ EqualGroups group_equal(const std::vector<std::uint64_t>& hash, const Equal& equ
   return groups;
 }
 
+/// Groups of the things of `alike`, whose groups g are equal where groups.of[g] is the same.
+inline EqualGroups joined(const EqualGroups& alike, const EqualGroups& groups) {
+  EqualGroups all;
+  all.of.reserve(alike.of.size());
+  for (const std::int32_t group : alike.of)
+    all.of.push_back(groups.of[static_cast<std::size_t>(group)]);
+  for (const std::int32_t group : groups.representative)
+    all.representative.push_back(alike.representative[static_cast<std::size_t>(group)]);
+  return all;
+}
+
 /// Sixty-four bits of a sequence of words.
 class Hash {
  public:

@@ -7,6 +7,7 @@
 /// Tests: tests/graphs.
 
 #include "common/algebra/vectors.hpp"
+#include "common/scheme/row_classes.hpp"
 
 #include <cstdint>
 #include <string>
@@ -35,6 +36,8 @@ struct PairGraph {
       neighbour;                      ///< [n_pairs] ascending in each row, without the node itself
   std::vector<std::int64_t> reverse;  ///< [n_pairs] index of pair (b,a)
   std::vector<Vec3> C;                ///< [n_pairs] m^2, C_ab of the directed pair (a,b)
+  /// Where the factory knows them, which takes that rows stand in their common order; else empty.
+  RowClasses classes;
 
   std::int64_t n_nodes() const { return static_cast<std::int64_t>(X.size()); }
   std::int64_t n_pairs() const { return static_cast<std::int64_t>(neighbour.size()); }

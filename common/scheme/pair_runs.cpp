@@ -9,6 +9,18 @@ namespace diptych::scheme {
 
 using algebra::n_lanes;
 
+namespace {
+
+/// Of nodes a and b, as inside a lattice.
+bool same_offsets(const PairGraph& graph, std::int64_t a, std::int64_t b) {
+  const auto first = graph.neighbour.begin();
+  return std::equal(first + graph.row[a], first + graph.row[a + 1], first + graph.row[b],
+                    first + graph.row[b + 1],
+                    [&](std::int32_t of_a, std::int32_t of_b) { return of_a - a == of_b - b; });
+}
+
+}  // namespace
+
 PairRuns find_runs(const PairGraph& graph) {
   PairRuns runs;
   const std::int64_t n_blocks = algebra::n_blocks_of(graph.n_nodes());
@@ -18,6 +30,7 @@ PairRuns find_runs(const PairGraph& graph) {
     offsets.clear();
     const std::int64_t end = std::min(graph.n_nodes(), (b + 1) * n_lanes);
     for (std::int64_t a = b * n_lanes; a < end; ++a) {
+      if (a > b * n_lanes && same_offsets(graph, a - 1, a)) continue;
       for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
         offsets.push_back(graph.neighbour[p] - static_cast<std::int32_t>(a));
     }

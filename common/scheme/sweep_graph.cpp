@@ -1,10 +1,11 @@
 #include "common/scheme/sweep_graph.hpp"
 
 #include "common/parallel/for_chunks.hpp"
+#include "common/scheme/classify_rows.hpp"
 #include "common/scheme/pair_runs.hpp"
-#include "common/scheme/row_classes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 namespace diptych::scheme {
@@ -59,7 +60,8 @@ class RowLayouts : public Layouts {
   void lay(std::int64_t a, Lay& pairs) const override {
     const std::int64_t n = graph_.row[a + 1] - graph_.row[a];
     pairs.assign(static_cast<size_t>(chunks_of(n) * n_lanes), -1);
-    std::copy_n(classes_.order.begin() + graph_.row[a], n, pairs.begin());
+    for (std::int64_t k = 0; k < n; ++k)
+      pairs[k] = classes_.pair(graph_.row[a], k);
   }
 
  private:
@@ -85,9 +87,11 @@ void geometry_of(const PairGraph& graph,
                  std::vector<Vec3>& C) {
   C.assign(2 * pairs.size(), Vec3::Zero());
   for (size_t k = 0; k < pairs.size(); ++k) {
-    if (pairs[k] < 0) continue;
-    C[2 * k] = classes.C[pairs[k]];
-    C[2 * k + 1] = classes.C[graph.reverse[pairs[k]]];
+    const std::int64_t p = pairs[k];
+    if (p < 0) continue;
+    const std::int64_t reverse = graph.reverse[p];
+    C[2 * k] = shared_C(graph, classes, graph.neighbour[reverse], p);
+    C[2 * k + 1] = shared_C(graph, classes, graph.neighbour[p], reverse);
   }
 }
 
@@ -104,22 +108,49 @@ std::uint64_t hash_of(const std::vector<Vec3>& C) {
 }
 
 /// Units with the same bits of geometry.
-EqualGroups group_units(const PairGraph& graph, const RowClasses& classes, const Layouts& layouts) {
-  std::vector<std::uint64_t> hash(static_cast<size_t>(layouts.n_units()));
+/// @param alike  groups of units that surely have: one of each is looked at
+EqualGroups group_units(const PairGraph& graph,
+                        const RowClasses& classes,
+                        const Layouts& layouts,
+                        const EqualGroups& alike) {
+  std::vector<std::uint64_t> hash(alike.representative.size());
   Lay pairs;
   std::vector<Vec3> one, other;
-  for (std::int64_t u = 0; u < layouts.n_units(); ++u) {
-    layouts.lay(u, pairs);
-    geometry_of(graph, classes, pairs, one);
-    hash[u] = hash_of(one);
+  const auto read = [&](std::int32_t group, std::vector<Vec3>& C) {
+    layouts.lay(alike.representative[group], pairs);
+    geometry_of(graph, classes, pairs, C);
+  };
+  for (size_t g = 0; g < hash.size(); ++g) {
+    read(static_cast<std::int32_t>(g), one);
+    hash[g] = hash_of(one);
   }
-  return group_equal(hash, [&](std::int32_t u, std::int32_t v) {
-    layouts.lay(u, pairs);
-    geometry_of(graph, classes, pairs, one);
-    layouts.lay(v, pairs);
-    geometry_of(graph, classes, pairs, other);
-    return one == other;
-  });
+  return joined(alike, group_equal(hash, [&](std::int32_t g, std::int32_t h) {
+                  read(g, one);
+                  read(h, other);
+                  return one == other;
+                }));
+}
+
+/// Blocks whose nodes have rows of the same classes, at the same offsets.
+EqualGroups group_blocks(const PairGraph& graph, const RowClasses& classes) {
+  const std::vector<std::int32_t> nodes = group_by_neighbours(graph, classes, true).of;
+  const auto n_blocks = algebra::n_blocks_of(graph.n_nodes());
+  using Block = std::array<std::int32_t, n_lanes>;
+  const auto block = [&](std::int64_t b) {
+    Block of;
+    of.fill(-1);
+    std::copy(nodes.begin() + b * n_lanes,
+              nodes.begin() + std::min(graph.n_nodes(), (b + 1) * n_lanes), of.begin());
+    return of;
+  };
+  std::vector<std::uint64_t> hash(static_cast<size_t>(n_blocks));
+  for (std::int64_t b = 0; b < n_blocks; ++b) {
+    Hash of_block;
+    for (const std::int32_t group : block(b))
+      of_block.add(static_cast<std::uint64_t>(group));
+    hash[b] = of_block.value();
+  }
+  return group_equal(hash, [&](std::int32_t a, std::int32_t b) { return block(a) == block(b); });
 }
 
 /// Geometry of every group once, set lane by lane by set(chunk, lane, C_ab, C_ba).
@@ -129,10 +160,11 @@ template <class Allocate, class Set>
 void set_geometry(const PairGraph& graph,
                   const RowClasses& classes,
                   const Layouts& layouts,
+                  const EqualGroups& alike,
                   algebra::AlignedArray<std::int64_t>& first_of_unit,
                   const Allocate& allocate,
                   const Set& set) {
-  const EqualGroups groups = group_units(graph, classes, layouts);
+  const EqualGroups groups = group_units(graph, classes, layouts, alike);
   std::vector<std::int64_t> first(1, 0);
   Lay pairs;
   for (const std::int32_t u : groups.representative) {
@@ -158,6 +190,7 @@ template <int Dim>
 void set_directed(const PairGraph& graph,
                   const RowClasses& classes,
                   const Layouts& layouts,
+                  const EqualGroups& alike,
                   SweepGraph<Dim>& sweep) {
   const bool rows = sweep.shape.arrangement == Arrangement::rows;
   const auto allocate = [&](std::int64_t n) {
@@ -174,7 +207,7 @@ void set_directed(const PairGraph& graph,
     }
     sweep.face[chunk].area[lane] = static_cast<float>(S_ab.norm());
   };
-  set_geometry(graph, classes, layouts, sweep.first, allocate, set);
+  set_geometry(graph, classes, layouts, alike, sweep.first, allocate, set);
 }
 
 /// Of every pair once.
@@ -182,6 +215,7 @@ template <int Dim>
 void set_mutual(const PairGraph& graph,
                 const RowClasses& classes,
                 const PairRuns& runs,
+                const EqualGroups& alike,
                 SweepGraph<Dim>& sweep) {
   MutualPairs<Dim>& mutual = sweep.mutual;
   const PairRuns half = upward(runs);
@@ -199,7 +233,7 @@ void set_mutual(const PairGraph& graph,
     }
     mutual.geometry[chunk].area[lane] = static_cast<float>((0.5 * (C_ab - C_ba)).norm());
   };
-  set_geometry(graph, classes, RunLayouts(graph, half), mutual.first, allocate, set);
+  set_geometry(graph, classes, RunLayouts(graph, half), alike, mutual.first, allocate, set);
 }
 
 template <int Dim>
@@ -210,9 +244,10 @@ void set_nodes(const PairGraph& graph, const RowClasses& classes, SweepGraph<Dim
     for (int i = 0; i < Dim; ++i)
       sweep.X.at(a, i) = graph.X[a][i];
     if (sweep.C_sum.empty()) continue;
-    for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k) {
+    for (std::int64_t k = 0; k < graph.row[a + 1] - graph.row[a]; ++k) {
+      const Vec3& C = shared_C(graph, classes, a, classes.pair(graph.row[a], k));
       for (int i = 0; i < Dim; ++i)
-        sweep.C_sum.at(a, i) += classes.C[classes.order[k]][i];
+        sweep.C_sum.at(a, i) += C[i];
     }
   }
 }
@@ -229,11 +264,12 @@ void set_rows(const PairGraph& graph, const RowClasses& classes, SweepGraph<Dim>
   for (std::int64_t a = 0; a < sweep.n_nodes; ++a) {
     std::int32_t* node = sweep.neighbours.data()[sweep.row[a]].node;
     std::fill_n(node, (sweep.row[a + 1] - sweep.row[a]) * n_lanes, static_cast<std::int32_t>(a));
-    for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k)
-      node[k - graph.row[a]] = graph.neighbour[classes.order[k]];
+    for (std::int64_t k = 0; k < graph.row[a + 1] - graph.row[a]; ++k)
+      node[k] = graph.neighbour[classes.pair(graph.row[a], k)];
   }
   sweep.first = algebra::AlignedArray<std::int64_t>(n);
-  set_directed(graph, classes, RowLayouts(graph, classes), sweep);
+  const EqualGroups alike = group_by_neighbours(graph, classes, false);
+  set_directed(graph, classes, RowLayouts(graph, classes), alike, sweep);
 }
 
 template <int Dim>
@@ -245,8 +281,9 @@ void set_runs(const PairGraph& graph,
   copy(runs.row, sweep.row);
   copy(runs.offset, sweep.offset);
   sweep.first = algebra::AlignedArray<std::int64_t>(sweep.n_blocks);
-  set_directed(graph, classes, RunLayouts(graph, runs), sweep);
-  set_mutual(graph, classes, runs, sweep);
+  const EqualGroups alike = group_blocks(graph, classes);
+  set_directed(graph, classes, RunLayouts(graph, runs), alike, sweep);
+  set_mutual(graph, classes, runs, alike, sweep);
 }
 
 }  // namespace
@@ -271,7 +308,7 @@ SweepGraph<Dim>::SweepGraph(const PairGraph& graph, Arrangement arrangement, con
       inverse_Omega(n_blocks * n_lanes),
       Omega(n_blocks * n_lanes),
       C_sum(arrangement == Arrangement::rows ? graph.n_nodes() : 0, Dim) {
-  const RowClasses classes = classify_rows(graph);
+  const RowClasses classes = classes_of(graph);
   if (arrangement == Arrangement::runs) {
     set_runs(graph, classes, runs, *this);
   } else {

@@ -1,8 +1,8 @@
 #include "common/scheme/closure_repair.hpp"
 
 #include "common/scheme/class_repair.hpp"
+#include "common/scheme/classify_rows.hpp"
 #include "common/scheme/conjugate_gradients.hpp"
-#include "common/scheme/row_classes.hpp"
 #include "sph/sph_graph.hpp"
 #include "tests/graphs/graph_checks.hpp"
 
@@ -25,6 +25,11 @@ std::vector<double> sizes(const PairGraph& graph) {
   for (size_t p = 0; p < k.size(); ++p)
     k[p] = graph.C[p].norm() + graph.C[graph.reverse[p]].norm();
   return k;
+}
+
+/// The same, one by one.
+scheme::PairWeight from(const std::vector<double>& k) {
+  return [&k](std::int64_t, std::int64_t p) { return k[p]; };
 }
 
 TEST(ClosureRepair, ByPairsChangesTheGraphLessThanByRows) {
@@ -81,7 +86,7 @@ TEST(ClosureRepair, ByClassesKeepsEqualRowsEqual) {
     const std::vector<double> k = sizes(open);
     PairGraph by_classes = open, by_pairs = open;
     EXPECT_GT(quality(open).closure, 0.1);
-    ASSERT_TRUE(scheme::repair_closure_by_classes(by_classes, k)) << name_of(type);
+    ASSERT_TRUE(scheme::repair_closure_by_classes(by_classes, from(k))) << name_of(type);
     scheme::repair_closure_pairs(by_pairs, k);
     EXPECT_LE(quality(by_classes).closure, 1e-13);
     EXPECT_LE(quality(by_classes).linear_exactness, 1e-13);
@@ -103,7 +108,8 @@ TEST(ClosureRepair, ByClassesKeepsEqualRowsEqual) {
 TEST(ClosureRepair, ByClassesLeavesDisorderToTheRepairByPairs) {
   PairGraph graph = open_cloud(CellType::quadrilateral, 12, 0.2);
   const std::vector<Vec3> C = graph.C;
-  EXPECT_FALSE(scheme::repair_closure_by_classes(graph, sizes(graph)));
+  const std::vector<double> k = sizes(graph);
+  EXPECT_FALSE(scheme::repair_closure_by_classes(graph, from(k)));
   EXPECT_EQ(graph.C, C);
 }
 

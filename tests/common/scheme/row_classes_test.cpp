@@ -1,10 +1,13 @@
-#include "common/scheme/row_classes.hpp"
-
+#include "common/scheme/classify_rows.hpp"
 #include "common/scheme/sweep_graph.hpp"
 #include "meshes/renumber.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
 
 namespace diptych::scheme {
 namespace {
@@ -35,20 +38,47 @@ TEST(RowClasses, KeepTheGeometry) {
     const PairGraph graph = tests::graph_of(method, cube(6));
     const RowClasses classes = classify_rows(graph);
     double largest = 0, change = 0;
-    for (size_t p = 0; p < graph.C.size(); ++p) {
-      largest = std::max(largest, graph.C[p].norm());
-      change = std::max(change, (classes.C[p] - graph.C[p]).norm());
-    }
-    EXPECT_LE(change, 2e-12 * largest) << method;
     for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
       const std::int64_t b = classes.rows.representative[classes.rows.of[a]];
       ASSERT_EQ(graph.row[a + 1] - graph.row[a], graph.row[b + 1] - graph.row[b]);
-      for (std::int64_t k = 0; k < graph.row[a + 1] - graph.row[a]; ++k) {
-        const std::int64_t p = classes.order[graph.row[a] + k], q = classes.order[graph.row[b] + k];
-        ASSERT_EQ(classes.C[p], classes.C[q]);
+      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+        largest = std::max(largest, graph.C[p].norm());
+        change = std::max(change, (shared_C(graph, classes, a, p) - graph.C[p]).norm());
       }
     }
+    EXPECT_LE(change, 2e-12 * largest) << method;
   }
+}
+
+/// Numbered at random, a lattice has the same classes, and its rows the same common order.
+TEST(RowClasses, AreThoseOfEveryNumbering) {
+  const meshes::Mesh mesh = cube(6);
+  std::vector<std::int32_t> order(mesh.nodes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937(1));
+  for (const std::string method : {"sph", "fvm"}) {
+    const PairGraph natural = tests::graph_of(method, mesh);
+    const PairGraph shuffled = tests::graph_of(method, meshes::renumbered(mesh, order));
+    const RowClasses classes = classify_rows(natural), same = classify_rows(shuffled);
+    EXPECT_TRUE(classes.order.empty()) << method;
+    EXPECT_EQ(same.rows.representative.size(), classes.rows.representative.size()) << method;
+    EXPECT_EQ(group_by_neighbours(shuffled, same, false).representative.size(),
+              group_by_neighbours(natural, classes, false).representative.size())
+        << method;
+    EXPECT_GT(group_by_neighbours(shuffled, same, true).representative.size(), 300U) << method;
+    for (std::int64_t a = 0; a < shuffled.n_nodes(); ++a) {
+      for (std::int64_t k = 0; k < shuffled.row[a + 1] - shuffled.row[a]; ++k)
+        ASSERT_EQ(same.place_of(shuffled.row[a], same.pair(shuffled.row[a], k)), k);
+    }
+  }
+}
+
+/// Five kinds of places along a side, by how far the boundary is: those next to it too.
+TEST(RowClasses, NeighboursTellThePlacesNextToTheBoundaryApart) {
+  const PairGraph graph = tests::graph_of("fvm", cube(7));
+  const RowClasses classes = classify_rows(graph);
+  for (const bool numbering : {false, true})
+    EXPECT_EQ(group_by_neighbours(graph, classes, numbering).representative.size(), 125U);
 }
 
 TEST(SweepGraph, GeometryOfALatticeStandsOnce) {
