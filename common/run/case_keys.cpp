@@ -304,6 +304,10 @@ constexpr std::array key_table{
         "Factor kappa_f of the face correction with its adjoint: 0 none, 1/6 fourth-order first "
         "derivatives on a lattice, 1/8 exact face values of quadratics.",
         "\"1/6\""),
+    choice("scheme.geometry_precision", "\"double\"", "", menus::precisions,
+           "Precision of the pseudo-areas C_ab. single: half the memory and 1e-7 of error, where "
+           "nodes are irregular; on lattices, whose geometry is shared, no gain.",
+           "\"single\""),
     key("scheme.angular_momentum_projection", flag, "-", "false", "", any,
         "Correct the forces so that angular momentum is conserved.", "true"),
     key("scheme.energy_budget", flag, "-", "true", "", any,

@@ -282,6 +282,7 @@ SchemeCase read_scheme(const SectionValues& section) {
   scheme.impedance = section.menu_name("impedance");
   scheme.dissipation = section.number("dissipation");
   scheme.face_correction = section.number("face_correction");
+  scheme.geometry_precision = section.menu_name("geometry_precision");
   scheme.angular_momentum_projection = section.flag("angular_momentum_projection");
   scheme.energy_budget = section.flag("energy_budget");
   if (scheme.reconstruction == "none" && scheme.limiter != "none") {

@@ -26,18 +26,19 @@ DIPTYCH_INLINE void sum_correction(const SweepGraph<Dim>& graph,
                                    std::int64_t unit,
                                    Lanes (&sum)[Dim * Dim]) {
   const std::int64_t begin = graph.row[unit], end = graph.row[unit + 1];
-  const FaceGeometry<Dim>* geometry = graph.face.data() + graph.first[unit];
+  std::int64_t geometry = graph.first[unit];
   for (std::int64_t chunk = begin; chunk < end; ++chunk, ++geometry) {
-    prefetch(geometry + chunks_ahead);
+    Lanes S_ab[Dim];
+    read_S_ab(graph, geometry, S_ab);
     const auto Q =
         pairs_of<isa, arrangement, Dim * Dim, tensor_stride<Dim>>(graph, tensors, unit, chunk);
     const auto X = vector_pairs_of<isa, arrangement>(graph, graph.X, unit, chunk);
     Lanes x[Dim], y[Dim];
 #pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i) {
-      const Lanes X_ab = X.neighbour(i) - X.own(i), S_ab = algebra::load(geometry->S_ab[i]);
-      x[i] = side == Side::rates ? X_ab : S_ab;
-      y[i] = side == Side::rates ? S_ab : X_ab;
+      const Lanes X_ab = X.neighbour(i) - X.own(i);
+      x[i] = side == Side::rates ? X_ab : S_ab[i];
+      y[i] = side == Side::rates ? S_ab[i] : X_ab;
     }
 #pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i) {

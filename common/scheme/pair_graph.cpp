@@ -161,6 +161,12 @@ void validate(const PairGraph& graph) {
     check_patch(graph, patch);
 }
 
+void round_to_single(PairGraph& graph) {
+  for (Vec3& C : graph.C)
+    C = C.cast<float>().cast<double>();
+  graph.single_precision = true;
+}
+
 void link_reverse_pairs(PairGraph& graph) {
   // Rows are ascending, so the rows that name b come by in the order of b's own row.
   std::vector<std::int64_t> next(graph.row.begin(), graph.row.end() - 1);

@@ -38,6 +38,7 @@ struct PairGraph {
   std::vector<Vec3> C;                ///< [n_pairs] m^2, C_ab of the directed pair (a,b)
   /// Where the factory knows them, which takes that rows stand in their common order; else empty.
   RowClasses classes;
+  bool single_precision = false;  ///< every C_ab is a single-precision number: see round_to_single
 
   std::int64_t n_nodes() const { return static_cast<std::int64_t>(X.size()); }
   std::int64_t n_pairs() const { return static_cast<std::int64_t>(neighbour.size()); }
@@ -57,6 +58,11 @@ GraphQuality quality(const PairGraph& graph);
 /// Checks structure (sorted rows, reverse pairs, finite numbers, positive volumes).
 /// @throws base::InputError that names the node and its place
 void validate(const PairGraph& graph);
+
+/// Rounds every C_ab to single precision, in which sweeps then keep it: for bodies whose geometry
+/// is a stream of memory. Forces of pairs stay exactly opposite and dual to the strain rates;
+/// closure and linear exactness hold to 1e-7.
+void round_to_single(PairGraph& graph);
 
 /// Fills graph.reverse from rows and neighbours (which must be structurally symmetric).
 void link_reverse_pairs(PairGraph& graph);

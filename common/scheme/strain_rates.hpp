@@ -47,16 +47,17 @@ DIPTYCH_INLINE void sum_gradients(const SweepGraph<Dim>& graph,
                                   std::int64_t unit,
                                   Lanes (&sum)[Dim * Dim]) {
   const std::int64_t begin = graph.row[unit], end = graph.row[unit + 1];
-  const StrainGeometry<Dim>* geometry = graph.strain.data() + graph.first[unit];
+  std::int64_t geometry = graph.first[unit];
   for (std::int64_t chunk = begin; chunk < end; ++chunk, ++geometry) {
-    prefetch(geometry + chunks_ahead);
+    Lanes C_ab[Dim];
+    read_C_ab(graph, geometry, C_ab);
     const auto v = vector_pairs_of<isa, arrangement>(graph, velocity, unit, chunk);
 #pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i) {
       const Lanes jump = v.neighbour(i) - v.own(i);
 #pragma GCC unroll 3
       for (int j = 0; j < Dim; ++j)
-        sum[i * Dim + j] += jump * algebra::load(geometry->C_ab[j]);
+        sum[i * Dim + j] += jump * C_ab[j];
     }
   }
 }

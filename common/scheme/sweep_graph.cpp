@@ -185,6 +185,12 @@ void set_geometry(const PairGraph& graph,
     first_of_unit[u] = first[groups.of[u]];
 }
 
+template <int Dim, class Real>
+void put(Real (&lanes)[Dim][n_lanes], int lane, const Vec3& value) {
+  for (int i = 0; i < Dim; ++i)
+    lanes[i][lane] = static_cast<Real>(value[i]);
+}
+
 /// Of the pairs of every node, for its own sums.
 template <int Dim>
 void set_directed(const PairGraph& graph,
@@ -192,20 +198,20 @@ void set_directed(const PairGraph& graph,
                   const Layouts& layouts,
                   const EqualGroups& alike,
                   SweepGraph<Dim>& sweep) {
-  const bool rows = sweep.shape.arrangement == Arrangement::rows;
+  const bool rows = sweep.shape.arrangement == Arrangement::rows, single = graph.single_precision;
   const auto allocate = [&](std::int64_t n) {
-    sweep.strain = algebra::AlignedArray<StrainGeometry<Dim>>(n);
-    sweep.force = algebra::AlignedArray<ForceGeometry<Dim>>(rows ? n : 0);
-    sweep.face = algebra::AlignedArray<FaceGeometry<Dim>>(n);
+    sweep.strain = GeometryArray<StrainGeometry, Dim>(n, single);
+    sweep.force = GeometryArray<ForceGeometry, Dim>(rows ? n : 0, single);
+    sweep.area = algebra::AlignedArray<PairArea>(rows ? n : 0);
+    sweep.face = algebra::AlignedArray<FaceGeometry<Dim>>(rows && single ? 0 : n);
   };
   const auto set = [&](std::int64_t chunk, int lane, const Vec3& C_ab, const Vec3& C_ba) {
     const Vec3 S_ab = 0.5 * (C_ab - C_ba);
-    for (int i = 0; i < Dim; ++i) {
-      sweep.strain[chunk].C_ab[i][lane] = C_ab[i];
-      if (rows) sweep.force[chunk].C_ba[i][lane] = C_ba[i];
-      sweep.face[chunk].S_ab[i][lane] = static_cast<float>(S_ab[i]);
-    }
-    sweep.face[chunk].area[lane] = static_cast<float>(S_ab.norm());
+    sweep.strain.change(chunk, [&](auto& geometry) { put(geometry.C_ab, lane, C_ab); });
+    if (sweep.face.size() > 0) put(sweep.face[chunk].S_ab, lane, S_ab);
+    if (!rows) return;
+    sweep.force.change(chunk, [&](auto& geometry) { put(geometry.C_ba, lane, C_ba); });
+    sweep.area[chunk].area[lane] = static_cast<float>(S_ab.norm());
   };
   set_geometry(graph, classes, layouts, alike, sweep.first, allocate, set);
 }
@@ -224,14 +230,14 @@ void set_mutual(const PairGraph& graph,
   mutual.segment = segment_of(sweep.n_blocks, runs.reach);
   mutual.first = algebra::AlignedArray<std::int64_t>(sweep.n_blocks);
   const auto allocate = [&](std::int64_t n) {
-    mutual.geometry = algebra::AlignedArray<MutualGeometry<Dim>>(n);
+    mutual.geometry = GeometryArray<MutualGeometry, Dim>(n, graph.single_precision);
   };
   const auto set = [&](std::int64_t chunk, int lane, const Vec3& C_ab, const Vec3& C_ba) {
-    for (int i = 0; i < Dim; ++i) {
-      mutual.geometry[chunk].C_ab[i][lane] = C_ab[i];
-      mutual.geometry[chunk].C_ba[i][lane] = C_ba[i];
-    }
-    mutual.geometry[chunk].area[lane] = static_cast<float>((0.5 * (C_ab - C_ba)).norm());
+    mutual.geometry.change(chunk, [&](auto& geometry) {
+      put(geometry.C_ab, lane, C_ab);
+      put(geometry.C_ba, lane, C_ba);
+      geometry.area[lane] = static_cast<float>((0.5 * (C_ab - C_ba)).norm());
+    });
   };
   set_geometry(graph, classes, RunLayouts(graph, half), alike, mutual.first, allocate, set);
 }
@@ -321,8 +327,8 @@ SweepGraph<Dim>::SweepGraph(const PairGraph& graph, Arrangement arrangement, con
 template <int Dim>
 std::int64_t SweepGraph<Dim>::bytes() const {
   return row.bytes() + neighbours.bytes() + offset.bytes() + first.bytes() + strain.bytes() +
-         force.bytes() + face.bytes() + mutual.bytes() + X.bytes() + inverse_Omega.bytes() +
-         Omega.bytes() + C_sum.bytes();
+         force.bytes() + area.bytes() + face.bytes() + mutual.bytes() + X.bytes() +
+         inverse_Omega.bytes() + Omega.bytes() + C_sum.bytes();
 }
 
 template struct SweepGraph<2>;

@@ -13,7 +13,9 @@
 /// positions. Per directed pair in 3-D the strain-rate sweep streams 28 bytes at most, the momentum
 /// sweep 44 in rows and 26 in runs, where it works each pair once; 4 where all is shared. What only
 /// scales the dissipation (|S_ab|; in rows S_ab too) is kept in single precision: S_ba = -S_ab
-/// holds exactly, and the jump that it multiplies is exact, so no identity is touched.
+/// holds exactly, and the jump that it multiplies is exact, so no identity is touched. A graph
+/// whose C_ab are single-precision numbers (round_to_single) has them kept so: 16 and 32 bytes in
+/// rows, 16 and 14 in runs.
 
 #include "common/algebra/node_table.hpp"
 #include "common/scheme/pair_graph.hpp"
@@ -35,29 +37,80 @@ struct Neighbours {
 };
 
 /// Of eight pairs: for the strain rates,
-template <int Dim>
+template <int Dim, class Real>
 struct StrainGeometry {
-  double C_ab[Dim][algebra::n_lanes];  ///< m^2
+  Real C_ab[Dim][algebra::n_lanes];  ///< m^2
 };
 
 /// for the internal forces where each node sums its own (rows),
-template <int Dim>
+template <int Dim, class Real>
 struct ForceGeometry {
-  double C_ba[Dim][algebra::n_lanes];  ///< m^2
+  Real C_ba[Dim][algebra::n_lanes];  ///< m^2
 };
 
 /// for the internal forces where each pair is worked once, for both of its nodes (runs),
-template <int Dim>
+template <int Dim, class Real>
 struct MutualGeometry {
-  double C_ab[Dim][algebra::n_lanes], C_ba[Dim][algebra::n_lanes];  ///< m^2
-  float area[algebra::n_lanes];                                     ///< m^2, |S_ab|
+  Real C_ab[Dim][algebra::n_lanes], C_ba[Dim][algebra::n_lanes];  ///< m^2
+  float area[algebra::n_lanes];                                   ///< m^2, |S_ab|
 };
 
-/// for the dissipation (rows) and the face correction.
+/// for the dissipation (rows),
+struct PairArea {
+  float area[algebra::n_lanes];  ///< m^2, |S_ab|
+};
+
+/// and for the dissipation (rows) and the face correction.
 template <int Dim>
 struct FaceGeometry {
   float S_ab[Dim][algebra::n_lanes];  ///< m^2, 1/2 (C_ab - C_ba)
-  float area[algebra::n_lanes];       ///< m^2, |S_ab|
+};
+
+/// Chunks ahead of the work that the sweeps ask memory for: the processor's own prefetching stops
+/// at pages.
+inline constexpr std::int64_t chunks_ahead = 8;
+
+template <class Chunk>
+DIPTYCH_INLINE void prefetch(const Chunk* chunk) {
+  const char* bytes = reinterpret_cast<const char*>(chunk);
+#pragma GCC unroll 8
+  for (size_t i = 0; i < sizeof(Chunk); i += 64)
+    __builtin_prefetch(bytes + i);
+}
+
+/// Geometry of chunks in the precision of the graph.
+template <template <int, class> class Geometry, int Dim>
+class GeometryArray {
+ public:
+  GeometryArray() = default;
+  GeometryArray(std::int64_t n, bool single)
+      : full_(single ? 0 : n), single_(single ? n : 0), is_single_(single) {}
+  std::int64_t bytes() const { return full_.bytes() + single_.bytes(); }
+  std::int64_t size() const { return full_.size() + single_.size(); }
+  /// use(geometry of the chunk), and asks for what comes soon.
+  template <class Use>
+  DIPTYCH_INLINE void read(std::int64_t chunk, const Use& use) const {
+    if (is_single_) {
+      prefetch(single_.data() + chunk + chunks_ahead);
+      use(single_.data()[chunk]);
+    } else {
+      prefetch(full_.data() + chunk + chunks_ahead);
+      use(full_.data()[chunk]);
+    }
+  }
+  template <class Change>
+  void change(std::int64_t chunk, const Change& change) {
+    if (is_single_) {
+      change(single_[chunk]);
+    } else {
+      change(full_[chunk]);
+    }
+  }
+
+ private:
+  algebra::AlignedArray<Geometry<Dim, double>> full_;
+  algebra::AlignedArray<Geometry<Dim, float>> single_;
+  bool is_single_ = false;
 };
 
 /// Runs only: every pair once, in the chunks of the block of its lower node, ascending offsets.
@@ -66,7 +119,7 @@ struct MutualPairs {
   algebra::AlignedArray<std::int64_t> row;     ///< [n_blocks + 1] into chunks
   algebra::AlignedArray<std::int32_t> offset;  ///< b - a > 0 of each chunk
   algebra::AlignedArray<std::int64_t> first;   ///< [n_blocks] into the geometry
-  algebra::AlignedArray<MutualGeometry<Dim>> geometry;
+  GeometryArray<MutualGeometry, Dim> geometry;
   /// Blocks of a segment: no pair goes farther than into the next, so that every second segment
   /// can be worked at the same time. A whole number of chunks of parallel::for_chunks.
   std::int64_t segment = 0;
@@ -83,9 +136,10 @@ struct SweepGraph {
   algebra::AlignedArray<Neighbours> neighbours;  ///< rows: of each chunk; padded with the node
   algebra::AlignedArray<std::int32_t> offset;    ///< runs: b - a of each chunk
   algebra::AlignedArray<std::int64_t> first;     ///< into the geometry; by node or block
-  algebra::AlignedArray<StrainGeometry<Dim>> strain;
-  algebra::AlignedArray<ForceGeometry<Dim>> force;
-  algebra::AlignedArray<FaceGeometry<Dim>> face;
+  GeometryArray<StrainGeometry, Dim> strain;
+  GeometryArray<ForceGeometry, Dim> force;        ///< rows
+  algebra::AlignedArray<PairArea> area;           ///< rows
+  algebra::AlignedArray<FaceGeometry<Dim>> face;  ///< not in rows of single precision
   MutualPairs<Dim> mutual;
   algebra::NodeTable X;                         ///< m
   algebra::AlignedArray<double> inverse_Omega;  ///< [n_blocks * 8] 1/m^3, 0 in the padding
@@ -102,16 +156,43 @@ struct SweepGraph {
   SweepGraph(const PairGraph& graph, Arrangement arrangement, const PairRuns& runs);
 };
 
-/// Chunks ahead of the work that the sweeps ask memory for: the processor's own prefetching stops
-/// at pages.
-inline constexpr std::int64_t chunks_ahead = 8;
-
-template <class Chunk>
-DIPTYCH_INLINE void prefetch(const Chunk* chunk) {
-  const char* bytes = reinterpret_cast<const char*>(chunk);
-#pragma GCC unroll 8
-  for (size_t i = 0; i < sizeof(Chunk); i += 64)
-    __builtin_prefetch(bytes + i);
+/// C_ab of a chunk.
+template <int Dim>
+DIPTYCH_INLINE void read_C_ab(const SweepGraph<Dim>& graph,
+                              std::int64_t chunk,
+                              algebra::Lanes (&C_ab)[Dim]) {
+  graph.strain.read(chunk, [&](const auto& geometry) DIPTYCH_INLINE_LAMBDA {
+    for (int i = 0; i < Dim; ++i)
+      C_ab[i] = algebra::load(geometry.C_ab[i]);
+  });
+}
+/// C_ba of a chunk of rows.
+template <int Dim>
+DIPTYCH_INLINE void read_C_ba(const SweepGraph<Dim>& graph,
+                              std::int64_t chunk,
+                              algebra::Lanes (&C_ba)[Dim]) {
+  graph.force.read(chunk, [&](const auto& geometry) DIPTYCH_INLINE_LAMBDA {
+    for (int i = 0; i < Dim; ++i)
+      C_ba[i] = algebra::load(geometry.C_ba[i]);
+  });
+}
+/// S_ab of a chunk.
+template <int Dim>
+DIPTYCH_INLINE void read_S_ab(const SweepGraph<Dim>& graph,
+                              std::int64_t chunk,
+                              algebra::Lanes (&S_ab)[Dim]) {
+  if (graph.face.size() > 0) {
+    const FaceGeometry<Dim>* geometry = graph.face.data() + chunk;
+    prefetch(geometry + chunks_ahead);
+    for (int i = 0; i < Dim; ++i)
+      S_ab[i] = algebra::load(geometry->S_ab[i]);
+    return;
+  }
+  algebra::Lanes C_ab[Dim], C_ba[Dim];
+  read_C_ab(graph, chunk, C_ab);
+  read_C_ba(graph, chunk, C_ba);
+  for (int i = 0; i < Dim; ++i)
+    S_ab[i] = 0.5 * (C_ab[i] - C_ba[i]);
 }
 
 extern template struct SweepGraph<2>;
