@@ -160,7 +160,9 @@ Mat3 jacobian(const ReferenceCell& cell,
   Mat3 J = Mat3::Zero();
   for (int a = 1; a < cell.n_nodes; ++a) {
     if (point.dN[a].isZero(0)) continue;  // at a node: all but its edges
-    J += (X[nodes[a]] - X[nodes[0]]) * point.dN[a].transpose();
+    const Vec3 from_first = X[nodes[a]] - X[nodes[0]];
+    for (int j = 0; j < 3; ++j)  // an outer product would be stored and loaded in different pieces
+      J.col(j) += from_first * point.dN[a][j];
   }
   if (cell.dimension == 2) J(2, 2) = 1;
   return J;
