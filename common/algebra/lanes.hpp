@@ -107,11 +107,9 @@ DIPTYCH_INLINE Lanes load(const double* p) {
   __builtin_memcpy(&r, p, sizeof r);
   return r;
 }
-/// Eight singles, widened.
+/// Eight singles, widened: in this form one instruction, as a conversion of vectors four.
 DIPTYCH_INLINE Lanes load(const float* p) {
-  float __attribute__((vector_size(n_lanes * sizeof(float)))) r;
-  __builtin_memcpy(&r, p, sizeof r);
-  return __builtin_convertvector(r, Lanes);
+  return Lanes{p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7]};
 }
 DIPTYCH_INLINE void store(double* p, const Lanes& a) {
   __builtin_memcpy(p, &a, sizeof a);

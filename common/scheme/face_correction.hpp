@@ -26,10 +26,10 @@ DIPTYCH_INLINE void sum_correction(const SweepGraph<Dim>& graph,
                                    std::int64_t unit,
                                    Lanes (&sum)[Dim * Dim]) {
   const std::int64_t begin = graph.row[unit], end = graph.row[unit + 1];
-  std::int64_t geometry = graph.first[unit];
-  for (std::int64_t chunk = begin; chunk < end; ++chunk, ++geometry) {
+  FaceCursor<Dim> geometry(graph, graph.first[unit]);
+  for (std::int64_t chunk = begin; chunk < end; ++chunk) {
     Lanes S_ab[Dim];
-    read_S_ab(graph, geometry, S_ab);
+    geometry.next(S_ab);
     const auto Q =
         pairs_of<isa, arrangement, Dim * Dim, tensor_stride<Dim>>(graph, tensors, unit, chunk);
     const auto X = vector_pairs_of<isa, arrangement>(graph, graph.X, unit, chunk);

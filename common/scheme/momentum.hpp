@@ -210,18 +210,20 @@ DIPTYCH_INLINE NodeSums<Dim> sums_of_node(const MomentumSweep<Dim>& sweep, std::
   constexpr bool exact = kind.impedance == Impedance::exact;
   constexpr auto rows = Arrangement::rows;
   const SweepGraph<Dim>& graph = sweep.graph;
-  std::int64_t geometry = graph.first[a];
+  const PairArea* area = graph.area.data() + graph.first[a];
+  ForceCursor<Dim> force(graph, graph.first[a]);
+  FaceCursor<Dim> face_geometry(graph, graph.first[a]);
   NodeSums<Dim> sums;
-  for (std::int64_t chunk = graph.row[a]; chunk < graph.row[a + 1]; ++chunk, ++geometry) {
-    prefetch(graph.area.data() + geometry + chunks_ahead);
+  for (std::int64_t chunk = graph.row[a]; chunk < graph.row[a + 1]; ++chunk, ++area) {
+    prefetch(area + chunks_ahead);
     const auto pairs = pairs_of<isa, rows, Record::n_row(exact), Record::stride(exact)>(
         graph, sweep.state.records, a, chunk);
     const auto positions = vector_pairs_of<isa, rows>(graph, graph.X, a, chunk);
     PairFace<Dim> face;
-    face.area = algebra::load(graph.area.data()[geometry].area);
+    face.area = algebra::load(area->area);
     Lanes C_ba[Dim], S_ab[Dim];
-    read_C_ba(graph, geometry, C_ba);
-    read_S_ab(graph, geometry, S_ab);
+    force.next(C_ba);
+    face_geometry.next(S_ab);
     for (int i = 0; i < Dim; ++i)
       face.S[i] = S_ab[i];
     const Vector<Lanes> plain = plain_jump<Dim>(pairs, Record::v(exact));
@@ -296,17 +298,17 @@ DIPTYCH_INLINE double add_forces_of_block(const MomentumSweep<Dim>& sweep, std::
   prefetch_ahead<Record::n(exact)>(sweep.state.records, b, mutual.offset[end - 1]);
   prefetch_ahead<Dim>(sweep.state.v, b, mutual.offset[end - 1]);
   prefetch_ahead<Dim>(graph.X, b, mutual.offset[end - 1]);
-  std::int64_t geometry = mutual.first[b];
+  typename GeometryArray<MutualGeometry, Dim>::Cursor geometry(mutual.geometry, mutual.first[b]);
   double* const own_sums = sweep.state.T.origin() + b * n_lanes;
   const std::int64_t stride = sweep.state.T.component_stride();
   NodeSums<Dim> sums;
-  for (std::int64_t chunk = begin; chunk < end; ++chunk, ++geometry) {
+  for (std::int64_t chunk = begin; chunk < end; ++chunk) {
     const std::int64_t offset = mutual.offset[chunk];
     const RunPairs pairs(sweep.state.records, b, offset);
     const RunPairs positions(graph.X, b, offset);
     PairFace<Dim> face;
     Vector<Lanes> C_ab{}, C_ba{};
-    mutual.geometry.read(geometry, [&](const auto& of_chunk) DIPTYCH_INLINE_LAMBDA {
+    geometry.next([&](const auto& of_chunk) DIPTYCH_INLINE_LAMBDA {
       face.area = algebra::load(of_chunk.area);
       for (int i = 0; i < Dim; ++i) {
         C_ab[i] = algebra::load(of_chunk.C_ab[i]);

@@ -47,10 +47,10 @@ DIPTYCH_INLINE void sum_gradients(const SweepGraph<Dim>& graph,
                                   std::int64_t unit,
                                   Lanes (&sum)[Dim * Dim]) {
   const std::int64_t begin = graph.row[unit], end = graph.row[unit + 1];
-  std::int64_t geometry = graph.first[unit];
-  for (std::int64_t chunk = begin; chunk < end; ++chunk, ++geometry) {
+  StrainCursor<Dim> geometry(graph, graph.first[unit]);
+  for (std::int64_t chunk = begin; chunk < end; ++chunk) {
     Lanes C_ab[Dim];
-    read_C_ab(graph, geometry, C_ab);
+    geometry.next(C_ab);
     const auto v = vector_pairs_of<isa, arrangement>(graph, velocity, unit, chunk);
 #pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i) {

@@ -87,17 +87,30 @@ class GeometryArray {
       : full_(single ? 0 : n), single_(single ? n : 0), is_single_(single) {}
   std::int64_t bytes() const { return full_.bytes() + single_.bytes(); }
   std::int64_t size() const { return full_.size() + single_.size(); }
-  /// use(geometry of the chunk), and asks for what comes soon.
-  template <class Use>
-  DIPTYCH_INLINE void read(std::int64_t chunk, const Use& use) const {
-    if (is_single_) {
-      prefetch(single_.data() + chunk + chunks_ahead);
-      use(single_.data()[chunk]);
-    } else {
-      prefetch(full_.data() + chunk + chunks_ahead);
-      use(full_.data()[chunk]);
+  /// Goes through consecutive chunks.
+  class Cursor {
+   public:
+    DIPTYCH_INLINE Cursor(const GeometryArray& array, std::int64_t chunk)
+        : full_(array.full_.data() + chunk),
+          single_(array.single_.data() + chunk),
+          is_single_(array.is_single_) {}
+    /// use(geometry of the next chunk), and asks for what comes soon.
+    template <class Use>
+    DIPTYCH_INLINE void next(const Use& use) {
+      if (is_single_) {
+        prefetch(single_ + chunks_ahead);
+        use(*single_++);
+      } else {
+        prefetch(full_ + chunks_ahead);
+        use(*full_++);
+      }
     }
-  }
+
+   private:
+    const Geometry<Dim, double>* full_;
+    const Geometry<Dim, float>* single_;
+    bool is_single_;
+  };
   template <class Change>
   void change(std::int64_t chunk, const Change& change) {
     if (is_single_) {
@@ -156,44 +169,70 @@ struct SweepGraph {
   SweepGraph(const PairGraph& graph, Arrangement arrangement, const PairRuns& runs);
 };
 
-/// C_ab of a chunk.
+/// C_ab of consecutive chunks.
 template <int Dim>
-DIPTYCH_INLINE void read_C_ab(const SweepGraph<Dim>& graph,
-                              std::int64_t chunk,
-                              algebra::Lanes (&C_ab)[Dim]) {
-  graph.strain.read(chunk, [&](const auto& geometry) DIPTYCH_INLINE_LAMBDA {
-    for (int i = 0; i < Dim; ++i)
-      C_ab[i] = algebra::load(geometry.C_ab[i]);
-  });
-}
-/// C_ba of a chunk of rows.
-template <int Dim>
-DIPTYCH_INLINE void read_C_ba(const SweepGraph<Dim>& graph,
-                              std::int64_t chunk,
-                              algebra::Lanes (&C_ba)[Dim]) {
-  graph.force.read(chunk, [&](const auto& geometry) DIPTYCH_INLINE_LAMBDA {
-    for (int i = 0; i < Dim; ++i)
-      C_ba[i] = algebra::load(geometry.C_ba[i]);
-  });
-}
-/// S_ab of a chunk.
-template <int Dim>
-DIPTYCH_INLINE void read_S_ab(const SweepGraph<Dim>& graph,
-                              std::int64_t chunk,
-                              algebra::Lanes (&S_ab)[Dim]) {
-  if (graph.face.size() > 0) {
-    const FaceGeometry<Dim>* geometry = graph.face.data() + chunk;
-    prefetch(geometry + chunks_ahead);
-    for (int i = 0; i < Dim; ++i)
-      S_ab[i] = algebra::load(geometry->S_ab[i]);
-    return;
+class StrainCursor {
+ public:
+  DIPTYCH_INLINE StrainCursor(const SweepGraph<Dim>& graph, std::int64_t chunk)
+      : cursor_(graph.strain, chunk) {}
+  DIPTYCH_INLINE void next(algebra::Lanes (&C_ab)[Dim]) {
+    cursor_.next([&](const auto& geometry) DIPTYCH_INLINE_LAMBDA {
+      for (int i = 0; i < Dim; ++i)
+        C_ab[i] = algebra::load(geometry.C_ab[i]);
+    });
   }
-  algebra::Lanes C_ab[Dim], C_ba[Dim];
-  read_C_ab(graph, chunk, C_ab);
-  read_C_ba(graph, chunk, C_ba);
-  for (int i = 0; i < Dim; ++i)
-    S_ab[i] = 0.5 * (C_ab[i] - C_ba[i]);
-}
+
+ private:
+  typename GeometryArray<StrainGeometry, Dim>::Cursor cursor_;
+};
+
+/// C_ba of consecutive chunks of rows.
+template <int Dim>
+class ForceCursor {
+ public:
+  DIPTYCH_INLINE ForceCursor(const SweepGraph<Dim>& graph, std::int64_t chunk)
+      : cursor_(graph.force, chunk) {}
+  DIPTYCH_INLINE void next(algebra::Lanes (&C_ba)[Dim]) {
+    cursor_.next([&](const auto& geometry) DIPTYCH_INLINE_LAMBDA {
+      for (int i = 0; i < Dim; ++i)
+        C_ba[i] = algebra::load(geometry.C_ba[i]);
+    });
+  }
+
+ private:
+  typename GeometryArray<ForceGeometry, Dim>::Cursor cursor_;
+};
+
+/// S_ab of consecutive chunks.
+template <int Dim>
+class FaceCursor {
+ public:
+  DIPTYCH_INLINE FaceCursor(const SweepGraph<Dim>& graph, std::int64_t chunk)
+      : face_(graph.face.data() + chunk),
+        is_stored_(graph.face.size() > 0),
+        strain_(graph, chunk),
+        force_(graph, chunk) {}
+  DIPTYCH_INLINE void next(algebra::Lanes (&S_ab)[Dim]) {
+    if (is_stored_) {
+      prefetch(face_ + chunks_ahead);
+      for (int i = 0; i < Dim; ++i)
+        S_ab[i] = algebra::load(face_->S_ab[i]);
+      ++face_;
+      return;
+    }
+    algebra::Lanes C_ab[Dim], C_ba[Dim];
+    strain_.next(C_ab);
+    force_.next(C_ba);
+    for (int i = 0; i < Dim; ++i)
+      S_ab[i] = 0.5 * (C_ab[i] - C_ba[i]);
+  }
+
+ private:
+  const FaceGeometry<Dim>* face_;
+  bool is_stored_;
+  StrainCursor<Dim> strain_;
+  ForceCursor<Dim> force_;
+};
 
 extern template struct SweepGraph<2>;
 extern template struct SweepGraph<3>;
