@@ -285,27 +285,35 @@ DIPTYCH_INLINE void add_to(double* sums, const Lanes& value) {
   algebra::store(sums, algebra::load(sums) + value);
 }
 
-/// Runs: forces of the pairs of block b with nodes above them, added to both.
-/// @return their numerical dissipation [W]
-template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
-DIPTYCH_INLINE double add_forces_of_block(const MomentumSweep<Dim>& sweep, std::int64_t b) {
-  using Record = NodeRecord<Dim>;
-  constexpr bool exact = kind.impedance == Impedance::exact;
-  const SweepGraph<Dim>& graph = sweep.graph;
-  const MutualPairs<Dim>& mutual = graph.mutual;
-  const std::int64_t begin = mutual.row[b], end = mutual.row[b + 1];
-  if (begin == end) return 0;
-  prefetch_ahead<Record::n(exact)>(sweep.state.records, b, mutual.offset[end - 1]);
-  prefetch_ahead<Dim>(sweep.state.v, b, mutual.offset[end - 1]);
-  prefetch_ahead<Dim>(graph.X, b, mutual.offset[end - 1]);
-  typename GeometryArray<MutualGeometry, Dim>::Cursor geometry(mutual.geometry, mutual.first[b]);
-  double* const own_sums = sweep.state.T.origin() + b * n_lanes;
-  const std::int64_t stride = sweep.state.T.component_stride();
+/// Runs: a block whose pairs with nodes above it are being worked.
+template <int Dim>
+struct WorkedBlock {
+  std::int64_t b = 0, chunk = 0;
+  typename GeometryArray<MutualGeometry, Dim>::Cursor geometry;
   NodeSums<Dim> sums;
-  for (std::int64_t chunk = begin; chunk < end; ++chunk) {
-    const std::int64_t offset = mutual.offset[chunk];
-    const RunPairs pairs(sweep.state.records, b, offset);
-    const RunPairs positions(graph.X, b, offset);
+  DIPTYCH_INLINE WorkedBlock(const MutualPairs<Dim>& mutual, std::int64_t block)
+      : b(block),
+        chunk(mutual.row[block]),
+        geometry(mutual.geometry,
+                 mutual.row[block] == mutual.row[block + 1] ? 0 : mutual.first[block]) {}
+};
+
+/// Forces of the next n chunks of a block, added to its sums and taken from those of the others.
+template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
+DIPTYCH_INLINE void work_chunks(const MomentumSweep<Dim>& sweep,
+                                std::int64_t n,
+                                WorkedBlock<Dim>& block) {
+  using Record = NodeRecord<Dim>;
+  const SweepGraph<Dim>& graph = sweep.graph;
+  const std::int64_t stride = sweep.state.T.component_stride();
+  double* const own_sums = sweep.state.T.origin() + block.b * n_lanes;
+  NodeSums<Dim> sums = block.sums;
+  auto geometry = block.geometry;
+  const std::int64_t end = block.chunk + n;
+  for (std::int64_t chunk = block.chunk; chunk < end; ++chunk) {
+    const std::int64_t offset = graph.mutual.offset.data()[chunk];
+    const RunPairs pairs(sweep.state.records, block.b, offset);
+    const RunPairs positions(graph.X, block.b, offset);
     PairFace<Dim> face;
     Vector<Lanes> C_ab{}, C_ba{};
     geometry.next([&](const auto& of_chunk) DIPTYCH_INLINE_LAMBDA {
@@ -317,7 +325,7 @@ DIPTYCH_INLINE double add_forces_of_block(const MomentumSweep<Dim>& sweep, std::
     });
     for (int i = 0; i < Dim; ++i)
       face.S[i] = C_ab[i] - C_ba[i];
-    const Vector<Lanes> plain = plain_jump<Dim>(RunPairs(sweep.state.v, b, offset), 0);
+    const Vector<Lanes> plain = plain_jump<Dim>(RunPairs(sweep.state.v, block.b, offset), 0);
     const Vector<Lanes> D = dissipation_of<Dim, kind, has_H>(sweep, face, pairs, positions, plain);
     double* const their_sums = own_sums + offset;
 #pragma GCC unroll 3
@@ -338,10 +346,71 @@ DIPTYCH_INLINE double add_forces_of_block(const MomentumSweep<Dim>& sweep, std::
       add_to(their_sums + Dim * stride, rate_of<Dim>(C_ba, pairs));
     }
   }
-  for (int i = 0; i < Dim; ++i)
-    add_to(own_sums + i * stride, sums.force[i]);
-  if (sweep.with_bound) add_to(own_sums + Dim * stride, sums.rate);
-  return 0.5 * algebra::lane_sum(sums.power);
+  block.sums = sums;
+  block.geometry = geometry;
+  block.chunk = end;
+}
+
+/// Chunks from c on, before `end`, whose offsets are consecutive: they read the same cache lines.
+template <int Dim>
+DIPTYCH_INLINE std::int64_t consecutive_offsets(const MutualPairs<Dim>& mutual,
+                                                std::int64_t c,
+                                                std::int64_t end) {
+  const std::int32_t* offset = mutual.offset.data();
+  std::int64_t n = 1;
+  while (c + n < end && offset[c + n] == offset[c] + n)
+    ++n;
+  return n;
+}
+
+/// Whether the pairs of blocks b and b + 1 are at the same offsets.
+template <int Dim>
+DIPTYCH_INLINE bool same_offsets(const MutualPairs<Dim>& mutual, std::int64_t b) {
+  const std::int64_t first = mutual.row[b], next = mutual.row[b + 1], n = next - first;
+  return mutual.row[b + 2] - next == n &&
+         __builtin_memcmp(mutual.offset.data() + first, mutual.offset.data() + next,
+                          static_cast<size_t>(n) * sizeof(std::int32_t)) == 0;
+}
+
+/// Runs: forces of the pairs of blocks [b, end) with nodes above them, added to both: of two blocks
+/// together where their pairs are at the same offsets, since their neighbours share cache lines.
+/// @return their numerical dissipation [W]; moves b on
+template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
+DIPTYCH_INLINE double add_forces_of_next(const MomentumSweep<Dim>& sweep,
+                                         std::int64_t& b,
+                                         std::int64_t end) {
+  using Record = NodeRecord<Dim>;
+  constexpr bool exact = kind.impedance == Impedance::exact;
+  const SweepGraph<Dim>& graph = sweep.graph;
+  const MutualPairs<Dim>& mutual = graph.mutual;
+  const int n_blocks = b + 1 < end && same_offsets(mutual, b) ? 2 : 1;
+  const std::int64_t last = mutual.row[b + 1];
+  WorkedBlock<Dim> blocks[2] = {{mutual, b}, {mutual, b + n_blocks - 1}};
+  if (blocks[0].chunk < last) {
+    for (int k = 0; k < n_blocks; ++k) {
+      const std::int64_t offset = mutual.offset[last - 1];
+      prefetch_ahead<Record::n(exact)>(sweep.state.records, b + k, offset);
+      prefetch_ahead<Dim>(sweep.state.v, b + k, offset);
+      prefetch_ahead<Dim>(graph.X, b + k, offset);
+    }
+  }
+  while (blocks[0].chunk < last) {
+    const std::int64_t n = consecutive_offsets(mutual, blocks[0].chunk, last);
+    for (int k = 0; k < n_blocks; ++k)
+      work_chunks<isa, Dim, kind, has_H>(sweep, n, blocks[k]);
+  }
+  double power = 0;
+  const std::int64_t stride = sweep.state.T.component_stride();
+  for (int k = 0; k < n_blocks; ++k) {
+    const NodeSums<Dim>& sums = blocks[k].sums;
+    double* const own_sums = sweep.state.T.origin() + (b + k) * n_lanes;
+    for (int i = 0; i < Dim; ++i)
+      add_to(own_sums + i * stride, sums.force[i]);
+    if (sweep.with_bound) add_to(own_sums + Dim * stride, sums.rate);
+    power += 0.5 * algebra::lane_sum(sums.power);
+  }
+  b += n_blocks;
+  return power;
 }
 
 template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
@@ -351,8 +420,8 @@ DIPTYCH_INLINE void forces_on_blocks(const MomentumSweep<Dim>& sweep,
                                      std::int64_t chunk) {
   double power = 0, rate = 0;
   if (sweep.graph.shape.arrangement == Arrangement::runs) {
-    for (std::int64_t b = begin; b < end; ++b)
-      power += add_forces_of_block<isa, Dim, kind, has_H>(sweep, b);
+    for (std::int64_t b = begin; b < end;)
+      power += add_forces_of_next<isa, Dim, kind, has_H>(sweep, b, end);
   } else {
     for (std::int64_t b = begin; b < end; ++b)
       power += forces_on_block<isa, Dim, kind, has_H>(sweep, b, rate);
