@@ -52,11 +52,13 @@ void measure(benchmark::State& run,
   run.counters["%mem"] = 100 * work.streamed * pairs / (each * peak.bandwidth);
 }
 
-void strain_rates(benchmark::State& run, const std::string& graph) {
-  Scene scene({graph, 0, true});
+/// As made for the face correction: without stress and wave speeds.
+void strain_rates(benchmark::State& run, SceneChoice choice) {
+  choice.face_correction = true;
+  Scene scene(choice);
   const auto sweeps = scheme::face_correction_sweeps<3>();
   measure(
-      run, graph_of(graph),
+      run, graph_of(choice.graph),
       [&] { sweeps.gradients(scene.pairs, scene.state, 0, scene.pairs.n_blocks); },
       probes::strain_work(3));
 }
@@ -82,8 +84,8 @@ void first_sweep(Scene& scene, Results& results) {
         0, scene.pairs.n_blocks, 0);
 }
 
-void momentum(benchmark::State& run, const std::string& graph, bool with_bound) {
-  Scene scene({graph, 0, false});
+void momentum(benchmark::State& run, const SceneChoice& choice, bool with_bound) {
+  Scene scene(choice);
   Results results;
   first_sweep(scene, results);
   const auto n_chunks = static_cast<size_t>(parallel::n_chunks_of(scene.pairs.n_blocks));
@@ -95,7 +97,7 @@ void momentum(benchmark::State& run, const std::string& graph, bool with_bound) 
         sweep);
     benchmark::DoNotOptimize(power.data());
   };
-  measure(run, graph_of(graph), kernel, probes::momentum_work(3));
+  measure(run, graph_of(choice.graph), kernel, probes::momentum_work(3));
 }
 
 using algebra::Lanes;
@@ -157,15 +159,33 @@ void add(const std::string& name, Arguments... arguments) {
   benchmark::RegisterBenchmark(name.c_str(), arguments...)->Unit(benchmark::kMillisecond);
 }
 
+/// Both sweeps in both arrangements, with geometry that is shared, streamed, streamed in single
+/// precision.
+void add_layouts(const std::vector<std::string>& graphs) {
+  using scheme::Arrangement;
+  for (const auto& graph : graphs) {
+    for (const std::string nodes : {"", " moved", " moved single"}) {
+      for (const auto arrangement : {Arrangement::rows, Arrangement::runs}) {
+        const SceneChoice choice{graph + nodes, 0, false, arrangement};
+        const std::string name =
+            std::string(arrangement == Arrangement::rows ? "rows/" : "runs/") + choice.graph;
+        add("layout/strain rates/" + name, strain_rates, choice);
+        add("layout/momentum/" + name, momentum, choice, false);
+      }
+    }
+  }
+}
+
 void add_all() {
   const std::vector<std::string> graphs{"sph-52", "fvm-tet", "fvm-hex"};
   for (const auto& graph : graphs)
-    add("strain rates/" + graph, strain_rates, graph);
+    add("strain rates/" + graph, strain_rates, SceneChoice{graph});
   for (const int n : {0, 1, 3})
     add("stress and speeds/" + std::to_string(n) + " branches", stress, n);
   for (const auto& graph : graphs)
-    add("momentum/" + graph, momentum, graph, false);
-  add("momentum with rate/sph-52", momentum, "sph-52", true);
+    add("momentum/" + graph, momentum, SceneChoice{graph}, false);
+  add("momentum with rate/sph-52", momentum, SceneChoice{"sph-52"}, true);
+  add_layouts(graphs);
   add("relaxation/linear", relaxation, scheme::Relaxation::Rule::linear);
   add("relaxation/gauss", relaxation, scheme::Relaxation::Rule::gauss);
   for (const auto& graph : graphs)

@@ -37,8 +37,11 @@ end = 1
 
 run::Case case_of(const SceneChoice& choice, const std::string& integrator) {
   std::vector<std::string> overrides{"time.integrator=" + integrator};
-  overrides.push_back(choice.graph == "fvm-tet" ? "mesh.element=tetrahedron"
-                                                : "mesh.element=hexahedron");
+  overrides.push_back(choice.graph.starts_with("fvm-tet") ? "mesh.element=tetrahedron"
+                                                          : "mesh.element=hexahedron");
+  if (choice.graph.find(" moved") != std::string::npos)
+    overrides.push_back("mesh.perturbation=0.2");
+  if (choice.graph.ends_with(" single")) overrides.push_back("scheme.geometry_precision=single");
   if (choice.face_correction) overrides.push_back("scheme.face_correction=1/6");
   run::Case setup = run::case_from_text(cube, "micro", overrides);
   for (int k = 0; k < choice.n_branches; ++k)
@@ -50,13 +53,23 @@ const scheme::PairGraph& graph_of(const std::string& graph) {
   static std::map<std::string, scheme::PairGraph> graphs;
   const auto found = graphs.find(graph);
   if (found != graphs.end()) return found->second;
-  const run::Case setup = case_of({graph, 0, false});
+  const run::Case setup = case_of({graph});
   const auto mesh = harness::mesh_of(setup, 0, std::filesystem::temp_directory_path().string());
-  const std::string method = graph == "sph-52" ? "sph" : "fvm";
+  const std::string method = graph.starts_with("sph") ? "sph" : "fvm";
   return graphs.emplace(graph, harness::method_menu().at(method)(mesh.mesh, setup)).first->second;
 }
 
-Scene::Scene(const SceneChoice& choice) : pairs(graph_of(choice.graph)) {
+namespace {
+
+scheme::SweepGraph<3> pairs_of(const SceneChoice& choice) {
+  const scheme::PairGraph& graph = graph_of(choice.graph);
+  return choice.arrangement ? scheme::SweepGraph<3>(graph, *choice.arrangement)
+                            : scheme::SweepGraph<3>(graph);
+}
+
+}  // namespace
+
+Scene::Scene(const SceneChoice& choice) : pairs(pairs_of(choice)) {
   const run::Case setup = case_of(choice);
   const auto p = physics::mooney_rivlin_parameters(
       {setup.material.shear_modulus, setup.material.lame}, setup.material.zeta_ratio);

@@ -11,15 +11,19 @@
 #include "common/scheme/sweep_graph.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace diptych::micro {
 
-/// "sph-52": SPH, cubic spline, kappa 1.2; "fvm-hex": edge stencil; "fvm-tet".
+/// "sph-52": SPH, cubic spline, kappa 1.2; "fvm-hex": edge stencil; "fvm-tet". With " moved" behind
+/// it on nodes moved at random, where every row has a geometry of its own; with " moved single"
+/// that geometry in single precision.
 struct SceneChoice {
   std::string graph = "sph-52";
   int n_branches = 0;
   bool face_correction = false;
+  std::optional<scheme::Arrangement> arrangement = {};  ///< none: as the graph suggests
 };
 
 run::Case case_of(const SceneChoice& choice, const std::string& integrator = "ssp-rk3");

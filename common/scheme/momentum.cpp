@@ -1,6 +1,7 @@
 #include "common/scheme/momentum.hpp"
 
 #include "common/parallel/for_chunks.hpp"
+#include "common/scheme/pointwise.hpp"
 
 #include <algorithm>
 

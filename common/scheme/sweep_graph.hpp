@@ -90,6 +90,7 @@ class GeometryArray {
   /// Goes through consecutive chunks.
   class Cursor {
    public:
+    Cursor() = default;
     DIPTYCH_INLINE Cursor(const GeometryArray& array, std::int64_t chunk)
         : full_(array.full_.data() + chunk),
           single_(array.single_.data() + chunk),
@@ -107,9 +108,9 @@ class GeometryArray {
     }
 
    private:
-    const Geometry<Dim, double>* full_;
-    const Geometry<Dim, float>* single_;
-    bool is_single_;
+    const Geometry<Dim, double>* full_ = nullptr;
+    const Geometry<Dim, float>* single_ = nullptr;
+    bool is_single_ = false;
   };
   template <class Change>
   void change(std::int64_t chunk, const Change& change) {

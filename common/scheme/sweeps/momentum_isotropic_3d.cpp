@@ -1,4 +1,4 @@
-#include "common/scheme/momentum.hpp"
+#include "common/scheme/compiled_momentum.hpp"
 
 namespace diptych::scheme {
 

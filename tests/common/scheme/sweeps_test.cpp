@@ -3,7 +3,7 @@
 
 #include "common/parallel/for_chunks.hpp"
 #include "common/physics/materials/mooney_rivlin.hpp"
-#include "common/scheme/momentum.hpp"
+#include "common/scheme/compiled_momentum.hpp"
 #include "common/scheme/strain_rates.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
@@ -28,9 +28,11 @@ class RandomBody {
              DissipationKind kind,
              Arrangement arrangement = Arrangement::runs,
              bool affine = false,
-             const std::array<int, 3>& cells = {5, 4, 3})
+             const std::array<int, 3>& cells = {5, 4, 3},
+             bool single_precision = false)
       : graph_(tests::graph_of(
             method, meshes::box(meshes::CellType::hexahedron, Vec3::Zero(), Vec3::Ones(), cells))),
+        rounded_(single_precision && (round_to_single(graph_), true)),
         pairs(graph_, arrangement),
         kind_(kind),
         state(graph_.n_nodes(),
@@ -110,6 +112,7 @@ class RandomBody {
 
  private:
   scheme::PairGraph graph_;
+  bool rounded_;
 
  public:
   scheme::SweepGraph<3> pairs;
@@ -245,6 +248,35 @@ TEST_P(Methods, SegmentsDoNotDependOnThreads) {
     EXPECT_NEAR(rows.numerical_power(), runs.numerical_power(), 1e-8 * rows.numerical_power());
   }
   parallel::set_threads(1);
+}
+
+/// C_ab in single precision: the identities hold as exactly, the results to what was rounded.
+TEST_P(Methods, SinglePrecisionGeometryKeepsTheIdentities) {
+  for (const Arrangement arrangement : {Arrangement::rows, Arrangement::runs}) {
+    RandomBody full(GetParam(), isotropic, arrangement),
+        single(GetParam(), isotropic, arrangement, false, {5, 4, 3}, true);
+    full.evaluate();
+    single.evaluate();
+    EXPECT_EQ(2 * single.pairs.strain.bytes(), full.pairs.strain.bytes());
+    const auto one = results(full), other = results(single);
+    double difference = 0;
+    for (size_t k = 0; k < one.size(); ++k)
+      difference = std::max(difference, std::abs(one[k] - other[k]));
+    EXPECT_GT(difference, 1e-10 * largest(one));
+    EXPECT_LT(difference, 1e-6 * largest(one));
+    Vec3 sum = Vec3::Zero();
+    double scale = 0, power = 0;
+    for (std::int64_t a = 0; a < single.graph().n_nodes(); ++a) {
+      const Vec3 force = single.vector(single.state.T, a);
+      sum += force;
+      scale += force.norm();
+      power += single.vector(single.state.v, a).dot(force);
+    }
+    EXPECT_LE(sum.norm(), rounding * scale);
+    const double stress_power = single.stress_power(), numerical = single.numerical_power();
+    EXPECT_NEAR(power, -stress_power - numerical,
+                rounding * (std::abs(stress_power) + std::abs(numerical)) * 10);
+  }
 }
 
 TEST_P(Methods, AffineVelocityDissipatesNothing) {

@@ -1,0 +1,86 @@
+#pragma once
+/// The momentum sweeps that are compiled, by instruction set and kind of dissipation: for the files
+/// that compile them (sweeps/momentum_*.cpp) and for tests.
+
+#include "common/scheme/momentum_rows.hpp"
+#include "common/scheme/momentum_runs.hpp"
+
+namespace diptych::scheme {
+
+template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
+DIPTYCH_INLINE void forces_on_blocks(const MomentumSweep<Dim>& sweep,
+                                     std::int64_t begin,
+                                     std::int64_t end,
+                                     std::int64_t chunk) {
+  double power = 0, rate = 0;
+  if (sweep.graph.shape.arrangement == Arrangement::runs) {
+    for (std::int64_t b = begin; b < end;)
+      power += add_forces_of_next<isa, Dim, kind, has_H>(sweep, b, end);
+  } else {
+    for (std::int64_t b = begin; b < end; ++b)
+      power += forces_on_block<isa, Dim, kind, has_H>(sweep, b, rate);
+  }
+  sweep.numerical_power[chunk] = power;
+  sweep.largest_rate[chunk] = rate;
+}
+
+template <int Dim, DissipationKind kind, bool has_H>
+void momentum_sweep_baseline(const MomentumSweep<Dim>& sweep,
+                             std::int64_t begin,
+                             std::int64_t end,
+                             std::int64_t chunk) {
+  forces_on_blocks<InstructionSet::baseline, Dim, kind, has_H>(sweep, begin, end, chunk);
+}
+template <int Dim, DissipationKind kind, bool has_H>
+DIPTYCH_AVX2 void momentum_sweep_avx2(const MomentumSweep<Dim>& sweep,
+                                      std::int64_t begin,
+                                      std::int64_t end,
+                                      std::int64_t chunk) {
+  forces_on_blocks<InstructionSet::avx2, Dim, kind, has_H>(sweep, begin, end, chunk);
+}
+template <int Dim, DissipationKind kind, bool has_H>
+DIPTYCH_AVX512 void momentum_sweep_avx512(const MomentumSweep<Dim>& sweep,
+                                          std::int64_t begin,
+                                          std::int64_t end,
+                                          std::int64_t chunk) {
+  forces_on_blocks<InstructionSet::avx512, Dim, kind, has_H>(sweep, begin, end, chunk);
+}
+
+/// The sweep of one kind for this processor.
+template <int Dim, DissipationKind kind, bool has_H>
+MomentumFunction<Dim> momentum_sweep() {
+  switch (algebra::instruction_set()) {
+    case InstructionSet::avx512:
+      return momentum_sweep_avx512<Dim, kind, has_H>;
+    case InstructionSet::avx2:
+      return momentum_sweep_avx2<Dim, kind, has_H>;
+    default:
+      return momentum_sweep_baseline<Dim, kind, has_H>;
+  }
+}
+
+/// Sweeps of linear reconstruction with one impedance, by limiter.
+template <int Dim, Impedance impedance, bool has_H>
+MomentumFunction<Dim> limited_sweep(PairLimiter limiter) {
+  using enum PairLimiter;
+  constexpr auto linear = Reconstruction::linear;
+  switch (limiter) {
+    case sign_preserving:
+      return momentum_sweep<Dim, {linear, sign_preserving, impedance}, has_H>();
+    case barth_jespersen:
+      return momentum_sweep<Dim, {linear, barth_jespersen, impedance}, has_H>();
+    case venkatakrishnan:
+      return momentum_sweep<Dim, {linear, venkatakrishnan, impedance}, has_H>();
+    default:
+      return momentum_sweep<Dim, {linear, none, impedance}, has_H>();
+  }
+}
+
+template <int Dim, Impedance impedance, bool has_H>
+MomentumFunction<Dim> momentum_sweep_of(const DissipationKind& kind) {
+  constexpr DissipationKind plain{Reconstruction::none, PairLimiter::none, impedance};
+  if (kind.reconstruction == Reconstruction::none) return momentum_sweep<Dim, plain, has_H>();
+  return limited_sweep<Dim, impedance, has_H>(kind.limiter);
+}
+
+}  // namespace diptych::scheme

@@ -1,0 +1,163 @@
+#pragma once
+/// What the momentum sweep makes of eight pairs, in rows and in runs alike: the jump of the
+/// velocities, reconstructed and limited, 2 D_ab, and the rate of the graph CFL. Part of
+/// momentum.hpp.
+
+#include "common/scheme/momentum.hpp"
+#include "common/scheme/pair_access.hpp"
+#include "common/scheme/pointwise.hpp"
+
+namespace diptych::scheme {
+
+/// Sums of a node over its pairs.
+template <int Dim>
+struct NodeSums {
+  Lanes force[Dim] = {};  ///< 2 T; in rows without P_a sum C_ab
+  Lanes power{};          ///< sum (v_b - v_a) . |S| Z jump
+  Lanes rate{};           ///< sum |C_ab| z_ab
+};
+
+/// Mean response of the pair from the records of its nodes, for the exact impedance.
+template <int Dim, class Pairs>
+DIPTYCH_INLINE void mean_state(const Pairs& pairs,
+                               physics::Response<Lanes>& r,
+                               physics::Deformation<Lanes>& X) {
+  using Record = NodeRecord<Dim>;
+  const auto mean = [&](int c)
+                        DIPTYCH_INLINE_LAMBDA { return 0.5 * (pairs.neighbour(c) + pairs.own(c)); };
+  X.F = Tensor<Lanes>{};
+  X.H = Tensor<Lanes>{};
+  for (int i = 0; i < Dim; ++i) {
+    for (int j = 0; j < Dim; ++j) {
+      X.F(i, j) = mean(Record::F + i * Dim + j);
+      X.H(i, j) = mean(Record::H + i * Dim + j);
+    }
+  }
+  if constexpr (Dim == 2) X.F(2, 2) = Lanes{} + 1.0;
+  constexpr int order_A[6] = {0, 1, Dim == 3 ? 2 : 3, 3, 4, 5};
+  constexpr int order_S[6] = {0, 1, Dim == 3 ? 2 : 3, Dim == 3 ? 3 : 2, 4, 5};
+  r.A_tot = SymmetricTensor<Lanes>{};
+  r.S_tot = SymmetricTensor<Lanes>{};
+  for (int k = 0; k < algebra::Layout<Dim>::n_A; ++k)
+    r.A_tot.s[order_A[k]] = mean(Record::A_tot + k);
+  for (int k = 0; k < algebra::Layout<Dim>::n_S; ++k)
+    r.S_tot.s[order_S[k]] = mean(Record::S_tot + k);
+  r.W_JJ = mean(Record::W_JJ);
+  r.W_FJ = mean(Record::W_FJ);
+}
+
+/// L X_ab of both nodes, or only their sum where the limiter needs no more.
+template <int Dim>
+struct Slopes {
+  Vector<Lanes> sum{}, a{}, b{};
+};
+
+/// v_b^rec - v_a^rec, limited.  @param h  along the normal of the pair in space
+template <int Dim, PairLimiter limiter>
+DIPTYCH_INLINE Vector<Lanes> reconstructed_jump(const Vector<Lanes>& plain,
+                                                const Slopes<Dim>& slopes,
+                                                const Vector<Lanes>& h) {
+  Vector<Lanes> jump{};
+  for (int i = 0; i < Dim; ++i)
+    jump[i] = plain[i] - 0.5 * slopes.sum[i];
+  if constexpr (limiter == PairLimiter::none) return jump;
+  Lanes h_h{};
+  for (int i = 0; i < Dim; ++i)
+    h_h += h[i] * h[i];
+  const Lanes inverse = algebra::inverse_or_zero(algebra::square_root(h_h));
+  Vector<Lanes> n{};
+  for (int i = 0; i < Dim; ++i)
+    n[i] = h[i] * inverse;
+  if constexpr (limiter == PairLimiter::sign_preserving) limit_sign_preserving<Dim>(jump, plain, n);
+  if constexpr (limiter == PairLimiter::barth_jespersen)
+    return slope_limited_jump<BarthJespersen, Dim>(plain, slopes.a, slopes.b, n);
+  if constexpr (limiter == PairLimiter::venkatakrishnan)
+    return slope_limited_jump<Venkatakrishnan, Dim>(plain, slopes.a, slopes.b, n);
+  return jump;
+}
+
+/// What the dissipation of eight pairs needs of their geometry; the length of S is free.
+template <int Dim>
+struct PairFace {
+  Vector<Lanes> S{};  ///< along S_ab
+  Lanes area;         ///< m^2, |S_ab|
+};
+
+/// 2 D_ab of eight pairs.
+/// @param pairs      of the records
+/// @param positions  pairs of X
+/// @param plain      v_b - v_a
+template <int Dim, DissipationKind kind, bool has_H, class Pairs, class Positions>
+DIPTYCH_INLINE Vector<Lanes> dissipation_of(const MomentumSweep<Dim>& sweep,
+                                            const PairFace<Dim>& face,
+                                            const Pairs& pairs,
+                                            const Positions& positions,
+                                            const Vector<Lanes>& plain) {
+  using Record = NodeRecord<Dim>;
+  Vector<Lanes> h{};
+  Slopes<Dim> slopes;
+#pragma GCC unroll 3
+  for (int i = 0; i < Dim; ++i) {
+#pragma GCC unroll 3
+    for (int j = 0; j < Dim; ++j) {
+      const int ij = i * Dim + j;
+      h[i] += (pairs.neighbour(Record::H + ij) + pairs.own(Record::H + ij)) * face.S[j];
+      if constexpr (kind.reconstruction == Reconstruction::linear) {
+        const Lanes X = positions.neighbour(j) - positions.own(j);
+        if constexpr (limits_slopes(kind.limiter)) {
+          slopes.a[i] += pairs.own(Record::L + ij) * X;
+          slopes.b[i] += pairs.neighbour(Record::L + ij) * X;
+        } else {
+          slopes.sum[i] += (pairs.neighbour(Record::L + ij) + pairs.own(Record::L + ij)) * X;
+        }
+      }
+    }
+  }
+  const Vector<Lanes> jump = reconstructed_jump<Dim, kind.limiter>(plain, slopes, h);
+  Vector<Lanes> D{};
+  if constexpr (kind.impedance == Impedance::isotropic) {
+    D = isotropic_impedance_times<Dim>(
+        0.5 * (pairs.neighbour(Record::z_p) + pairs.own(Record::z_p)),
+        0.5 * (pairs.neighbour(Record::z_s) + pairs.own(Record::z_s)), h, jump);
+  } else {
+    physics::Response<Lanes> response;
+    physics::Deformation<Lanes> X;
+    mean_state<Dim>(pairs, response, X);
+    Lanes S2{};
+    for (int i = 0; i < Dim; ++i)
+      S2 += face.S[i] * face.S[i];
+    const Lanes inverse = algebra::inverse_or_zero(algebra::square_root(S2));
+    Vector<Lanes> N{};
+    for (int i = 0; i < Dim; ++i)
+      N[i] = face.S[i] * inverse;
+    if constexpr (Dim == 2) N[1] = face.area > 0 ? N[1] : Lanes{};
+    N[0] = face.area > 0 ? N[0] : Lanes{} + 1.0;  // padding: any unit vector, its area is zero
+    D = algebra::product(physics::impedance<has_H>(response, X, sweep.rho_R, N), jump);
+  }
+  for (int i = 0; i < Dim; ++i)
+    D[i] *= sweep.factor * face.area;
+  return D;
+}
+
+/// |C| max(z_p,a, z_p,b) of eight pairs.
+template <int Dim, class Pairs>
+DIPTYCH_INLINE Lanes rate_of(const Vector<Lanes>& C, const Pairs& pairs) {
+  using Record = NodeRecord<Dim>;
+  Lanes C2{};
+  for (int i = 0; i < Dim; ++i)
+    C2 += C[i] * C[i];
+  return algebra::square_root(C2) *
+         algebra::larger(pairs.neighbour(Record::z_p), Lanes{} + pairs.own(Record::z_p));
+}
+
+/// v_b - v_a of eight pairs.
+/// @param pairs  with v from component c
+template <int Dim, class Pairs>
+DIPTYCH_INLINE Vector<Lanes> plain_jump(const Pairs& pairs, int c) {
+  Vector<Lanes> plain{};
+  for (int i = 0; i < Dim; ++i)
+    plain[i] = pairs.neighbour(c + i) - pairs.own(c + i);
+  return plain;
+}
+
+}  // namespace diptych::scheme
