@@ -88,6 +88,10 @@ DIPTYCH_INLINE std::int64_t consecutive_offsets(const MutualPairs<Dim>& mutual,
   return n;
 }
 
+/// Nodes between two pairs of a block beyond which the records of the nearer have left the second
+/// cache since the farther read them.
+inline constexpr std::int64_t far_apart = 2000;
+
 /// Blocks that are worked together at most: more find no more lines in the first cache.
 inline constexpr int most_blocks_together = 4;
 
@@ -119,9 +123,10 @@ DIPTYCH_INLINE double add_forces_of_next(const MomentumSweep<Dim>& sweep,
   WorkedBlock<Dim> blocks[most_blocks_together];
   for (int k = 0; k < n_blocks; ++k)
     blocks[k].begin(mutual, b + k);
-  if (blocks[0].chunk < last) {
+  for (std::int64_t c = blocks[0].chunk; c < last; ++c) {
+    const std::int64_t offset = mutual.offset.data()[c];
+    if (c + 1 < last && mutual.offset.data()[c + 1] - offset < far_apart) continue;
     for (int k = 0; k < n_blocks; ++k) {
-      const std::int64_t offset = mutual.offset[last - 1];
       prefetch_ahead<Record::n(exact)>(sweep.state.records, b + k, offset);
       prefetch_ahead<Dim>(sweep.state.v, b + k, offset);
       prefetch_ahead<Dim>(graph.X, b + k, offset);
