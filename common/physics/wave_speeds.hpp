@@ -123,11 +123,8 @@ struct SpeedBounds {
   T c_s;  ///< m/s, largest root mean square of the two shear wave speeds over all N
 };
 template <class T>
-DIPTYCH_INLINE SpeedBounds<T> speed_bounds(const Response<T>& r,
-                                           const Deformation<T>& X,
-                                           double rho_R,
-                                           bool has_H,
-                                           bool has_W_FJ) {
+DIPTYCH_INLINE SpeedBounds<T> speed_bounds(
+    const Response<T>& r, const Deformation<T>& X, double rho_R, bool has_H, bool has_W_FJ) {
   const SymmetricTensor<T> C = algebra::transpose_times_self(X.F);
   const SymmetricTensor<T> G = algebra::transpose_times_self(X.H);
   SymmetricTensor<T> K_p = r.A_tot + r.W_JJ * G;

@@ -283,9 +283,7 @@ class BodySolver : public Solver {
   }
 
   /// Prescribed velocities at time t.
-  void constrain(double t) {
-    add_action(boundary_.constrain(state_, model_.rho_R, t));
-  }
+  void constrain(double t) { add_action(boundary_.constrain(state_, model_.rho_R, t)); }
   void add_action(const scheme::ConstraintAction& action) {
     audit_.impulse.linear += action.impulse.linear;
     audit_.impulse.angular += action.impulse.angular;

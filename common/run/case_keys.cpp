@@ -306,7 +306,7 @@ constexpr std::array key_table{
         "\"1/6\""),
     choice("scheme.geometry_precision", "\"double\"", "", menus::precisions,
            "Precision of the pseudo-areas C_ab. single: half the memory and 1e-7 of error, where "
-           "nodes are irregular; on lattices, whose geometry is shared, no gain.",
+           "nodes are irregular; no gain on regular lattices, whose geometry is shared.",
            "\"single\""),
     key("scheme.angular_momentum_projection", flag, "-", "false", "", any,
         "Correct the forces so that angular momentum is conserved.", "true"),

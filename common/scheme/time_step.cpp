@@ -18,13 +18,13 @@ double geometric_rate(const PairGraph& graph) {
   for (const std::int32_t a : rows.representative)
     of_class.push_back(row_sum(a));
   std::vector<double> largest(static_cast<size_t>(parallel::n_chunks_of(graph.n_nodes())), 0.0);
-  parallel::for_chunks(graph.n_nodes(),
-                       [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
-                         for (std::int64_t a = begin; a < end; ++a) {
-                           const double of_row = of_class.empty() ? row_sum(a) : of_class[rows.of[a]];
-                           largest[chunk] = std::max(largest[chunk], 0.5 * of_row / graph.Omega[a]);
-                         }
-                       });
+  parallel::for_chunks(
+      graph.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
+        for (std::int64_t a = begin; a < end; ++a) {
+          const double of_row = of_class.empty() ? row_sum(a) : of_class[rows.of[a]];
+          largest[chunk] = std::max(largest[chunk], 0.5 * of_row / graph.Omega[a]);
+        }
+      });
   return *std::max_element(largest.begin(), largest.end());
 }
 

@@ -13,9 +13,9 @@ template <bool with_zeta>
 struct MooneyRivlinFamily {
   static constexpr bool has_H = with_zeta;  ///< Sigma_H != 0, G branches possible
   static constexpr bool has_W_FJ = false;
-  double xi = 0;                            ///< Pa
-  double zeta = 0;                          ///< Pa
-  double lambda_hat = 0;                    ///< Pa
+  double xi = 0;          ///< Pa
+  double zeta = 0;        ///< Pa
+  double lambda_hat = 0;  ///< Pa
 
   /// Moduli that Maxwell branches scale: xi^alpha = beta_C xi, zeta^alpha = beta_G zeta.
   double branch_xi() const { return xi; }
