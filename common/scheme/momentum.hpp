@@ -7,6 +7,9 @@
 /// sum has an order of its own. Rows: every pair is worked twice, each time for one of its nodes,
 /// with P_a sum_b C_ab taken out of the sum.
 ///
+/// The formulas of a pair are in pair_forces.hpp, the two forms of the sweep in momentum_rows.hpp
+/// and momentum_runs.hpp, what is compiled in compiled_momentum.hpp.
+///
 /// Also per node: numerical dissipation 1/2 sum_b (v_b - v_a).D_ab, and on demand the graph CFL
 /// rate sum_b |C_ab| c_ab / (2 Omega_a) with c_ab = max(c_p,a, c_p,b) (physics note 2.1).
 ///

@@ -104,8 +104,9 @@ DIPTYCH_INLINE bool same_offsets(const MutualPairs<Dim>& mutual, std::int64_t b)
                           static_cast<size_t>(n) * sizeof(std::int32_t)) == 0;
 }
 
-/// Runs: forces of the pairs of blocks [b, end) with nodes above them, added to both: of two blocks
-/// together where their pairs are at the same offsets, since their neighbours share cache lines.
+/// Runs: forces of the pairs of the next blocks of [b, end) with nodes above them, added to both:
+/// of blocks together whose pairs are at the same offsets, since their neighbours share cache
+/// lines.
 /// @return their numerical dissipation [W]; moves b on
 template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
 DIPTYCH_INLINE double add_forces_of_next(const MomentumSweep<Dim>& sweep,
