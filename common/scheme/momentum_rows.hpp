@@ -13,8 +13,7 @@ DIPTYCH_INLINE NodeSums<Dim> sums_of_node(const MomentumSweep<Dim>& sweep, std::
   constexpr auto rows = Arrangement::rows;
   const SweepGraph<Dim>& graph = sweep.graph;
   const PairArea* area = graph.area.data() + graph.first[a];
-  ForceCursor<Dim> force(graph, graph.first[a]);
-  FaceCursor<Dim> face_geometry(graph, graph.first[a]);
+  FaceCursor<Dim> geometry(graph, graph.first[a]);
   NodeSums<Dim> sums;
   for (std::int64_t chunk = graph.row[a]; chunk < graph.row[a + 1]; ++chunk, ++area) {
     prefetch(area + chunks_ahead);
@@ -24,8 +23,7 @@ DIPTYCH_INLINE NodeSums<Dim> sums_of_node(const MomentumSweep<Dim>& sweep, std::
     PairFace<Dim> face;
     face.area = algebra::load(area->area);
     Lanes C_ba[Dim], S_ab[Dim];
-    force.next(C_ba);
-    face_geometry.next(S_ab);
+    geometry.next(S_ab, C_ba);
     for (int i = 0; i < Dim; ++i)
       face.S[i] = S_ab[i];
     const Vector<Lanes> plain = plain_jump<Dim>(pairs, Record::v(exact));

@@ -2,6 +2,7 @@
 
 #include "common/base/error.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/scheme/classify_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -162,8 +163,13 @@ void validate(const PairGraph& graph) {
 }
 
 void round_to_single(PairGraph& graph) {
-  for (Vec3& C : graph.C)
-    C = C.cast<float>().cast<double>();
+  const RowClasses classes = classes_of(graph);  // rows of a class must not round apart
+  std::vector<Vec3> C(graph.C.size());
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+    for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k)
+      C[k] = shared_C(graph, classes, a, k).cast<float>().cast<double>();
+  }
+  graph.C = std::move(C);
   graph.single_precision = true;
 }
 

@@ -47,7 +47,7 @@ DIPTYCH_INLINE void sum_gradients(const SweepGraph<Dim>& graph,
                                   std::int64_t unit,
                                   Lanes (&sum)[Dim * Dim]) {
   const std::int64_t begin = graph.row[unit], end = graph.row[unit + 1];
-  StrainCursor<Dim> geometry(graph, graph.first[unit]);
+  VectorCursor<Dim> geometry(graph.strain, graph.first[unit]);
   for (std::int64_t chunk = begin; chunk < end; ++chunk) {
     Lanes C_ab[Dim];
     geometry.next(C_ab);

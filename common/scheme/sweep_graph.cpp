@@ -200,17 +200,17 @@ void set_directed(const PairGraph& graph,
                   SweepGraph<Dim>& sweep) {
   const bool rows = sweep.shape.arrangement == Arrangement::rows, single = graph.single_precision;
   const auto allocate = [&](std::int64_t n) {
-    sweep.strain = GeometryArray<StrainGeometry, Dim>(n, single);
-    sweep.force = GeometryArray<ForceGeometry, Dim>(rows ? n : 0, single);
+    sweep.strain = GeometryArray<PairVectors, Dim>(n, single);
+    sweep.force = GeometryArray<PairVectors, Dim>(rows ? n : 0, single);
     sweep.area = algebra::AlignedArray<PairArea>(rows ? n : 0);
-    sweep.face = algebra::AlignedArray<FaceGeometry<Dim>>(rows && single ? 0 : n);
+    sweep.face = algebra::AlignedArray<PairVectors<Dim, float>>(rows && single ? 0 : n);
   };
   const auto set = [&](std::int64_t chunk, int lane, const Vec3& C_ab, const Vec3& C_ba) {
     const Vec3 S_ab = 0.5 * (C_ab - C_ba);
-    sweep.strain.change(chunk, [&](auto& geometry) { put(geometry.C_ab, lane, C_ab); });
-    if (sweep.face.size() > 0) put(sweep.face[chunk].S_ab, lane, S_ab);
+    sweep.strain.change(chunk, [&](auto& geometry) { put(geometry.component, lane, C_ab); });
+    if (sweep.face.size() > 0) put(sweep.face[chunk].component, lane, S_ab);
     if (!rows) return;
-    sweep.force.change(chunk, [&](auto& geometry) { put(geometry.C_ba, lane, C_ba); });
+    sweep.force.change(chunk, [&](auto& geometry) { put(geometry.component, lane, C_ba); });
     sweep.area[chunk].area[lane] = static_cast<float>(S_ab.norm());
   };
   set_geometry(graph, classes, layouts, alike, sweep.first, allocate, set);

@@ -36,34 +36,23 @@ struct Neighbours {
   std::int32_t node[algebra::n_lanes];
 };
 
-/// Of eight pairs: for the strain rates,
+/// A vector of eight pairs: C_ab for the strain rates, C_ba for the internal forces where each node
+/// sums its own (rows), S_ab for the face correction and the dissipation of rows;
 template <int Dim, class Real>
-struct StrainGeometry {
-  Real C_ab[Dim][algebra::n_lanes];  ///< m^2
+struct PairVectors {
+  Real component[Dim][algebra::n_lanes];  ///< m^2
 };
 
-/// for the internal forces where each node sums its own (rows),
-template <int Dim, class Real>
-struct ForceGeometry {
-  Real C_ba[Dim][algebra::n_lanes];  ///< m^2
-};
-
-/// for the internal forces where each pair is worked once, for both of its nodes (runs),
+/// for the internal forces where each pair is worked once, for both of its nodes (runs);
 template <int Dim, class Real>
 struct MutualGeometry {
   Real C_ab[Dim][algebra::n_lanes], C_ba[Dim][algebra::n_lanes];  ///< m^2
   float area[algebra::n_lanes];                                   ///< m^2, |S_ab|
 };
 
-/// for the dissipation (rows),
+/// for the dissipation of rows.
 struct PairArea {
   float area[algebra::n_lanes];  ///< m^2, |S_ab|
-};
-
-/// and for the dissipation (rows) and the face correction.
-template <int Dim>
-struct FaceGeometry {
-  float S_ab[Dim][algebra::n_lanes];  ///< m^2, 1/2 (C_ab - C_ba)
 };
 
 /// Chunks ahead of the work that the sweeps ask memory for: the processor's own prefetching stops
@@ -150,10 +139,10 @@ struct SweepGraph {
   algebra::AlignedArray<Neighbours> neighbours;  ///< rows: of each chunk; padded with the node
   algebra::AlignedArray<std::int32_t> offset;    ///< runs: b - a of each chunk
   algebra::AlignedArray<std::int64_t> first;     ///< into the geometry; by node or block
-  GeometryArray<StrainGeometry, Dim> strain;
-  GeometryArray<ForceGeometry, Dim> force;        ///< rows
-  algebra::AlignedArray<PairArea> area;           ///< rows
-  algebra::AlignedArray<FaceGeometry<Dim>> face;  ///< not in rows of single precision
+  GeometryArray<PairVectors, Dim> strain;        ///< C_ab
+  GeometryArray<PairVectors, Dim> force;         ///< rows: C_ba
+  algebra::AlignedArray<PairArea> area;          ///< rows
+  algebra::AlignedArray<PairVectors<Dim, float>> face;  ///< S_ab, not in rows of single precision
   MutualPairs<Dim> mutual;
   algebra::NodeTable X;                         ///< m
   algebra::AlignedArray<double> inverse_Omega;  ///< [n_blocks * 8] 1/m^3, 0 in the padding
@@ -170,69 +159,64 @@ struct SweepGraph {
   SweepGraph(const PairGraph& graph, Arrangement arrangement, const PairRuns& runs);
 };
 
-/// C_ab of consecutive chunks.
+template <int Dim, class Real>
+DIPTYCH_INLINE void load_vectors(const PairVectors<Dim, Real>& from, algebra::Lanes (&to)[Dim]) {
+  for (int i = 0; i < Dim; ++i)
+    to[i] = algebra::load(from.component[i]);
+}
+
+/// C_ab or C_ba of consecutive chunks.
 template <int Dim>
-class StrainCursor {
+class VectorCursor {
  public:
-  DIPTYCH_INLINE StrainCursor(const SweepGraph<Dim>& graph, std::int64_t chunk)
-      : cursor_(graph.strain, chunk) {}
-  DIPTYCH_INLINE void next(algebra::Lanes (&C_ab)[Dim]) {
-    cursor_.next([&](const auto& geometry) DIPTYCH_INLINE_LAMBDA {
-      for (int i = 0; i < Dim; ++i)
-        C_ab[i] = algebra::load(geometry.C_ab[i]);
-    });
+  DIPTYCH_INLINE VectorCursor(const GeometryArray<PairVectors, Dim>& array, std::int64_t chunk)
+      : cursor_(array, chunk) {}
+  DIPTYCH_INLINE void next(algebra::Lanes (&C)[Dim]) {
+    cursor_.next([&](const auto& vectors) DIPTYCH_INLINE_LAMBDA { load_vectors(vectors, C); });
   }
 
  private:
-  typename GeometryArray<StrainGeometry, Dim>::Cursor cursor_;
+  typename GeometryArray<PairVectors, Dim>::Cursor cursor_;
 };
 
-/// C_ba of consecutive chunks of rows.
-template <int Dim>
-class ForceCursor {
- public:
-  DIPTYCH_INLINE ForceCursor(const SweepGraph<Dim>& graph, std::int64_t chunk)
-      : cursor_(graph.force, chunk) {}
-  DIPTYCH_INLINE void next(algebra::Lanes (&C_ba)[Dim]) {
-    cursor_.next([&](const auto& geometry) DIPTYCH_INLINE_LAMBDA {
-      for (int i = 0; i < Dim; ++i)
-        C_ba[i] = algebra::load(geometry.C_ba[i]);
-    });
-  }
-
- private:
-  typename GeometryArray<ForceGeometry, Dim>::Cursor cursor_;
-};
-
-/// S_ab of consecutive chunks.
+/// S_ab of consecutive chunks; in rows of single precision 1/2 (C_ab - C_ba).
 template <int Dim>
 class FaceCursor {
  public:
   DIPTYCH_INLINE FaceCursor(const SweepGraph<Dim>& graph, std::int64_t chunk)
       : face_(graph.face.data() + chunk),
         is_stored_(graph.face.size() > 0),
-        strain_(graph, chunk),
-        force_(graph, chunk) {}
+        strain_(graph.strain, chunk),
+        force_(graph.force, chunk) {}
   DIPTYCH_INLINE void next(algebra::Lanes (&S_ab)[Dim]) {
     if (is_stored_) {
-      prefetch(face_ + chunks_ahead);
-      for (int i = 0; i < Dim; ++i)
-        S_ab[i] = algebra::load(face_->S_ab[i]);
-      ++face_;
+      next_stored(S_ab);
+    } else {
+      algebra::Lanes C_ba[Dim];
+      next(S_ab, C_ba);
+    }
+  }
+  /// Rows: C_ba too.
+  DIPTYCH_INLINE void next(algebra::Lanes (&S_ab)[Dim], algebra::Lanes (&C_ba)[Dim]) {
+    force_.next(C_ba);
+    if (is_stored_) {
+      next_stored(S_ab);
       return;
     }
-    algebra::Lanes C_ab[Dim], C_ba[Dim];
-    strain_.next(C_ab);
-    force_.next(C_ba);
+    strain_.next(S_ab);
     for (int i = 0; i < Dim; ++i)
-      S_ab[i] = 0.5 * (C_ab[i] - C_ba[i]);
+      S_ab[i] = 0.5 * (S_ab[i] - C_ba[i]);
   }
 
  private:
-  const FaceGeometry<Dim>* face_;
+  DIPTYCH_INLINE void next_stored(algebra::Lanes (&S_ab)[Dim]) {
+    prefetch(face_ + chunks_ahead);
+    load_vectors(*face_++, S_ab);
+  }
+
+  const PairVectors<Dim, float>* face_;
   bool is_stored_;
-  StrainCursor<Dim> strain_;
-  ForceCursor<Dim> force_;
+  VectorCursor<Dim> strain_, force_;
 };
 
 extern template struct SweepGraph<2>;
