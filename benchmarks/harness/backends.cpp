@@ -7,8 +7,16 @@ namespace diptych::harness {
 
 namespace {
 
+const base::Registry<scheme::Precision>& precision_menu() {
+  static const auto menu = base::Registry<scheme::Precision>("scheme.precision")
+                               .add("double", scheme::Precision::full)
+                               .add("mixed", scheme::Precision::mixed)
+                               .add("single", scheme::Precision::single);
+  return menu;
+}
+
 scheme::PairGraph in_precision(scheme::PairGraph graph, const std::string& precision) {
-  if (precision == "single") round_to_single(graph);
+  set_precision(graph, precision_menu().at(precision));
   return graph;
 }
 
@@ -21,11 +29,11 @@ const base::Registry<GraphMaker>& method_menu() {
                [](const meshes::Mesh& mesh, const run::Case& setup) {
                  return in_precision(
                      sph::build_graph(mesh, {setup.sph.kernel, setup.sph.kappa, setup.sph.closure}),
-                     setup.scheme.geometry_precision);
+                     setup.scheme.precision);
                })
           .add("fvm", [](const meshes::Mesh& mesh, const run::Case& setup) {
             return in_precision(fvm::build_graph(mesh, {setup.fvm.stencil}),
-                                setup.scheme.geometry_precision);
+                                setup.scheme.precision);
           });
   return menu;
 }

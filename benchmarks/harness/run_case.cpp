@@ -345,6 +345,7 @@ RunResult run_case(const run::Case& setup, const RunOptions& options) {
   s.level = options.level;
   s.threads = parallel::n_threads();
   s.integrator = setup.time.integrator;
+  s.precision = setup.scheme.precision;
   s.unknowns_per_node = solver->unknowns_per_node();
   s.arrangement = solver->arrangement();
   s.provenance = provenance(setup.hash);

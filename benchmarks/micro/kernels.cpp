@@ -126,11 +126,11 @@ void stress(benchmark::State& run, int n_branches) {
 /// New internal variables of the first branch of all blocks.
 DIPTYCH_CLONES void relax(Scene& scene, const scheme::Relaxation& rule, std::int64_t n_blocks) {
   for (std::int64_t b = 0; b < n_blocks; ++b) {
-    const auto F = algebra::load_tensor<3>(scene.state.F.block(b), 1);
+    const auto F = algebra::get_tensor<3>(scene.state.F, b, 0, 1);
     const auto drive = scheme::linear_drive(scene.state, physics::right_tensors(F), b);
     const auto branch = scheme::relaxed_branch<3, true>(scene.state, rule, drive, b, 0);
-    algebra::store_A<3>(scene.state.A.block(b), branch.A);
-    algebra::store_S<3>(scene.state.S.block(b), branch.S);
+    algebra::put_A<3>(scene.state.A, b, 0, branch.A);
+    algebra::put_S<3>(scene.state.S, b, 0, branch.S);
   }
 }
 
@@ -159,12 +159,11 @@ void add(const std::string& name, Arguments... arguments) {
   benchmark::RegisterBenchmark(name.c_str(), arguments...)->Unit(benchmark::kMillisecond);
 }
 
-/// Both sweeps in both arrangements, with geometry that is shared, streamed, streamed in single
-/// precision.
+/// Both sweeps in both arrangements, with geometry that is shared or streamed, by precision.
 void add_layouts(const std::vector<std::string>& graphs) {
   using scheme::Arrangement;
   for (const auto& graph : graphs) {
-    for (const std::string nodes : {"", " moved", " moved single"}) {
+    for (const std::string nodes : {"", " single", " moved", " moved mixed", " moved single"}) {
       for (const auto arrangement : {Arrangement::rows, Arrangement::runs}) {
         const SceneChoice choice{graph + nodes, 0, false, arrangement};
         const std::string name =
@@ -191,6 +190,7 @@ void add_all() {
   for (const auto& graph : graphs)
     add("face correction/" + graph, face_correction, graph);
   for (const auto& graph : graphs) {
+    add("stage/" + graph + " single", stage, SceneChoice{graph + " single"}, "ssp-rk3", 1);
     for (const int n : {0, 1, 3}) {
       add("stage/" + graph + "/" + std::to_string(n) + " branches", stage,
           SceneChoice{graph, n, false}, "ssp-rk3", 1);

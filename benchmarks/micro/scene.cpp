@@ -41,7 +41,10 @@ run::Case case_of(const SceneChoice& choice, const std::string& integrator) {
                                                           : "mesh.element=hexahedron");
   if (choice.graph.find(" moved") != std::string::npos)
     overrides.push_back("mesh.perturbation=0.2");
-  if (choice.graph.ends_with(" single")) overrides.push_back("scheme.geometry_precision=single");
+  for (const char* const precision : {"mixed", "single"}) {
+    if (choice.graph.ends_with(precision))
+      overrides.push_back(std::string("scheme.precision=") + precision);
+  }
   if (choice.face_correction) overrides.push_back("scheme.face_correction=1/6");
   run::Case setup = run::case_from_text(cube, "micro", overrides);
   for (int k = 0; k < choice.n_branches; ++k)
@@ -81,8 +84,8 @@ Scene::Scene(const SceneChoice& choice) : pairs(pairs_of(choice)) {
                            choice.n_branches > 0, pairs.shape);
   if (choice.face_correction) state.allow_face_correction();
   run::set_initial_state(graph, setup.initial, setup.scheme.face_correction, state);
-  for (std::int64_t i = 0; i < state.n_blocks * 9 * algebra::n_lanes; ++i)
-    state.F_0.block(0)[i] = state.F.block(0)[i];
+  for (std::int64_t b = 0; b < state.n_blocks; ++b)
+    algebra::put_tensor<3>(state.F_0, b, 0, algebra::get_tensor<3>(state.F, b, 0));
 }
 
 }  // namespace diptych::micro

@@ -17,8 +17,8 @@
 namespace diptych::micro {
 
 /// "sph-52": SPH, cubic spline, kappa 1.2; "fvm-hex": edge stencil; "fvm-tet". With " moved" behind
-/// it on nodes moved at random, where every row has a geometry of its own; with " moved single"
-/// that geometry in single precision.
+/// it on nodes moved at random, where every row has a geometry of its own; with " mixed" or
+/// " single" at the end in that precision.
 struct SceneChoice {
   std::string graph = "sph-52";
   int n_branches = 0;

@@ -66,28 +66,110 @@ inline std::int64_t n_blocks_of(std::int64_t n_nodes) {
   return (n_nodes + n_lanes - 1) / n_lanes;
 }
 
-class BlockField {
+/// Numbers kept in double or in single precision, read and written as doubles.
+class RealArray {
  public:
-  BlockField() = default;
-  BlockField(std::int64_t n_nodes, int n_components)
-      : n_components_(n_components), data_(n_blocks_of(n_nodes) * n_components * n_lanes) {}
-
-  int n_components() const { return n_components_; }
-  bool empty() const { return data_.size() == 0; }
-  std::int64_t bytes() const { return data_.bytes(); }
-  /// [n_components][8]
-  double* block(std::int64_t b) { return data_.data() + b * n_components_ * n_lanes; }
-  const double* block(std::int64_t b) const { return data_.data() + b * n_components_ * n_lanes; }
-  double& at(std::int64_t node, int component) {
-    return block(node / n_lanes)[component * n_lanes + node % n_lanes];
+  RealArray() = default;
+  RealArray(std::int64_t n, bool single)
+      : full_(single ? 0 : n), single_(single ? n : 0), is_single_(single) {}
+  bool is_single() const { return is_single_; }
+  bool empty() const { return full_.size() + single_.size() == 0; }
+  std::int64_t bytes() const { return full_.bytes() + single_.bytes(); }
+  /// In the precision they have.
+  template <class Real>
+  Real* data() {
+    if constexpr (sizeof(Real) == sizeof(float)) {
+      return single_.data();
+    } else {
+      return full_.data();
+    }
   }
-  double at(std::int64_t node, int component) const {
-    return block(node / n_lanes)[component * n_lanes + node % n_lanes];
+  template <class Real>
+  const Real* data() const {
+    return const_cast<RealArray*>(this)->data<Real>();
+  }
+  double at(std::int64_t i) const { return is_single_ ? single_[i] : full_[i]; }
+  void set(std::int64_t i, double value) {
+    if (is_single_) {
+      single_[i] = static_cast<float>(value);
+    } else {
+      full_[i] = value;
+    }
+  }
+  /// use(pointer to the first), once for a whole block of accesses: a choice for each would cost.
+  template <class Use>
+  DIPTYCH_INLINE void visit(const Use& use) {
+    if (is_single_) {
+      use(single_.data());
+    } else {
+      use(full_.data());
+    }
+  }
+  template <class Use>
+  DIPTYCH_INLINE void visit(const Use& use) const {
+    if (is_single_) {
+      use(single_.data());
+    } else {
+      use(full_.data());
+    }
   }
 
  private:
+  AlignedArray<double> full_;
+  AlignedArray<float> single_;
+  bool is_single_ = false;
+};
+
+class BlockField {
+ public:
+  BlockField() = default;
+  BlockField(std::int64_t n_nodes, int n_components, bool single = false)
+      : n_components_(n_components), data_(n_blocks_of(n_nodes) * n_components * n_lanes, single) {}
+
+  int n_components() const { return n_components_; }
+  bool empty() const { return data_.empty(); }
+  std::int64_t bytes() const { return data_.bytes(); }
+  double at(std::int64_t node, int component) const { return data_.at(index(node, component)); }
+  void set(std::int64_t node, int component, double value) {
+    data_.set(index(node, component), value);
+  }
+  /// Component c of the eight nodes of block b.
+  DIPTYCH_INLINE Lanes get(std::int64_t b, int c) const {
+    Lanes value;
+    get_each<1>(b, c, [&](int, const Lanes& v) DIPTYCH_INLINE_LAMBDA { value = v; });
+    return value;
+  }
+  DIPTYCH_INLINE void put(std::int64_t b, int c, const Lanes& value) {
+    put_each<1>(b, c, [&](int) DIPTYCH_INLINE_LAMBDA { return value; });
+  }
+  /// take(c, value) for n components from `first` on of the eight nodes of block b.
+  template <int n, class Take>
+  DIPTYCH_INLINE void get_each(std::int64_t b, int first, const Take& take) const {
+    data_.visit([&](const auto* data) DIPTYCH_INLINE_LAMBDA {
+      const auto* p = data + (b * n_components_ + first) * n_lanes;
+#pragma GCC unroll 9
+      for (int c = 0; c < n; ++c)
+        take(c, load(p + c * n_lanes));
+    });
+  }
+  /// Sets them to give(c).
+  template <int n, class Give>
+  DIPTYCH_INLINE void put_each(std::int64_t b, int first, const Give& give) {
+    data_.visit([&](auto* data) DIPTYCH_INLINE_LAMBDA {
+      auto* p = data + (b * n_components_ + first) * n_lanes;
+#pragma GCC unroll 9
+      for (int c = 0; c < n; ++c)
+        store(p + c * n_lanes, give(c));
+    });
+  }
+
+ private:
+  std::int64_t index(std::int64_t node, int component) const {
+    return (node / n_lanes * n_components_ + component) * n_lanes + node % n_lanes;
+  }
+
   int n_components_ = 0;
-  AlignedArray<double> data_;
+  RealArray data_;
 };
 
 }  // namespace diptych::algebra

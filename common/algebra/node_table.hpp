@@ -15,6 +15,7 @@ enum class Arrangement { rows, runs };
 struct TableShape {
   Arrangement arrangement = Arrangement::rows;
   std::int64_t guard = 0;  ///< runs: nodes that may be read before the first and after the last
+  bool single = false;     ///< values in single precision
 };
 
 class NodeTable {
@@ -26,93 +27,108 @@ class NodeTable {
     const std::int64_t n = n_blocks_of(n_nodes) * n_lanes;
     if (arrangement_ == Arrangement::rows) {
       node_stride_ = row_stride;
-      data_ = AlignedArray<double>(n * row_stride + 4);  // gathers read four doubles at a time
+      data_ = RealArray(n * row_stride + 4, shape.single);  // gathers read four at a time
       return;
     }
     const std::int64_t guard = n_blocks_of(shape.guard) * n_lanes;
     component_stride_ = n + 2 * guard;
     if (component_stride_ / n_lanes % 2 == 0) component_stride_ += n_lanes;  // not all in one set
-    data_ = AlignedArray<double>(component_stride_ * n_components);
+    data_ = RealArray(component_stride_ * n_components, shape.single);
     first_ = guard;
   }
 
   Arrangement arrangement() const { return arrangement_; }
-  bool empty() const { return data_.size() == 0; }
+  bool is_single() const { return data_.is_single(); }
+  bool empty() const { return data_.empty(); }
   std::int64_t bytes() const { return data_.bytes(); }
 
-  double& at(std::int64_t node, int component) {
-    return data_[first_ + node * node_stride_ + component * component_stride_];
+  double at(std::int64_t node, int component) const { return data_.at(index(node, component)); }
+  void set(std::int64_t node, int component, double value) {
+    data_.set(index(node, component), value);
   }
-  double at(std::int64_t node, int component) const {
-    return data_[first_ + node * node_stride_ + component * component_stride_];
+  void add(std::int64_t node, int component, double value) {
+    set(node, component, at(node, component) + value);
   }
-  /// Component 0 of node 0; from here node and component count by their strides.
-  const double* origin() const { return data_.data() + first_; }
-  double* origin() { return data_.data() + first_; }
+  /// Component 0 of node 0, of a table in the precision of Real; from here node and component count
+  /// by their strides.
+  template <class Real>
+  const Real* origin() const {
+    return data_.data<Real>() + first_;
+  }
+  template <class Real>
+  Real* origin() {
+    return data_.data<Real>() + first_;
+  }
   std::int64_t component_stride() const { return component_stride_; }  ///< 1 in rows
+  /// use(the origin), in the precision of the table.
+  template <class Use>
+  DIPTYCH_INLINE void visit(const Use& use) {
+    data_.visit([&](auto* data) DIPTYCH_INLINE_LAMBDA { use(data + first_); });
+  }
 
   /// Component c of the eight nodes of block b.
   DIPTYCH_INLINE Lanes get(std::int64_t b, int c) const {
-    const double* p = origin() + b * n_lanes * node_stride_ + c * component_stride_;
-    if (arrangement_ == Arrangement::runs) return load(p);
     Lanes value;
-    for (int lane = 0; lane < n_lanes; ++lane)
-      value[lane] = p[lane * node_stride_];
+    get_each<1>(b, c, [&](int, const Lanes& v) DIPTYCH_INLINE_LAMBDA { value = v; });
     return value;
   }
-  /// Sets component c of the eight nodes of block b.
   DIPTYCH_INLINE void put(std::int64_t b, int c, const Lanes& value) {
-    double* p = data_.data() + first_ + b * n_lanes * node_stride_ + c * component_stride_;
-    if (arrangement_ == Arrangement::runs) {
-      store(p, value);
-      return;
-    }
-    for (int lane = 0; lane < n_lanes; ++lane)
-      p[lane * node_stride_] = value[lane];
+    put_each<1>(b, c, [&](int) DIPTYCH_INLINE_LAMBDA { return value; });
   }
-  /// take(c, value) for n components from first on of the eight nodes of block b. Asks for the
-  /// arrangement once, so that loops over components unroll.
+  /// take(c, value) for n components from `first` on of the eight nodes of block b. Asks for
+  /// arrangement and precision once, so that loops over components unroll.
   template <int n, class Take>
   DIPTYCH_INLINE void get_each(std::int64_t b, int first, const Take& take) const {
-    const double* p = origin() + b * n_lanes * node_stride_ + first * component_stride_;
-    if (arrangement_ == Arrangement::runs) {
+    data_.visit([&](const auto* data) DIPTYCH_INLINE_LAMBDA {
+      const auto* p = data + offset(b, first);
+      if (arrangement_ == Arrangement::runs) {
 #pragma GCC unroll 9
-      for (int c = 0; c < n; ++c)
-        take(c, load(p + c * component_stride_));
-      return;
-    }
+        for (int c = 0; c < n; ++c)
+          take(c, load(p + c * component_stride_));
+        return;
+      }
 #pragma GCC unroll 9
-    for (int c = 0; c < n; ++c) {
-      Lanes value;
+      for (int c = 0; c < n; ++c) {
+        Lanes value;
 #pragma GCC unroll 8
-      for (int lane = 0; lane < n_lanes; ++lane)
-        value[lane] = p[lane * node_stride_ + c];
-      take(c, value);
-    }
+        for (int lane = 0; lane < n_lanes; ++lane)
+          value[lane] = p[lane * node_stride_ + c];
+        take(c, value);
+      }
+    });
   }
   /// Sets them to give(c).
   template <int n, class Give>
   DIPTYCH_INLINE void put_each(std::int64_t b, int first, const Give& give) {
-    double* p = origin() + b * n_lanes * node_stride_ + first * component_stride_;
-    if (arrangement_ == Arrangement::runs) {
+    data_.visit([&](auto* data) DIPTYCH_INLINE_LAMBDA {
+      auto* p = data + offset(b, first);
+      if (arrangement_ == Arrangement::runs) {
 #pragma GCC unroll 9
-      for (int c = 0; c < n; ++c)
-        store(p + c * component_stride_, give(c));
-      return;
-    }
+        for (int c = 0; c < n; ++c)
+          store(p + c * component_stride_, give(c));
+        return;
+      }
 #pragma GCC unroll 9
-    for (int c = 0; c < n; ++c) {
-      const Lanes value = give(c);
+      for (int c = 0; c < n; ++c) {
+        const Lanes value = give(c);
 #pragma GCC unroll 8
-      for (int lane = 0; lane < n_lanes; ++lane)
-        p[lane * node_stride_ + c] = value[lane];
-    }
+        for (int lane = 0; lane < n_lanes; ++lane)
+          p[lane * node_stride_ + c] = static_cast<std::decay_t<decltype(*p)>>(value[lane]);
+      }
+    });
   }
 
  private:
+  std::int64_t index(std::int64_t node, int component) const {
+    return first_ + node * node_stride_ + component * component_stride_;
+  }
+  DIPTYCH_INLINE std::int64_t offset(std::int64_t b, int c) const {
+    return first_ + b * n_lanes * node_stride_ + c * component_stride_;
+  }
+
   Arrangement arrangement_ = Arrangement::rows;
   std::int64_t node_stride_ = 1, component_stride_ = 1, first_ = 0;
-  AlignedArray<double> data_;
+  RealArray data_;
 };
 
 }  // namespace diptych::algebra

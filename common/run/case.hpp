@@ -113,13 +113,13 @@ struct ReferenceCase {
 
 /// [scheme]
 struct SchemeCase {
-  std::string unknowns = "FHJ";               ///< F, FJ or FHJ
-  std::string reconstruction = "linear";      ///< none or linear
-  std::string limiter = "none";               ///< entry of the limiter menu
-  std::string impedance = "isotropic";        ///< isotropic or exact
-  double dissipation = 1;                     ///< multiplies D_ab, >= 0
-  double face_correction = 0;                 ///< kappa_f of physics note 3.8, 0: none
-  std::string geometry_precision = "double";  ///< of C_ab: double or single
+  std::string unknowns = "FHJ";           ///< F, FJ or FHJ
+  std::string reconstruction = "linear";  ///< none or linear
+  std::string limiter = "none";           ///< entry of the limiter menu
+  std::string impedance = "isotropic";    ///< isotropic or exact
+  double dissipation = 1;                 ///< multiplies D_ab, >= 0
+  double face_correction = 0;             ///< kappa_f of physics note 3.8, 0: none
+  std::string precision = "double";       ///< double, mixed or single: scheme::Precision
   bool angular_momentum_projection = false;
   bool energy_budget = true;
 };

@@ -304,9 +304,10 @@ constexpr std::array key_table{
         "Factor kappa_f of the face correction with its adjoint: 0 none, 1/6 fourth-order first "
         "derivatives on a lattice, 1/8 exact face values of quadratics.",
         "\"1/6\""),
-    choice("scheme.geometry_precision", "\"double\"", "", menus::precisions,
-           "Precision of the pseudo-areas C_ab. single: half the memory and 1e-7 of error, where "
-           "nodes are irregular; no gain on regular lattices, whose geometry is shared.",
+    choice("scheme.precision", "\"double\"", "", menus::precisions,
+           "Precision of what the sweeps keep. mixed: pseudo-areas C_ab in single, half the memory of "
+           "irregular nodes, 1e-7 of error. single: the state and the sums over pairs too; half the "
+           "memory, some 1e-5 of error.",
            "\"single\""),
     key("scheme.angular_momentum_projection", flag, "-", "false", "", any,
         "Correct the forces so that angular momentum is conserved.", "true"),

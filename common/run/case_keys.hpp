@@ -31,7 +31,7 @@ inline constexpr std::array<Name, 2> reconstructions{"none", "linear"};
 inline constexpr std::array<Name, 4> limiters{"none", "barth-jespersen", "venkatakrishnan",
                                               "sign-preserving"};
 inline constexpr std::array<Name, 2> impedances{"isotropic", "exact"};
-inline constexpr std::array<Name, 2> precisions{"double", "single"};
+inline constexpr std::array<Name, 3> precisions{"double", "mixed", "single"};
 inline constexpr std::array<Name, 3> kernels{"cubic-spline", "quintic-spline", "wendland-c2"};
 inline constexpr std::array<Name, 2> stencils{"edge", "integral"};
 inline constexpr std::array<Name, 5> functions{"expression", "zener_mode", "zener_slab",

@@ -282,13 +282,18 @@ SchemeCase read_scheme(const SectionValues& section) {
   scheme.impedance = section.menu_name("impedance");
   scheme.dissipation = section.number("dissipation");
   scheme.face_correction = section.number("face_correction");
-  scheme.geometry_precision = section.menu_name("geometry_precision");
+  scheme.precision = section.menu_name("precision");
   scheme.angular_momentum_projection = section.flag("angular_momentum_projection");
   scheme.energy_budget = section.flag("energy_budget");
   if (scheme.reconstruction == "none" && scheme.limiter != "none") {
     section.fail("limiter", fmt::format("= '{}' has no effect with reconstruction = \"none\"; use "
                                         "limiter = \"none\"",
                                         scheme.limiter));
+  }
+  if (scheme.precision == "single" && scheme.impedance == "exact") {
+    section.fail("precision",
+                 "= \"single\" has no exact impedance; use \"mixed\" or \"double\", or "
+                 "impedance = \"isotropic\"");
   }
   return scheme;
 }

@@ -56,14 +56,17 @@ std::vector<Mat3> discrete_gradients(const scheme::PairGraph& graph,
 template <int Dim>
 void put_deformation(scheme::State<Dim>& state, std::int64_t a, const Mat3& F) {
   const auto X = physics::deformation_of(algebra::to_tensor(F));
+  const auto deviation = [](const auto& T, int k) {
+    return T(k / Dim, k % Dim) - (k % (Dim + 1) == 0 ? 1 : 0);
+  };
   for (int k = 0; k < Dim * Dim; ++k)
-    state.F.at(a, k) = F(k / Dim, k % Dim);
+    state.F.set(a, k, deviation(F, k));
   if (state.unknowns == scheme::Unknowns::FHJ) {
     for (int k = 0; k < Dim * Dim; ++k)
-      state.H(a, k) = X.H(k / Dim, k % Dim);
-    if constexpr (Dim == 2) state.H(a, 4) = X.H(2, 2);
+      state.records.set(a, scheme::NodeRecord<Dim>::H + k, deviation(X.H, k));
+    if constexpr (Dim == 2) state.H_33.set(a, 0, X.H(2, 2) - 1);
   }
-  if (!state.J.empty()) state.J.at(a, 0) = X.J;
+  if (!state.J.empty()) state.J.set(a, 0, X.J - 1);
 }
 
 /// Uniform in [-1, 1), by position in a fixed sequence (splitmix64).
@@ -84,14 +87,13 @@ void put_internal_variables(scheme::State<Dim>& state,
   const auto I = algebra::symmetric_identity<double>();
   const auto A = relaxed ? physics::inverse_C(X) : I;
   const auto S = relaxed ? physics::inverse_G(X) : I;
-  constexpr int order_A[6] = {0, 1, Dim == 3 ? 2 : 3, 3, 4, 5};
-  constexpr int order_S[6] = {0, 1, Dim == 3 ? 2 : 3, Dim == 3 ? 3 : 2, 4, 5};
+  const auto deviation = [](const auto& T, int s) { return s < 3 ? T.s[s] - 1 : T.s[s]; };
   for (int k = 0; k < state.n_branches; ++k) {
     for (int c = 0; c < Layout::n_A; ++c)
-      state.A.at(a, k * Layout::n_A + c) = A.s[order_A[c]];
+      state.A.set(a, k * Layout::n_A + c, deviation(A, algebra::order_of_A<Dim>[c]));
     if (state.S.empty()) continue;
     for (int c = 0; c < Layout::n_S; ++c)
-      state.S.at(a, k * Layout::n_S + c) = S.s[order_S[c]];
+      state.S.set(a, k * Layout::n_S + c, deviation(S, algebra::order_of_S<Dim>[c]));
   }
 }
 
@@ -111,11 +113,9 @@ void set_initial_state(const scheme::PairGraph& graph,
   for (std::int64_t a = 0; a < n; ++a) {
     const Vec3 v = motion ? motion->velocity(graph.X[a], 0) : initial.velocity(graph.X[a], 0);
     for (int i = 0; i < Dim; ++i) {
-      state.u.at(a, i) = u[a][i];
-      state.v.at(a, i) = v[i];
-      if (initial.velocity_noise != 0) {
-        state.v.at(a, i) += initial.velocity_noise * random_number(Dim * a + i);
-      }
+      state.u.set(a, i, u[a][i]);
+      const double noise = initial.velocity_noise;
+      state.v.set(a, i, noise == 0 ? v[i] : v[i] + noise * random_number(Dim * a + i));
     }
     Mat3 F = initial.deformation_gradient ? (*initial.deformation_gradient)(graph.X[a], 0)
                                           : Mat3(Mat3::Identity() + gradients[a]);
@@ -131,10 +131,6 @@ void set_initial_state(const scheme::PairGraph& graph,
     }
     put_deformation(state, a, F);
     put_internal_variables(state, a, F, initial.relaxed);
-  }
-  for (std::int64_t a = n; a < state.n_blocks * n_lanes; ++a) {  // padding: undeformed
-    put_deformation<Dim>(state, a, Mat3::Identity());
-    put_internal_variables<Dim>(state, a, Mat3::Identity(), false);
   }
 }
 

@@ -48,16 +48,17 @@ physics::Deformation<double> deformation_at(const scheme::State<Dim>& state, std
   physics::Deformation<double> X;
   X.F = algebra::identity<double>();
   for (int k = 0; k < Dim * Dim; ++k)
-    X.F(k / Dim, k % Dim) = state.F.at(a, k);
+    X.F(k / Dim, k % Dim) += state.F.at(a, k);
   const auto derived = physics::deformation_of(X.F);
   X.H = derived.H;
   X.J = derived.J;
   if (state.unknowns == scheme::Unknowns::FHJ) {
+    X.H = algebra::identity<double>();
     for (int k = 0; k < Dim * Dim; ++k)
-      X.H(k / Dim, k % Dim) = state.H(a, k);
-    if constexpr (Dim == 2) X.H(2, 2) = state.H(a, 4);
+      X.H(k / Dim, k % Dim) += state.H(a, k);
+    if constexpr (Dim == 2) X.H(2, 2) += state.H(a, 4);
   }
-  if (!state.J.empty()) X.J = state.J.at(a, 0);
+  if (!state.J.empty()) X.J = 1 + state.J.at(a, 0);
   return X;
 }
 
@@ -67,13 +68,11 @@ physics::BranchState<double> branch_at(const scheme::State<Dim>& state, std::int
   using Layout = algebra::Layout<Dim>;
   physics::BranchState<double> branch{algebra::symmetric_identity<double>(),
                                       algebra::symmetric_identity<double>()};
-  constexpr int order_A[6] = {0, 1, Dim == 3 ? 2 : 3, 3, 4, 5};
-  constexpr int order_S[6] = {0, 1, Dim == 3 ? 2 : 3, Dim == 3 ? 3 : 2, 4, 5};
   for (int c = 0; c < Layout::n_A; ++c)
-    branch.A.s[order_A[c]] = state.A.at(a, k * Layout::n_A + c);
+    branch.A.s[algebra::order_of_A<Dim>[c]] += state.A.at(a, k * Layout::n_A + c);
   if (state.S.empty()) return branch;
   for (int c = 0; c < Layout::n_S; ++c)
-    branch.S.s[order_S[c]] = state.S.at(a, k * Layout::n_S + c);
+    branch.S.s[algebra::order_of_S<Dim>[c]] += state.S.at(a, k * Layout::n_S + c);
   return branch;
 }
 

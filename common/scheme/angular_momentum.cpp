@@ -78,7 +78,7 @@ double project_angular_momentum(State<Dim>& state,
   for_nodes([&](std::int64_t a, std::int64_t) {
     const Vec3 change = lambda.cross(position(state, X_centred, a) - centre);
     for (int i = 0; i < Dim; ++i)
-      state.v.at(a, i) += change[i];
+      state.v.add(a, i, change[i]);
   });
   return gain;
 }

@@ -7,21 +7,36 @@
 
 namespace diptych::scheme {
 
+template <InstructionSet isa, class Real, int Dim, DissipationKind kind, bool has_H>
+DIPTYCH_INLINE void forces_in(const MomentumSweep<Dim>& sweep,
+                              std::int64_t begin,
+                              std::int64_t end,
+                              std::int64_t chunk) {
+  double power = 0, rate = 0;
+  if (sweep.graph.shape.arrangement == Arrangement::runs) {
+    for (std::int64_t b = begin; b < end;)
+      power += add_forces_of_next<Real, Dim, kind, has_H>(sweep, b, end);
+  } else {
+    for (std::int64_t b = begin; b < end; ++b)
+      power += forces_on_block<isa, Real, Dim, kind, has_H>(sweep, b, rate);
+  }
+  sweep.numerical_power[chunk] = power;
+  sweep.largest_rate[chunk] = rate;
+}
+
+/// In the precision of the state.
 template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
 DIPTYCH_INLINE void forces_on_blocks(const MomentumSweep<Dim>& sweep,
                                      std::int64_t begin,
                                      std::int64_t end,
                                      std::int64_t chunk) {
-  double power = 0, rate = 0;
-  if (sweep.graph.shape.arrangement == Arrangement::runs) {
-    for (std::int64_t b = begin; b < end;)
-      power += add_forces_of_next<isa, Dim, kind, has_H>(sweep, b, end);
-  } else {
-    for (std::int64_t b = begin; b < end; ++b)
-      power += forces_on_block<isa, Dim, kind, has_H>(sweep, b, rate);
+  if constexpr (has_single_precision(kind)) {
+    if (sweep.state.shape.single) {
+      forces_in<isa, float, Dim, kind, has_H>(sweep, begin, end, chunk);
+      return;
+    }
   }
-  sweep.numerical_power[chunk] = power;
-  sweep.largest_rate[chunk] = rate;
+  forces_in<isa, double, Dim, kind, has_H>(sweep, begin, end, chunk);
 }
 
 template <int Dim, DissipationKind kind, bool has_H>

@@ -36,19 +36,25 @@ struct DissipationKind {
   Impedance impedance = Impedance::isotropic;
 };
 
+/// Whether it is compiled for states in single precision: the square root of the acoustic tensor
+/// is not.
+constexpr bool has_single_precision(const DissipationKind& kind) {
+  return kind.impedance == Impedance::isotropic;
+}
+
 /// Z of isotropic form applied to a jump: z_s jump + (z_p - z_s) h (h . jump)/(h . h).
-template <int Dim>
-DIPTYCH_INLINE Vector<Lanes> isotropic_impedance_times(const Lanes& z_p,
-                                                       const Lanes& z_s,
-                                                       const Vector<Lanes>& h,
-                                                       const Vector<Lanes>& jump) {
-  Lanes h_jump{}, h_h{};
+template <int Dim, class T>
+DIPTYCH_INLINE Vector<T> isotropic_impedance_times(const T& z_p,
+                                                   const T& z_s,
+                                                   const Vector<T>& h,
+                                                   const Vector<T>& jump) {
+  T h_jump{}, h_h{};
   for (int i = 0; i < Dim; ++i) {
     h_jump += h[i] * jump[i];
     h_h += h[i] * h[i];
   }
-  const Lanes along = (z_p - z_s) * h_jump * algebra::inverse_or_zero(h_h);
-  Vector<Lanes> D{};
+  const T along = (z_p - z_s) * h_jump * algebra::inverse_or_zero(h_h);
+  Vector<T> D{};
   for (int i = 0; i < Dim; ++i)
     D[i] = z_s * jump[i] + along * h[i];
   return D;

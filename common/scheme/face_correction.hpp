@@ -20,35 +20,59 @@ enum class Side { rates, stress };
 
 /// sum_b [(Q_a - Q_b) x] (x) y over the pairs of a unit, row-major, lane by lane.
 /// @param tensors  Q: uncorrected dF/dt, or P
-template <InstructionSet isa, Arrangement arrangement, Side side, int Dim>
+template <InstructionSet isa, Arrangement arrangement, class Real, Side side, int Dim>
 DIPTYCH_INLINE void sum_correction(const SweepGraph<Dim>& graph,
                                    const NodeTable& tensors,
                                    std::int64_t unit,
-                                   Lanes (&sum)[Dim * Dim]) {
+                                   Lanes (&total)[Dim * Dim]) {
+  using T = algebra::Pack<Real>;
+  T sum[Dim * Dim] = {};
   const std::int64_t begin = graph.row[unit], end = graph.row[unit + 1];
   FaceCursor<Dim> geometry(graph, graph.first[unit]);
   for (std::int64_t chunk = begin; chunk < end; ++chunk) {
-    Lanes S_ab[Dim];
+    T S_ab[Dim];
     geometry.next(S_ab);
-    const auto Q =
-        pairs_of<isa, arrangement, Dim * Dim, tensor_stride<Dim>>(graph, tensors, unit, chunk);
-    const auto X = vector_pairs_of<isa, arrangement>(graph, graph.X, unit, chunk);
-    Lanes x[Dim], y[Dim];
+    const auto Q = pairs_of<isa, arrangement, Real, Dim * Dim, tensor_stride<Dim>>(graph, tensors,
+                                                                                   unit, chunk);
+    const auto X = vector_pairs_of<isa, arrangement, Real>(graph, graph.X, unit, chunk);
+    T x[Dim], y[Dim];
 #pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i) {
-      const Lanes X_ab = X.neighbour(i) - X.own(i);
+      const T X_ab = X.neighbour(i) - X.own(i);
       x[i] = side == Side::rates ? X_ab : S_ab[i];
       y[i] = side == Side::rates ? S_ab[i] : X_ab;
     }
 #pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i) {
-      Lanes w{};
+      T w{};
 #pragma GCC unroll 3
       for (int j = 0; j < Dim; ++j)
         w += (Q.own(i * Dim + j) - Q.neighbour(i * Dim + j)) * x[j];
 #pragma GCC unroll 3
       for (int j = 0; j < Dim; ++j)
         sum[i * Dim + j] += w * y[j];
+    }
+  }
+#pragma GCC unroll 9
+  for (int k = 0; k < Dim * Dim; ++k)
+    total[k] = algebra::widened(sum[k]);
+}
+
+/// Of the eight nodes of block b.
+template <InstructionSet isa, class Real, Side side, int Dim>
+DIPTYCH_INLINE void sum_correction_of_block(const SweepGraph<Dim>& graph,
+                                            const NodeTable& tensors,
+                                            std::int64_t b,
+                                            Lanes (&sum)[Dim * Dim]) {
+  if (graph.shape.arrangement == Arrangement::runs) {
+    sum_correction<isa, Arrangement::runs, Real, side>(graph, tensors, b, sum);
+  } else {
+    for (int lane = 0; lane < n_lanes; ++lane) {
+      Lanes of_node[Dim * Dim];
+      sum_correction<isa, Arrangement::rows, Real, side>(graph, tensors, b * n_lanes + lane,
+                                                         of_node);
+      for (int k = 0; k < Dim * Dim; ++k)
+        sum[k][lane] = algebra::lane_sum(of_node[k]);
     }
   }
 }
@@ -60,20 +84,16 @@ DIPTYCH_INLINE void corrected_block(const SweepGraph<Dim>& graph,
                                     double kappa_f,
                                     std::int64_t b,
                                     Lanes (&corrected)[Dim * Dim]) {
-  Lanes sum[Dim * Dim] = {};
-  if (graph.shape.arrangement == Arrangement::runs) {
-    sum_correction<isa, Arrangement::runs, side>(graph, tensors, b, sum);
+  Lanes sum[Dim * Dim];
+  if (tensors.is_single()) {
+    sum_correction_of_block<isa, float, side>(graph, tensors, b, sum);
   } else {
-    for (int lane = 0; lane < n_lanes; ++lane) {
-      Lanes of_node[Dim * Dim] = {};
-      sum_correction<isa, Arrangement::rows, side>(graph, tensors, b * n_lanes + lane, of_node);
-      for (int k = 0; k < Dim * Dim; ++k)
-        sum[k][lane] = algebra::lane_sum(of_node[k]);
-    }
+    sum_correction_of_block<isa, double, side>(graph, tensors, b, sum);
   }
   const Lanes scale = kappa_f * algebra::load(graph.inverse_Omega.data() + b * n_lanes);
-  for (int k = 0; k < Dim * Dim; ++k)
-    corrected[k] = tensors.get(b, k) + scale * sum[k];
+  tensors.get_each<Dim * Dim>(b, 0, [&](int k, const Lanes& Q) DIPTYCH_INLINE_LAMBDA {
+    corrected[k] = Q + scale * sum[k];
+  });
 }
 
 /// Records of the nodes of blocks [begin, end): P <- P' from state.stresses.

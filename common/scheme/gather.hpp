@@ -13,6 +13,7 @@ namespace diptych::scheme {
 using algebra::InstructionSet;
 using algebra::Lanes;
 using algebra::n_lanes;
+using algebra::SingleLanes;
 
 using algebra::HalfLanes;
 
@@ -38,7 +39,37 @@ DIPTYCH_INLINE void transpose_half(const HalfLanes (&row)[4], HalfLanes (&column
   column[3] = __builtin_shufflevector(t1, t3, 2, 3, 6, 7);
 }
 
-/// Components c..c+3 of eight rows into r[0..3].
+using QuadSingles = float __attribute__((vector_size(4 * sizeof(float))));
+
+DIPTYCH_INLINE QuadSingles load_four(const float* p) {
+  QuadSingles r;
+  __builtin_memcpy(&r, p, sizeof r);
+  return r;
+}
+
+/// Rows a and b of singles, four components each.
+DIPTYCH_INLINE SingleLanes joined_rows(const float* a, const float* b) {
+  return __builtin_shufflevector(load_four(a), load_four(b), 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+/// Components c..c+3 of eight rows into r[0..3], of singles: rows k and k+4 share a register.
+template <InstructionSet isa>
+DIPTYCH_INLINE void gather_four(const float* const* row, int c, SingleLanes* r) {
+  const SingleLanes r0 = joined_rows(row[0] + c, row[4] + c);
+  const SingleLanes r1 = joined_rows(row[1] + c, row[5] + c);
+  const SingleLanes r2 = joined_rows(row[2] + c, row[6] + c);
+  const SingleLanes r3 = joined_rows(row[3] + c, row[7] + c);
+  const SingleLanes t0 = __builtin_shufflevector(r0, r1, 0, 8, 1, 9, 4, 12, 5, 13);
+  const SingleLanes t1 = __builtin_shufflevector(r0, r1, 2, 10, 3, 11, 6, 14, 7, 15);
+  const SingleLanes t2 = __builtin_shufflevector(r2, r3, 0, 8, 1, 9, 4, 12, 5, 13);
+  const SingleLanes t3 = __builtin_shufflevector(r2, r3, 2, 10, 3, 11, 6, 14, 7, 15);
+  r[0] = __builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13);
+  r[1] = __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15);
+  r[2] = __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13);
+  r[3] = __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+/// Of doubles.
 template <InstructionSet isa>
 DIPTYCH_INLINE void gather_four(const double* const* row, int c, Lanes* r) {
   if constexpr (isa == InstructionSet::avx512) {
@@ -69,8 +100,8 @@ DIPTYCH_INLINE void gather_four(const double* const* row, int c, Lanes* r) {
 
 /// The first n components of eight rows; n is rounded up to a multiple of four, which rows must
 /// hold.
-template <InstructionSet isa, int n>
-DIPTYCH_INLINE void gather(const double* const* row, Lanes* r) {
+template <InstructionSet isa, int n, class Real>
+DIPTYCH_INLINE void gather(const Real* const* row, algebra::Pack<Real>* r) {
 #pragma GCC unroll 16
   for (int c = 0; c < n; c += 4)
     gather_four<isa>(row, c, r + c);

@@ -44,11 +44,11 @@ void work_segment(const MomentumSweep<Dim>& sweep,
 
 template <int Dim>
 void clear_sums(State<Dim>& state, std::int64_t begin, std::int64_t end) {
-  algebra::NodeTable& sums = state.T;
-  for (int c = 0; c <= Dim; ++c) {
-    double* component = sums.origin() + c * sums.component_stride();
-    std::fill(component + begin * n_lanes, component + end * n_lanes, 0.0);
-  }
+  const std::int64_t stride = state.T.component_stride();
+  state.T.visit([&](auto* sums) {
+    for (int c = 0; c <= Dim; ++c)
+      std::fill(sums + c * stride + begin * n_lanes, sums + c * stride + end * n_lanes, 0);
+  });
 }
 
 /// Runs: T from the sums of [begin, end), and the largest rate of each chunk.

@@ -6,16 +6,17 @@
 namespace diptych::scheme {
 
 /// sums[0..7] += value
-DIPTYCH_INLINE void add_to(double* sums, const Lanes& value) {
-  algebra::store(sums, algebra::load(sums) + value);
+template <class Real>
+DIPTYCH_INLINE void add_to(Real* sums, const algebra::Pack<Real>& value) {
+  algebra::store(sums, algebra::load_as<algebra::Pack<Real>>(sums) + value);
 }
 
 /// Runs: a block whose pairs with nodes above it are being worked.
-template <int Dim>
+template <int Dim, class T>
 struct WorkedBlock {
   std::int64_t b = 0, chunk = 0;
   typename GeometryArray<MutualGeometry, Dim>::Cursor geometry;
-  NodeSums<Dim> sums;
+  NodeSums<Dim, T> sums;
   DIPTYCH_INLINE void begin(const MutualPairs<Dim>& mutual, std::int64_t block) {
     b = block;
     chunk = mutual.row[block];
@@ -24,38 +25,39 @@ struct WorkedBlock {
 };
 
 /// Forces of the next n chunks of a block, added to its sums and taken from those of the others.
-template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
+template <class Real, int Dim, DissipationKind kind, bool has_H>
 DIPTYCH_INLINE void work_chunks(const MomentumSweep<Dim>& sweep,
                                 std::int64_t n,
-                                WorkedBlock<Dim>& block) {
+                                WorkedBlock<Dim, algebra::Pack<Real>>& block) {
+  using T = algebra::Pack<Real>;
   using Record = NodeRecord<Dim>;
   const SweepGraph<Dim>& graph = sweep.graph;
   const std::int64_t stride = sweep.state.T.component_stride();
-  double* const own_sums = sweep.state.T.origin() + block.b * n_lanes;
-  NodeSums<Dim> sums = block.sums;
+  Real* const own_sums = sweep.state.T.template origin<Real>() + block.b * n_lanes;
+  NodeSums<Dim, T> sums = block.sums;
   auto geometry = block.geometry;
   const std::int64_t end = block.chunk + n;
   for (std::int64_t chunk = block.chunk; chunk < end; ++chunk) {
     const std::int64_t offset = graph.mutual.offset.data()[chunk];
-    const RunPairs pairs(sweep.state.records, block.b, offset);
-    const RunPairs positions(graph.X, block.b, offset);
-    PairFace<Dim> face;
-    Vector<Lanes> C_ab{}, C_ba{};
+    const RunPairs<Real> pairs(sweep.state.records, block.b, offset);
+    const RunPairs<Real> positions(graph.X, block.b, offset);
+    PairFace<Dim, T> face;
+    Vector<T> C_ab{}, C_ba{};
     geometry.next([&](const auto& of_chunk) DIPTYCH_INLINE_LAMBDA {
-      face.area = algebra::load(of_chunk.area);
+      face.area = algebra::load_as<T>(of_chunk.area);
       for (int i = 0; i < Dim; ++i) {
-        C_ab[i] = algebra::load(of_chunk.C_ab[i]);
-        C_ba[i] = algebra::load(of_chunk.C_ba[i]);
+        C_ab[i] = algebra::load_as<T>(of_chunk.C_ab[i]);
+        C_ba[i] = algebra::load_as<T>(of_chunk.C_ba[i]);
       }
     });
     for (int i = 0; i < Dim; ++i)
       face.S[i] = C_ab[i] - C_ba[i];
-    const Vector<Lanes> plain = plain_jump<Dim>(RunPairs(sweep.state.v, block.b, offset), 0);
-    const Vector<Lanes> D = dissipation_of<Dim, kind, has_H>(sweep, face, pairs, positions, plain);
-    double* const their_sums = own_sums + offset;
+    const Vector<T> plain = plain_jump<Dim>(RunPairs<Real>(sweep.state.v, block.b, offset), 0);
+    const Vector<T> D = dissipation_of<Dim, kind, has_H>(sweep, face, pairs, positions, plain);
+    Real* const their_sums = own_sums + offset;
 #pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i) {
-      Lanes force = D[i];
+      T force = D[i];
 #pragma GCC unroll 3
       for (int j = 0; j < Dim; ++j) {
         const int ij = Record::P + i * Dim + j;
@@ -63,12 +65,12 @@ DIPTYCH_INLINE void work_chunks(const MomentumSweep<Dim>& sweep,
         force -= pairs.neighbour(ij) * C_ba[j];
       }
       sums.force[i] += force;
-      add_to(their_sums + i * stride, -force);
+      add_to<Real>(their_sums + i * stride, -force);
       sums.power += plain[i] * D[i];
     }
     if (sweep.with_bound) {
-      sums.rate += rate_of<Dim>(C_ab, pairs);
-      add_to(their_sums + Dim * stride, rate_of<Dim>(C_ba, pairs));
+      sums.rate += rate_of<Dim, T>(C_ab, pairs);
+      add_to<Real>(their_sums + Dim * stride, rate_of<Dim, T>(C_ba, pairs));
     }
   }
   block.sums = sums;
@@ -108,7 +110,7 @@ DIPTYCH_INLINE bool same_offsets(const MutualPairs<Dim>& mutual, std::int64_t b)
 /// of blocks together whose pairs are at the same offsets, since their neighbours share cache
 /// lines.
 /// @return their numerical dissipation [W]; moves b on
-template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
+template <class Real, int Dim, DissipationKind kind, bool has_H>
 DIPTYCH_INLINE double add_forces_of_next(const MomentumSweep<Dim>& sweep,
                                          std::int64_t& b,
                                          std::int64_t end) {
@@ -121,32 +123,32 @@ DIPTYCH_INLINE double add_forces_of_next(const MomentumSweep<Dim>& sweep,
          same_offsets(mutual, b + n_blocks - 1))
     ++n_blocks;
   const std::int64_t last = mutual.row[b + 1];
-  WorkedBlock<Dim> blocks[most_blocks_together];
+  WorkedBlock<Dim, algebra::Pack<Real>> blocks[most_blocks_together];
   for (int k = 0; k < n_blocks; ++k)
     blocks[k].begin(mutual, b + k);
   for (std::int64_t c = blocks[0].chunk; c < last; ++c) {
     const std::int64_t offset = mutual.offset.data()[c];
     if (c + 1 < last && mutual.offset.data()[c + 1] - offset < far_apart) continue;
     for (int k = 0; k < n_blocks; ++k) {
-      prefetch_ahead<Record::n(exact)>(sweep.state.records, b + k, offset);
-      prefetch_ahead<Dim>(sweep.state.v, b + k, offset);
-      prefetch_ahead<Dim>(graph.X, b + k, offset);
+      prefetch_ahead<Real, Record::n(exact)>(sweep.state.records, b + k, offset);
+      prefetch_ahead<Real, Dim>(sweep.state.v, b + k, offset);
+      prefetch_ahead<Real, Dim>(graph.X, b + k, offset);
     }
   }
   while (blocks[0].chunk < last) {
     const std::int64_t n = consecutive_offsets(mutual, blocks[0].chunk, last);
     for (int k = 0; k < n_blocks; ++k)
-      work_chunks<isa, Dim, kind, has_H>(sweep, n, blocks[k]);
+      work_chunks<Real, Dim, kind, has_H>(sweep, n, blocks[k]);
   }
   double power = 0;
   const std::int64_t stride = sweep.state.T.component_stride();
   for (int k = 0; k < n_blocks; ++k) {
-    const NodeSums<Dim>& sums = blocks[k].sums;
-    double* const own_sums = sweep.state.T.origin() + (b + k) * n_lanes;
+    const auto& sums = blocks[k].sums;
+    Real* const own_sums = sweep.state.T.template origin<Real>() + (b + k) * n_lanes;
     for (int i = 0; i < Dim; ++i)
-      add_to(own_sums + i * stride, sums.force[i]);
-    if (sweep.with_bound) add_to(own_sums + Dim * stride, sums.rate);
-    power += 0.5 * algebra::lane_sum(sums.power);
+      add_to<Real>(own_sums + i * stride, sums.force[i]);
+    if (sweep.with_bound) add_to<Real>(own_sums + Dim * stride, sums.rate);
+    power += 0.5 * algebra::lane_sum(algebra::widened(sums.power));
   }
   b += n_blocks;
   return power;

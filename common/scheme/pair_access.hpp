@@ -12,50 +12,53 @@ namespace diptych::scheme {
 using algebra::NodeTable;
 
 /// Eight neighbours of one node, gathered.
-template <InstructionSet isa, int n, int stride>
+template <InstructionSet isa, class Real, int n, int stride>
 class GatheredPairs {
  public:
+  using T = algebra::Pack<Real>;
   template <int Dim>
   DIPTYCH_INLINE GatheredPairs(const SweepGraph<Dim>& graph,
                                const NodeTable& table,
                                std::int64_t a,
                                std::int64_t chunk)
-      : own_(table.origin() + a * stride) {
-    const double* row[n_lanes];
+      : own_(table.origin<Real>() + a * stride) {
+    const Real* row[n_lanes];
     for (int l = 0; l < n_lanes; ++l) {
-      row[l] = table.origin() +
+      row[l] = table.origin<Real>() +
                static_cast<std::int64_t>(graph.neighbours.data()[chunk].node[l]) * stride;
     }
     gather<isa, n>(row, values_);
   }
-  DIPTYCH_INLINE Lanes neighbour(int c) const { return values_[c]; }
-  DIPTYCH_INLINE double own(int c) const { return own_[c]; }
+  DIPTYCH_INLINE T neighbour(int c) const { return values_[c]; }
+  DIPTYCH_INLINE Real own(int c) const { return own_[c]; }
 
  private:
-  Lanes values_[(n + 3) / 4 * 4];
-  const double* own_;
+  T values_[(n + 3) / 4 * 4];
+  const Real* own_;
 };
 
 /// A neighbour of each of eight nodes, side by side.
+template <class Real>
 class RunPairs {
  public:
+  using T = algebra::Pack<Real>;
   DIPTYCH_INLINE RunPairs(const NodeTable& table, std::int64_t b, std::int64_t offset)
-      : own_(table.origin() + b * n_lanes),
+      : own_(table.origin<Real>() + b * n_lanes),
         neighbour_(own_ + offset),
         stride_(table.component_stride()) {}
-  DIPTYCH_INLINE Lanes neighbour(int c) const { return algebra::load(neighbour_ + c * stride_); }
-  DIPTYCH_INLINE Lanes own(int c) const { return algebra::load(own_ + c * stride_); }
+  DIPTYCH_INLINE T neighbour(int c) const { return algebra::load_as<T>(neighbour_ + c * stride_); }
+  DIPTYCH_INLINE T own(int c) const { return algebra::load_as<T>(own_ + c * stride_); }
 
  private:
-  const double *own_, *neighbour_;
+  const Real *own_, *neighbour_;
   std::int64_t stride_;
 };
 
 /// Asks for n components of what the next blocks will be the first to read: the run farthest ahead.
 /// The processor does not follow as many streams as there are components.
-template <int n>
+template <class Real, int n>
 DIPTYCH_INLINE void prefetch_ahead(const NodeTable& table, std::int64_t b, std::int64_t offset) {
-  const double* ahead = table.origin() + (b + 4) * n_lanes + offset;
+  const Real* ahead = table.origin<Real>() + (b + 4) * n_lanes + offset;
 #pragma GCC unroll 8
   for (int c = 0; c < n; ++c)
     __builtin_prefetch(ahead + c * table.component_stride(), 0, 2);
@@ -63,34 +66,36 @@ DIPTYCH_INLINE void prefetch_ahead(const NodeTable& table, std::int64_t b, std::
 
 /// Asks, for writing, for n components of a block that will be written soon.
 template <int n>
-DIPTYCH_INLINE void prefetch_to_write(const NodeTable& table, std::int64_t b) {
-  const double* ahead = table.origin() + (b + 4) * n_lanes;
+DIPTYCH_INLINE void prefetch_to_write(NodeTable& table, std::int64_t b) {
+  table.visit([&](const auto* origin) DIPTYCH_INLINE_LAMBDA {
+    const auto* ahead = origin + (b + 4) * n_lanes;
 #pragma GCC unroll 8
-  for (int c = 0; c < n; ++c)
-    __builtin_prefetch(ahead + c * table.component_stride(), 1, 2);
+    for (int c = 0; c < n; ++c)
+      __builtin_prefetch(ahead + c * table.component_stride(), 1, 2);
+  });
 }
 
 /// @tparam n       components that are read
 /// @tparam stride  of the rows of the table
-template <InstructionSet isa, Arrangement arrangement, int n, int stride, int Dim>
+template <InstructionSet isa, Arrangement arrangement, class Real, int n, int stride, int Dim>
 DIPTYCH_INLINE auto pairs_of(const SweepGraph<Dim>& graph,
                              const NodeTable& table,
                              std::int64_t unit,
                              std::int64_t chunk) {
   if constexpr (arrangement == Arrangement::rows) {
-    return GatheredPairs<isa, n, stride>(graph, table, unit, chunk);
+    return GatheredPairs<isa, Real, n, stride>(graph, table, unit, chunk);
   } else {
-    return RunPairs(table, unit, graph.offset.data()[chunk]);
+    return RunPairs<Real>(table, unit, graph.offset.data()[chunk]);
   }
 }
 
 /// The same of a table of vectors.
-template <InstructionSet isa, Arrangement arrangement, int Dim>
+template <InstructionSet isa, Arrangement arrangement, class Real, int Dim>
 DIPTYCH_INLINE auto vector_pairs_of(const SweepGraph<Dim>& graph,
                                     const NodeTable& table,
                                     std::int64_t unit,
                                     std::int64_t chunk) {
-  return pairs_of<isa, arrangement, Dim, vector_stride<Dim>>(graph, table, unit, chunk);
+  return pairs_of<isa, arrangement, Real, Dim, vector_stride<Dim>>(graph, table, unit, chunk);
 }
 
 }  // namespace diptych::scheme

@@ -9,12 +9,12 @@
 
 namespace diptych::scheme {
 
-/// Sums of a node over its pairs.
-template <int Dim>
+/// Sums of a node over its pairs. T, here and below: eight doubles or singles.
+template <int Dim, class T>
 struct NodeSums {
-  Lanes force[Dim] = {};  ///< 2 T; in rows without P_a sum C_ab
-  Lanes power{};          ///< sum (v_b - v_a) . |S| Z jump
-  Lanes rate{};           ///< sum |C_ab| z_ab
+  T force[Dim] = {};  ///< 2 T; in rows without P_a sum C_ab
+  T power{};          ///< sum (v_b - v_a) . |S| Z jump
+  T rate{};           ///< sum |C_ab| z_ab
 };
 
 /// Mean response of the pair from the records of its nodes, for the exact impedance.
@@ -29,43 +29,48 @@ DIPTYCH_INLINE void mean_state(const Pairs& pairs,
   X.H = Tensor<Lanes>{};
   for (int i = 0; i < Dim; ++i) {
     for (int j = 0; j < Dim; ++j) {
-      X.F(i, j) = mean(Record::F + i * Dim + j);
-      X.H(i, j) = mean(Record::H + i * Dim + j);
+      const double one = i == j ? 1 : 0;
+      X.F(i, j) = mean(Record::F + i * Dim + j) + one;
+      X.H(i, j) = mean(Record::H + i * Dim + j) + one;
     }
   }
   if constexpr (Dim == 2) X.F(2, 2) = Lanes{} + 1.0;
-  constexpr int order_A[6] = {0, 1, Dim == 3 ? 2 : 3, 3, 4, 5};
-  constexpr int order_S[6] = {0, 1, Dim == 3 ? 2 : 3, Dim == 3 ? 3 : 2, 4, 5};
   r.A_tot = SymmetricTensor<Lanes>{};
   r.S_tot = SymmetricTensor<Lanes>{};
   for (int k = 0; k < algebra::Layout<Dim>::n_A; ++k)
-    r.A_tot.s[order_A[k]] = mean(Record::A_tot + k);
+    r.A_tot.s[algebra::order_of_A<Dim>[k]] = mean(Record::A_tot + k);
   for (int k = 0; k < algebra::Layout<Dim>::n_S; ++k)
-    r.S_tot.s[order_S[k]] = mean(Record::S_tot + k);
+    r.S_tot.s[algebra::order_of_S<Dim>[k]] = mean(Record::S_tot + k);
   r.W_JJ = mean(Record::W_JJ);
   r.W_FJ = mean(Record::W_FJ);
 }
 
+/// A number as T has them: vectors of singles take no doubles.
+template <class T>
+DIPTYCH_INLINE auto scalar(double value) {
+  return static_cast<std::decay_t<decltype(T{}[0])>>(value);
+}
+
 /// L X_ab of both nodes, or only their sum where the limiter needs no more.
-template <int Dim>
+template <int Dim, class T>
 struct Slopes {
-  Vector<Lanes> sum{}, a{}, b{};
+  Vector<T> sum{}, a{}, b{};
 };
 
 /// v_b^rec - v_a^rec, limited.  @param h  along the normal of the pair in space
-template <int Dim, PairLimiter limiter>
-DIPTYCH_INLINE Vector<Lanes> reconstructed_jump(const Vector<Lanes>& plain,
-                                                const Slopes<Dim>& slopes,
-                                                const Vector<Lanes>& h) {
-  Vector<Lanes> jump{};
+template <int Dim, PairLimiter limiter, class T>
+DIPTYCH_INLINE Vector<T> reconstructed_jump(const Vector<T>& plain,
+                                            const Slopes<Dim, T>& slopes,
+                                            const Vector<T>& h) {
+  Vector<T> jump{};
   for (int i = 0; i < Dim; ++i)
     jump[i] = plain[i] - 0.5 * slopes.sum[i];
   if constexpr (limiter == PairLimiter::none) return jump;
-  Lanes h_h{};
+  T h_h{};
   for (int i = 0; i < Dim; ++i)
     h_h += h[i] * h[i];
-  const Lanes inverse = algebra::inverse_or_zero(algebra::square_root(h_h));
-  Vector<Lanes> n{};
+  const T inverse = algebra::inverse_or_zero(algebra::square_root(h_h));
+  Vector<T> n{};
   for (int i = 0; i < Dim; ++i)
     n[i] = h[i] * inverse;
   if constexpr (limiter == PairLimiter::sign_preserving) limit_sign_preserving<Dim>(jump, plain, n);
@@ -77,33 +82,34 @@ DIPTYCH_INLINE Vector<Lanes> reconstructed_jump(const Vector<Lanes>& plain,
 }
 
 /// What the dissipation of eight pairs needs of their geometry; the length of S is free.
-template <int Dim>
+template <int Dim, class T>
 struct PairFace {
-  Vector<Lanes> S{};  ///< along S_ab
-  Lanes area;         ///< m^2, |S_ab|
+  Vector<T> S{};  ///< along S_ab
+  T area;         ///< m^2, |S_ab|
 };
 
 /// 2 D_ab of eight pairs.
 /// @param pairs      of the records
 /// @param positions  pairs of X
 /// @param plain      v_b - v_a
-template <int Dim, DissipationKind kind, bool has_H, class Pairs, class Positions>
-DIPTYCH_INLINE Vector<Lanes> dissipation_of(const MomentumSweep<Dim>& sweep,
-                                            const PairFace<Dim>& face,
-                                            const Pairs& pairs,
-                                            const Positions& positions,
-                                            const Vector<Lanes>& plain) {
+template <int Dim, DissipationKind kind, bool has_H, class Pairs, class Positions, class T>
+DIPTYCH_INLINE Vector<T> dissipation_of(const MomentumSweep<Dim>& sweep,
+                                        const PairFace<Dim, T>& face,
+                                        const Pairs& pairs,
+                                        const Positions& positions,
+                                        const Vector<T>& plain) {
   using Record = NodeRecord<Dim>;
-  Vector<Lanes> h{};
-  Slopes<Dim> slopes;
+  Vector<T> h{};
+  Slopes<Dim, T> slopes;
 #pragma GCC unroll 3
   for (int i = 0; i < Dim; ++i) {
+    h[i] = face.S[i] + face.S[i];  // records hold H - I
 #pragma GCC unroll 3
     for (int j = 0; j < Dim; ++j) {
       const int ij = i * Dim + j;
       h[i] += (pairs.neighbour(Record::H + ij) + pairs.own(Record::H + ij)) * face.S[j];
       if constexpr (kind.reconstruction == Reconstruction::linear) {
-        const Lanes X = positions.neighbour(j) - positions.own(j);
+        const T X = positions.neighbour(j) - positions.own(j);
         if constexpr (limits_slopes(kind.limiter)) {
           slopes.a[i] += pairs.own(Record::L + ij) * X;
           slopes.b[i] += pairs.neighbour(Record::L + ij) * X;
@@ -113,10 +119,10 @@ DIPTYCH_INLINE Vector<Lanes> dissipation_of(const MomentumSweep<Dim>& sweep,
       }
     }
   }
-  const Vector<Lanes> jump = reconstructed_jump<Dim, kind.limiter>(plain, slopes, h);
-  Vector<Lanes> D{};
+  const Vector<T> jump = reconstructed_jump<Dim, kind.limiter>(plain, slopes, h);
+  Vector<T> D{};
   if constexpr (kind.impedance == Impedance::isotropic) {
-    D = isotropic_impedance_times<Dim>(
+    D = isotropic_impedance_times<Dim, T>(
         0.5 * (pairs.neighbour(Record::z_p) + pairs.own(Record::z_p)),
         0.5 * (pairs.neighbour(Record::z_s) + pairs.own(Record::z_s)), h, jump);
   } else {
@@ -135,26 +141,26 @@ DIPTYCH_INLINE Vector<Lanes> dissipation_of(const MomentumSweep<Dim>& sweep,
     D = algebra::product(physics::impedance<has_H>(response, X, sweep.rho_R, N), jump);
   }
   for (int i = 0; i < Dim; ++i)
-    D[i] *= sweep.factor * face.area;
+    D[i] *= scalar<T>(sweep.factor) * face.area;
   return D;
 }
 
 /// |C| max(z_p,a, z_p,b) of eight pairs.
-template <int Dim, class Pairs>
-DIPTYCH_INLINE Lanes rate_of(const Vector<Lanes>& C, const Pairs& pairs) {
+template <int Dim, class T, class Pairs>
+DIPTYCH_INLINE T rate_of(const Vector<T>& C, const Pairs& pairs) {
   using Record = NodeRecord<Dim>;
-  Lanes C2{};
+  T C2{};
   for (int i = 0; i < Dim; ++i)
     C2 += C[i] * C[i];
   return algebra::square_root(C2) *
-         algebra::larger(pairs.neighbour(Record::z_p), Lanes{} + pairs.own(Record::z_p));
+         algebra::larger(pairs.neighbour(Record::z_p), T{} + pairs.own(Record::z_p));
 }
 
 /// v_b - v_a of eight pairs.
 /// @param pairs  with v from component c
 template <int Dim, class Pairs>
-DIPTYCH_INLINE Vector<Lanes> plain_jump(const Pairs& pairs, int c) {
-  Vector<Lanes> plain{};
+DIPTYCH_INLINE Vector<typename Pairs::T> plain_jump(const Pairs& pairs, int c) {
+  Vector<typename Pairs::T> plain{};
   for (int i = 0; i < Dim; ++i)
     plain[i] = pairs.neighbour(c + i) - pairs.own(c + i);
   return plain;

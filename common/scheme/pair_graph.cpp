@@ -120,6 +120,19 @@ double closure_error(const PairGraph& graph, std::int64_t a) {
   return (closure - graph.boundary_area[a]).norm() / std::pow(graph.Omega[a], (d - 1) / d);
 }
 
+/// Sweeps in single precision square areas, and slivers are much smaller than the largest.
+void check_range(const PairGraph& graph) {
+  constexpr double least = 1e-13, most = 1e13;
+  double largest = 0;
+  for (const Vec3& C : graph.C)
+    largest = std::max(largest, C.norm());
+  if (largest > least && largest < most) return;
+  refuse(fmt::format(
+      "faces of {:.3g} m^{} are out of the range of scheme.precision = \"single\" ({:g} "
+      "to {:g}): use \"mixed\" or \"double\", or other units of length",
+      largest, graph.dimension - 1, least, most));
+}
+
 }  // namespace
 
 GraphQuality quality(const PairGraph& graph) {
@@ -162,7 +175,10 @@ void validate(const PairGraph& graph) {
     check_patch(graph, patch);
 }
 
-void round_to_single(PairGraph& graph) {
+void set_precision(PairGraph& graph, Precision precision) {
+  graph.precision = precision;
+  if (precision == Precision::full) return;
+  if (precision == Precision::single) check_range(graph);
   const RowClasses classes = classes_of(graph);  // rows of a class must not round apart
   std::vector<Vec3> C(graph.C.size());
   for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
@@ -170,7 +186,6 @@ void round_to_single(PairGraph& graph) {
       C[k] = shared_C(graph, classes, a, k).cast<float>().cast<double>();
   }
   graph.C = std::move(C);
-  graph.single_precision = true;
 }
 
 void link_reverse_pairs(PairGraph& graph) {

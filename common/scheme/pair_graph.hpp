@@ -25,6 +25,13 @@ struct BoundaryPatch {
   std::vector<Vec3> area;  ///< [nodes] m^2 (m per unit thickness in 2-D): int_patch N_a N dA
 };
 
+/// Of what sweeps read and write; set-up is always in double precision.
+enum class Precision {
+  full,   ///< all in double
+  mixed,  ///< C_ab in single, all else in double
+  single  ///< C_ab and the state in single; sums over pairs in single, pointwise physics in double
+};
+
 struct PairGraph {
   int dimension = 3;
   std::vector<Vec3> X;                 ///< [n_nodes] m, reference positions
@@ -38,7 +45,7 @@ struct PairGraph {
   std::vector<Vec3> C;                ///< [n_pairs] m^2, C_ab of the directed pair (a,b)
   /// Where the factory knows them, which takes that rows stand in their common order; else empty.
   RowClasses classes;
-  bool single_precision = false;  ///< every C_ab is a single-precision number: see round_to_single
+  Precision precision = Precision::full;  ///< see set_precision
 
   std::int64_t n_nodes() const { return static_cast<std::int64_t>(X.size()); }
   std::int64_t n_pairs() const { return static_cast<std::int64_t>(neighbour.size()); }
@@ -59,10 +66,11 @@ GraphQuality quality(const PairGraph& graph);
 /// @throws base::InputError that names the node and its place
 void validate(const PairGraph& graph);
 
-/// Rounds every C_ab to single precision, in which sweeps then keep it: for bodies whose geometry
-/// is a stream of memory. Forces of pairs stay exactly opposite and dual to the strain rates;
-/// closure and linear exactness hold to 1e-7.
-void round_to_single(PairGraph& graph);
+/// Below full: rounds every C_ab to single precision, in which sweeps then keep it. Forces of pairs
+/// stay exactly opposite and dual to the strain rates (single: to rounding); closure and linear
+/// exactness hold to 1e-7.
+/// @throws base::InputError where squares of areas leave the range of single precision
+void set_precision(PairGraph& graph, Precision precision);
 
 /// Fills graph.reverse from rows and neighbours (which must be structurally symmetric).
 void link_reverse_pairs(PairGraph& graph);

@@ -9,32 +9,16 @@
 
 namespace diptych::scheme {
 
+using algebra::get_tensor;
 using algebra::Lanes;
 using algebra::n_lanes;
 using algebra::NodeTable;
+using algebra::put_tensor;
 using algebra::SymmetricTensor;
 using algebra::Tensor;
 using physics::BranchState;
 using physics::Deformation;
 using physics::Response;
-
-/// A tensor of block b from components c.. of a table, zero out of plane.
-template <int Dim>
-DIPTYCH_INLINE Tensor<Lanes> get_tensor(const NodeTable& table, std::int64_t b, int c) {
-  Tensor<Lanes> T{};
-  table.get_each<Dim * Dim>(
-      b, c, [&](int k, const Lanes& value) DIPTYCH_INLINE_LAMBDA { T(k / Dim, k % Dim) = value; });
-  return T;
-}
-/// Writes the in-plane part of a tensor of block b to components c.. of a table.
-template <int Dim>
-DIPTYCH_INLINE void put_tensor(NodeTable& table,
-                               std::int64_t b,
-                               int c,
-                               const Tensor<Lanes>& value) {
-  table.put_each<Dim * Dim>(b, c,
-                            [&](int k) DIPTYCH_INLINE_LAMBDA { return value(k / Dim, k % Dim); });
-}
 
 /// dF/dt of block b.
 template <int Dim>
@@ -45,23 +29,22 @@ DIPTYCH_INLINE Tensor<Lanes> velocity_gradient(const State<Dim>& state, std::int
 /// H of block b, where it is evolved.
 template <int Dim>
 DIPTYCH_INLINE void put_H(State<Dim>& state, std::int64_t b, const Tensor<Lanes>& H) {
-  put_tensor<Dim>(state.records, b, NodeRecord<Dim>::H, H);
-  if constexpr (Dim == 2) algebra::store(state.H_33.block(b), H(2, 2));
+  put_tensor<Dim>(state.records, b, NodeRecord<Dim>::H, H, 1);
+  if constexpr (Dim == 2) state.H_33.put(b, 0, H(2, 2) - 1.0);
 }
 
 /// {F, H, J} of a block: evolved where they are unknowns, from F otherwise.
 template <int Dim>
 DIPTYCH_INLINE Deformation<Lanes> load_deformation(const State<Dim>& state, std::int64_t b) {
   Deformation<Lanes> X;
-  X.F = algebra::load_tensor<Dim>(state.F.block(b), 1);
+  X.F = get_tensor<Dim>(state.F, b, 0, 1);
   if (state.unknowns == Unknowns::FHJ) {
-    X.H = get_tensor<Dim>(state.records, b, NodeRecord<Dim>::H);
-    if constexpr (Dim == 2) X.H(2, 2) = algebra::load(state.H_33.block(b));
-    X.J = algebra::load(state.J.block(b));
+    X.H = get_tensor<Dim>(state.records, b, NodeRecord<Dim>::H, 1);
+    if constexpr (Dim == 2) X.H(2, 2) = state.H_33.get(b, 0) + 1.0;
+    X.J = state.J.get(b, 0) + 1.0;
   } else {
     X.H = algebra::cofactor(X.F);
-    X.J = state.unknowns == Unknowns::FJ ? algebra::load(state.J.block(b))
-                                         : algebra::determinant(X.F, X.H);
+    X.J = state.unknowns == Unknowns::FJ ? state.J.get(b, 0) + 1.0 : algebra::determinant(X.F, X.H);
   }
   return X;
 }
@@ -76,7 +59,7 @@ template <int Dim>
 DIPTYCH_INLINE RelaxationDrive linear_drive(const State<Dim>& state,
                                             const physics::RightTensors<Lanes>& now,
                                             std::int64_t b) {
-  const auto begin = physics::right_tensors(algebra::load_tensor<Dim>(state.F_0.block(b), 1));
+  const auto begin = physics::right_tensors(get_tensor<Dim>(state.F_0, b, 0, 1));
   return {begin.inverse_C, now.inverse_C, begin.inverse_G, now.inverse_G};
 }
 
@@ -86,9 +69,9 @@ DIPTYCH_INLINE RelaxationDrive gauss_drive(const State<Dim>& state,
                                            const physics::GaussRelaxation& rule,
                                            double dt,
                                            std::int64_t b) {
-  const Tensor<Lanes> F_0 = algebra::load_tensor<Dim>(state.F_0.block(b), 1);
-  const Tensor<Lanes> F = algebra::load_tensor<Dim>(state.F.block(b), 1);
-  const Tensor<Lanes> L_0 = algebra::load_tensor<Dim>(state.L_0.block(b), 0);
+  const Tensor<Lanes> F_0 = get_tensor<Dim>(state.F_0, b, 0, 1);
+  const Tensor<Lanes> F = get_tensor<Dim>(state.F, b, 0, 1);
+  const Tensor<Lanes> L_0 = get_tensor<Dim>(state.L_0, b, 0);
   const Tensor<Lanes> L = velocity_gradient(state, b);
   const auto at = [&](double theta) DIPTYCH_INLINE_LAMBDA {
     return physics::right_tensors(physics::hermite(theta, dt, F_0, L_0, F, L));
@@ -106,8 +89,8 @@ DIPTYCH_INLINE BranchState<Lanes> relaxed_branch(const State<Dim>& state,
                                                  int k) {
   using Layout = algebra::Layout<Dim>;
   BranchState<Lanes> branch;
-  branch.A = algebra::load_A<Dim>(state.A.block(b) + k * Layout::n_A * n_lanes);
-  branch.S = has_H ? algebra::load_S<Dim>(state.S.block(b) + k * Layout::n_S * n_lanes)
+  branch.A = algebra::get_A<Dim>(state.A, b, k * Layout::n_A);
+  branch.S = has_H ? algebra::get_S<Dim>(state.S, b, k * Layout::n_S)
                    : algebra::symmetric_identity<Lanes>();
   if (relaxation.rule == Relaxation::Rule::linear) {
     branch.A = physics::relaxed(relaxation.linear_C[k], branch.A, linear.C_first, linear.C_second);

@@ -18,26 +18,27 @@ State<Dim>::State(std::int64_t n,
       shape(table_shape) {
   using Layout = algebra::Layout<Dim>;
   for (BlockField* f : {&u, &v_0, &u_0})
-    *f = BlockField(n, Dim);
+    *f = BlockField(n, Dim, shape.single);
   for (BlockField* f : {&F, &F_0})
-    *f = BlockField(n, Layout::n_F);
-  if (keep_L_0) L_0 = BlockField(n, Layout::n_F);
+    *f = BlockField(n, Layout::n_F, shape.single);
+  if (keep_L_0) L_0 = BlockField(n, Layout::n_F, shape.single);
   if (which == Unknowns::FHJ) {
-    H_0 = BlockField(n, Layout::n_H);
-    if (Dim == 2) H_33 = BlockField(n, 1);
+    H_0 = BlockField(n, Layout::n_H, shape.single);
+    if (Dim == 2) H_33 = BlockField(n, 1, shape.single);
   }
   if (which != Unknowns::F) {
     for (BlockField* f : {&J, &J_0})
-      *f = BlockField(n, 1);
+      *f = BlockField(n, 1, shape.single);
   }
   if (branches > 0) {
-    A = BlockField(n, branches * Layout::n_A);
-    if (G) S = BlockField(n, branches * Layout::n_S);
+    A = BlockField(n, branches * Layout::n_A, shape.single);
+    if (G) S = BlockField(n, branches * Layout::n_S, shape.single);
   }
   v = algebra::NodeTable(n, Dim, vector_stride<Dim>, shape);
   using Record = NodeRecord<Dim>;
-  records =
-      algebra::NodeTable(n, Record::n(exact_impedance), Record::stride(exact_impedance), shape);
+  const int stride = shape.single ? Record::template stride<float>(exact_impedance)
+                                  : Record::template stride<double>(exact_impedance);
+  records = algebra::NodeTable(n, Record::n(exact_impedance), stride, shape);
   const bool runs = shape.arrangement == algebra::Arrangement::runs;
   T = algebra::NodeTable(n, runs ? Dim + 1 : Dim, vector_stride<Dim>, shape);
 }

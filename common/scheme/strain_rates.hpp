@@ -40,24 +40,47 @@ using StrainRateFunction = void (*)(const StrainRateSweep<Dim, Material>& sweep,
                                     std::int64_t end,
                                     std::int64_t chunk);
 
-/// sum_b (v_b - v_a) (x) C_ab over the pairs of a unit, lane by lane.
-template <InstructionSet isa, Arrangement arrangement, int Dim>
+/// sum_b (v_b - v_a) (x) C_ab over the pairs of a unit, lane by lane, in the precision Real of v.
+template <InstructionSet isa, Arrangement arrangement, class Real, int Dim>
 DIPTYCH_INLINE void sum_gradients(const SweepGraph<Dim>& graph,
                                   const NodeTable& velocity,
                                   std::int64_t unit,
-                                  Lanes (&sum)[Dim * Dim]) {
+                                  Lanes (&total)[Dim * Dim]) {
+  using T = algebra::Pack<Real>;
+  T sum[Dim * Dim] = {};
   const std::int64_t begin = graph.row[unit], end = graph.row[unit + 1];
   VectorCursor<Dim> geometry(graph.strain, graph.first[unit]);
   for (std::int64_t chunk = begin; chunk < end; ++chunk) {
-    Lanes C_ab[Dim];
+    T C_ab[Dim];
     geometry.next(C_ab);
-    const auto v = vector_pairs_of<isa, arrangement>(graph, velocity, unit, chunk);
+    const auto v = vector_pairs_of<isa, arrangement, Real>(graph, velocity, unit, chunk);
 #pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i) {
-      const Lanes jump = v.neighbour(i) - v.own(i);
+      const T jump = v.neighbour(i) - v.own(i);
 #pragma GCC unroll 3
       for (int j = 0; j < Dim; ++j)
         sum[i * Dim + j] += jump * C_ab[j];
+    }
+  }
+#pragma GCC unroll 9
+  for (int k = 0; k < Dim * Dim; ++k)
+    total[k] = algebra::widened(sum[k]);
+}
+
+/// Of the eight nodes of block b.
+template <InstructionSet isa, class Real, int Dim>
+DIPTYCH_INLINE void sum_gradients_of_block(const SweepGraph<Dim>& graph,
+                                           const NodeTable& velocity,
+                                           std::int64_t b,
+                                           Lanes (&L)[Dim * Dim]) {
+  if (graph.shape.arrangement == Arrangement::runs) {
+    sum_gradients<isa, Arrangement::runs, Real>(graph, velocity, b, L);
+  } else {
+    for (int lane = 0; lane < n_lanes; ++lane) {
+      Lanes sum[Dim * Dim];
+      sum_gradients<isa, Arrangement::rows, Real>(graph, velocity, b * n_lanes + lane, sum);
+      for (int k = 0; k < Dim * Dim; ++k)
+        L[k][lane] = algebra::lane_sum(sum[k]);
     }
   }
 }
@@ -68,18 +91,10 @@ DIPTYCH_INLINE void strain_rates_of_block(const SweepGraph<Dim>& graph,
                                           const State<Dim>& state,
                                           std::int64_t b,
                                           Lanes (&L)[Dim * Dim]) {
-#pragma GCC unroll 9
-  for (int k = 0; k < Dim * Dim; ++k)
-    L[k] = Lanes{};
-  if (graph.shape.arrangement == Arrangement::runs) {
-    sum_gradients<isa, Arrangement::runs>(graph, state.v, b, L);
+  if (state.shape.single) {
+    sum_gradients_of_block<isa, float>(graph, state.v, b, L);
   } else {
-    for (int lane = 0; lane < n_lanes; ++lane) {
-      Lanes sum[Dim * Dim] = {};
-      sum_gradients<isa, Arrangement::rows>(graph, state.v, b * n_lanes + lane, sum);
-      for (int k = 0; k < Dim * Dim; ++k)
-        L[k][lane] = algebra::lane_sum(sum[k]);
-    }
+    sum_gradients_of_block<isa, double>(graph, state.v, b, L);
   }
   const Lanes scale = 0.5 * algebra::load(graph.inverse_Omega.data() + b * n_lanes);
 #pragma GCC unroll 9
@@ -105,16 +120,14 @@ DIPTYCH_INLINE void write_records(State<Dim>& state,
   } else {
     put_tensor<Dim>(state.records, b, Record::P, P);
   }
-  if (state.unknowns != Unknowns::FHJ) put_tensor<Dim>(state.records, b, Record::H, X.H);
+  if (state.unknowns != Unknowns::FHJ) put_tensor<Dim>(state.records, b, Record::H, X.H, 1);
   if (!exact_impedance) return;
-  put_tensor<Dim>(state.records, b, Record::F, X.F);
-  constexpr int order_A[6] = {0, 1, Dim == 3 ? 2 : 3, 3, 4, 5};
+  put_tensor<Dim>(state.records, b, Record::F, X.F, 1);
   for (int k = 0; k < algebra::Layout<Dim>::n_A; ++k) {
-    state.records.put(b, Record::A_tot + k, response.A_tot.s[order_A[k]]);
+    state.records.put(b, Record::A_tot + k, response.A_tot.s[algebra::order_of_A<Dim>[k]]);
   }
-  constexpr int order_S[6] = {0, 1, Dim == 3 ? 2 : 3, Dim == 3 ? 3 : 2, 4, 5};
   for (int k = 0; k < algebra::Layout<Dim>::n_S; ++k) {
-    state.records.put(b, Record::S_tot + k, response.S_tot.s[order_S[k]]);
+    state.records.put(b, Record::S_tot + k, response.S_tot.s[algebra::order_of_S<Dim>[k]]);
   }
   state.records.put(b, Record::W_JJ, response.W_JJ);
   state.records.put(b, Record::W_FJ, response.W_FJ);
@@ -154,9 +167,9 @@ DIPTYCH_INLINE double evaluate_block(const StrainRateSweep<Dim, Material>& sweep
           dissipation += physics::branch_dissipation<has_H>(sweep.model.branches[k], branch, now);
         }
         if (!sweep.relaxation.commit) return;
-        algebra::store_A<Dim>(state.A.block(b) + k * Layout::n_A * n_lanes, branch.A);
+        algebra::put_A<Dim>(state.A, b, k * Layout::n_A, branch.A);
         if constexpr (has_H) {
-          algebra::store_S<Dim>(state.S.block(b) + k * Layout::n_S * n_lanes, branch.S);
+          algebra::put_S<Dim>(state.S, b, k * Layout::n_S, branch.S);
         }
       });
   const Tensor<Lanes> P = physics::piola_stress<has_H>(response, X);

@@ -198,7 +198,8 @@ void set_directed(const PairGraph& graph,
                   const Layouts& layouts,
                   const EqualGroups& alike,
                   SweepGraph<Dim>& sweep) {
-  const bool rows = sweep.shape.arrangement == Arrangement::rows, single = graph.single_precision;
+  const bool rows = sweep.shape.arrangement == Arrangement::rows,
+             single = graph.precision != Precision::full;
   const auto allocate = [&](std::int64_t n) {
     sweep.strain = GeometryArray<PairVectors, Dim>(n, single);
     sweep.force = GeometryArray<PairVectors, Dim>(rows ? n : 0, single);
@@ -230,7 +231,7 @@ void set_mutual(const PairGraph& graph,
   mutual.segment = segment_of(sweep.n_blocks, runs.reach);
   mutual.first = algebra::AlignedArray<std::int64_t>(sweep.n_blocks);
   const auto allocate = [&](std::int64_t n) {
-    mutual.geometry = GeometryArray<MutualGeometry, Dim>(n, graph.single_precision);
+    mutual.geometry = GeometryArray<MutualGeometry, Dim>(n, graph.precision != Precision::full);
   };
   const auto set = [&](std::int64_t chunk, int lane, const Vec3& C_ab, const Vec3& C_ba) {
     mutual.geometry.change(chunk, [&](auto& geometry) {
@@ -248,12 +249,12 @@ void set_nodes(const PairGraph& graph, const RowClasses& classes, SweepGraph<Dim
     sweep.Omega[a] = graph.Omega[a];
     sweep.inverse_Omega[a] = 1 / graph.Omega[a];
     for (int i = 0; i < Dim; ++i)
-      sweep.X.at(a, i) = graph.X[a][i];
+      sweep.X.set(a, i, graph.X[a][i]);
     if (sweep.C_sum.empty()) continue;
     for (std::int64_t k = 0; k < graph.row[a + 1] - graph.row[a]; ++k) {
       const Vec3& C = shared_C(graph, classes, a, classes.pair(graph.row[a], k));
       for (int i = 0; i < Dim; ++i)
-        sweep.C_sum.at(a, i) += C[i];
+        sweep.C_sum.set(a, i, sweep.C_sum.at(a, i) + C[i]);
     }
   }
 }
@@ -283,7 +284,8 @@ void set_runs(const PairGraph& graph,
               const RowClasses& classes,
               const PairRuns& runs,
               SweepGraph<Dim>& sweep) {
-  sweep.shape = {Arrangement::runs, runs.reach + n_lanes};
+  sweep.shape.arrangement = Arrangement::runs;
+  sweep.shape.guard = runs.reach + n_lanes;
   copy(runs.row, sweep.row);
   copy(runs.offset, sweep.offset);
   sweep.first = algebra::AlignedArray<std::int64_t>(sweep.n_blocks);
@@ -314,6 +316,7 @@ SweepGraph<Dim>::SweepGraph(const PairGraph& graph, Arrangement arrangement, con
       inverse_Omega(n_blocks * n_lanes),
       Omega(n_blocks * n_lanes),
       C_sum(arrangement == Arrangement::rows ? graph.n_nodes() : 0, Dim) {
+  shape.single = graph.precision == Precision::single;
   const RowClasses classes = classes_of(graph);
   if (arrangement == Arrangement::runs) {
     set_runs(graph, classes, runs, *this);

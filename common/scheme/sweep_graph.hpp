@@ -14,7 +14,7 @@
 /// sweep 44 in rows and 26 in runs, where it works each pair once; 4 where all is shared. What only
 /// scales the dissipation (|S_ab|; in rows S_ab too) is kept in single precision: S_ba = -S_ab
 /// holds exactly, and the jump that it multiplies is exact, so no identity is touched. A graph
-/// whose C_ab are single-precision numbers (round_to_single) has them kept so: 16 and 32 bytes in
+/// whose C_ab are single-precision numbers (set_precision) has them kept so: 16 and 32 bytes in
 /// rows, 16 and 14 in runs.
 
 #include "common/algebra/node_table.hpp"
@@ -159,10 +159,11 @@ struct SweepGraph {
   SweepGraph(const PairGraph& graph, Arrangement arrangement, const PairRuns& runs);
 };
 
-template <int Dim, class Real>
-DIPTYCH_INLINE void load_vectors(const PairVectors<Dim, Real>& from, algebra::Lanes (&to)[Dim]) {
+/// As T: eight doubles or singles.
+template <int Dim, class Real, class T>
+DIPTYCH_INLINE void load_vectors(const PairVectors<Dim, Real>& from, T (&to)[Dim]) {
   for (int i = 0; i < Dim; ++i)
-    to[i] = algebra::load(from.component[i]);
+    to[i] = algebra::load_as<T>(from.component[i]);
 }
 
 /// C_ab or C_ba of consecutive chunks.
@@ -171,7 +172,8 @@ class VectorCursor {
  public:
   DIPTYCH_INLINE VectorCursor(const GeometryArray<PairVectors, Dim>& array, std::int64_t chunk)
       : cursor_(array, chunk) {}
-  DIPTYCH_INLINE void next(algebra::Lanes (&C)[Dim]) {
+  template <class T>
+  DIPTYCH_INLINE void next(T (&C)[Dim]) {
     cursor_.next([&](const auto& vectors) DIPTYCH_INLINE_LAMBDA { load_vectors(vectors, C); });
   }
 
@@ -188,16 +190,18 @@ class FaceCursor {
         is_stored_(graph.face.size() > 0),
         strain_(graph.strain, chunk),
         force_(graph.force, chunk) {}
-  DIPTYCH_INLINE void next(algebra::Lanes (&S_ab)[Dim]) {
+  template <class T>
+  DIPTYCH_INLINE void next(T (&S_ab)[Dim]) {
     if (is_stored_) {
       next_stored(S_ab);
     } else {
-      algebra::Lanes C_ba[Dim];
+      T C_ba[Dim];
       next(S_ab, C_ba);
     }
   }
   /// Rows: C_ba too.
-  DIPTYCH_INLINE void next(algebra::Lanes (&S_ab)[Dim], algebra::Lanes (&C_ba)[Dim]) {
+  template <class T>
+  DIPTYCH_INLINE void next(T (&S_ab)[Dim], T (&C_ba)[Dim]) {
     force_.next(C_ba);
     if (is_stored_) {
       next_stored(S_ab);
@@ -209,7 +213,8 @@ class FaceCursor {
   }
 
  private:
-  DIPTYCH_INLINE void next_stored(algebra::Lanes (&S_ab)[Dim]) {
+  template <class T>
+  DIPTYCH_INLINE void next_stored(T (&S_ab)[Dim]) {
     prefetch(face_ + chunks_ahead);
     load_vectors(*face_++, S_ab);
   }

@@ -12,11 +12,15 @@ DIPTYCH_CLONES void update_motion(State<Dim>& state,
   for (std::int64_t b = begin; b < end; ++b) {
     const Lanes inverse_mass =
         (1 / rho_R) * algebra::load(graph.inverse_Omega.data() + b * n_lanes);
-    for (int i = 0; i < Dim; ++i) {
-      const Lanes v = state.v.get(b, i);
-      combine(state.u, state.u_0, stage, b, i, v);
-      state.v.put(b, i, combined(v, state.v_0, stage, b, i, inverse_mass * state.T.get(b, i)));
-    }
+    Lanes v[Dim], T[Dim];
+    state.v.template get_each<Dim>(
+        b, 0, [&](int i, const Lanes& value) DIPTYCH_INLINE_LAMBDA { v[i] = value; });
+    state.T.template get_each<Dim>(
+        b, 0, [&](int i, const Lanes& value) DIPTYCH_INLINE_LAMBDA { T[i] = value; });
+    combine<Dim>(state.u, 0, state.u_0, 0, stage, b,
+                 [&](int i) DIPTYCH_INLINE_LAMBDA { return v[i]; });
+    combine<Dim>(state.v, 0, state.v_0, 0, stage, b,
+                 [&](int i) DIPTYCH_INLINE_LAMBDA { return inverse_mass * T[i]; });
   }
 }
 
@@ -33,10 +37,7 @@ DIPTYCH_CLONES void kick(State<Dim>& state,
     for (int i = 0; i < Dim; ++i)
       state.v.put(b, i, state.v.get(b, i) + scale * state.T.get(b, i));
     if (!keep_F) continue;
-    for (int k = 0; k < Dim * Dim; ++k) {
-      algebra::store(state.F_0.block(b) + k * n_lanes,
-                     algebra::load(state.F.block(b) + k * n_lanes));
-    }
+    put_tensor<Dim>(state.F_0, b, 0, get_tensor<Dim>(state.F, b, 0));
   }
 }
 

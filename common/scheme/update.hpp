@@ -24,30 +24,37 @@ void update_motion(State<Dim>& state,
                    std::int64_t begin,
                    std::int64_t end);
 
-/// alpha q_0 + beta (q + dt rate), component k of block b, as q_0 + beta (q - q_0 + dt rate): what
-/// does not change stays the same to the last bit, and momentum gathers no rounding.
-DIPTYCH_INLINE Lanes combined(const Lanes& q,
-                              algebra::BlockField& q_0,
-                              const StageCombination& stage,
-                              std::int64_t b,
-                              int k,
-                              const Lanes& rate) {
-  double* old = q_0.block(b) + k * n_lanes;
-  if (stage.first) algebra::store(old, q);
-  const Lanes base = stage.first ? q : algebra::load(old);
-  const Lanes change = stage.dt * rate;
-  return stage.alpha == 0 ? q + change : base + stage.beta * ((q - base) + change);
-}
-
-/// q <- that.
-DIPTYCH_INLINE void combine(algebra::BlockField& q,
+/// q <- alpha q_0 + beta (q + dt rate), components c.. of q and c_0.. of q_0 of block b, as
+/// q_0 + beta (q - q_0 + dt rate): what does not change stays the same to the last bit, and
+/// momentum gathers no rounding.
+/// @param rate  of component k < n: rate(k)
+template <int n, class Field, class Rate>
+DIPTYCH_INLINE void combine(Field& q,
+                            int c,
                             algebra::BlockField& q_0,
+                            int c_0,
                             const StageCombination& stage,
                             std::int64_t b,
-                            int k,
-                            const Lanes& rate) {
-  double* now = q.block(b) + k * n_lanes;
-  algebra::store(now, combined(algebra::load(now), q_0, stage, b, k, rate));
+                            const Rate& rate) {
+  Lanes now[n], base[n];
+  q.template get_each<n>(b, c,
+                         [&](int k, const Lanes& value) DIPTYCH_INLINE_LAMBDA { now[k] = value; });
+  if (stage.first) {
+    q_0.put_each<n>(b, c_0, [&](int k) DIPTYCH_INLINE_LAMBDA { return now[k]; });
+#pragma GCC unroll 9
+    for (int k = 0; k < n; ++k)
+      base[k] = now[k];
+  } else {
+    q_0.get_each<n>(b, c_0,
+                    [&](int k, const Lanes& value) DIPTYCH_INLINE_LAMBDA { base[k] = value; });
+  }
+#pragma GCC unroll 9
+  for (int k = 0; k < n; ++k) {
+    const Lanes change = stage.dt * rate(k);
+    now[k] =
+        stage.alpha == 0 ? now[k] + change : base[k] + stage.beta * ((now[k] - base[k]) + change);
+  }
+  q.template put_each<n>(b, c, [&](int k) DIPTYCH_INLINE_LAMBDA { return now[k]; });
 }
 
 /// F, H, J of a stage by the L of its beginning. Part of the strain-rate sweep, which needs them
@@ -59,24 +66,21 @@ DIPTYCH_INLINE void update_deformation_of_block(State<Dim>& state,
   const Tensor<Lanes> L = velocity_gradient(state, b);
   if (state.unknowns != Unknowns::F) {
     const Deformation<Lanes> X = load_deformation(state, b);
-    combine(state.J, state.J_0, stage, b, 0, algebra::contract(X.H, L));
+    combine<1>(state.J, 0, state.J_0, 0, stage, b,
+               [&](int) DIPTYCH_INLINE_LAMBDA { return algebra::contract(X.H, L); });
     if (state.unknowns == Unknowns::FHJ) {
       const Tensor<Lanes> rate = algebra::cross(X.F, L);
-      Tensor<Lanes> H{};
-#pragma GCC unroll 9
-      for (int k = 0; k < algebra::Layout<Dim>::n_H; ++k) {
-        const int i = Dim == 2 && k == 4 ? 2 : k / Dim, j = Dim == 2 && k == 4 ? 2 : k % Dim;
-        H(i, j) = combined(X.H(i, j), state.H_0, stage, b, k, rate(i, j));
+      combine<Dim * Dim>(state.records, NodeRecord<Dim>::H, state.H_0, 0, stage, b,
+                         [&](int k) DIPTYCH_INLINE_LAMBDA { return rate(k / Dim, k % Dim); });
+      if constexpr (Dim == 2) {
+        combine<1>(state.H_33, 0, state.H_0, 4, stage, b,
+                   [&](int) DIPTYCH_INLINE_LAMBDA { return rate(2, 2); });
       }
-      put_H(state, b, H);
     }
   }
-#pragma GCC unroll 9
-  for (int k = 0; k < Dim * Dim; ++k) {
-    const Lanes rate = L(k / Dim, k % Dim);
-    if (stage.first && !state.L_0.empty()) algebra::store(state.L_0.block(b) + k * n_lanes, rate);
-    combine(state.F, state.F_0, stage, b, k, rate);
-  }
+  if (stage.first && !state.L_0.empty()) put_tensor<Dim>(state.L_0, b, 0, L);
+  combine<Dim * Dim>(state.F, 0, state.F_0, 0, stage, b,
+                     [&](int k) DIPTYCH_INLINE_LAMBDA { return L(k / Dim, k % Dim); });
 }
 
 /// v <- v + dt T/(rho_R Omega); keeps F_0 <- F where keep_F is set (start of a step with branches).
@@ -93,24 +97,18 @@ void kick(State<Dim>& state,
 /// quadratic and J a cubic polynomial in time when L is constant.
 template <int Dim>
 DIPTYCH_INLINE void drift_block(State<Dim>& state, double dt, std::int64_t b) {
-  for (int i = 0; i < Dim; ++i) {
-    double* u = state.u.block(b) + i * n_lanes;
-    algebra::store(u, algebra::load(u) + dt * state.v.get(b, i));
-  }
+  for (int i = 0; i < Dim; ++i)
+    state.u.put(b, i, state.u.get(b, i) + dt * state.v.get(b, i));
   const Tensor<Lanes> L = velocity_gradient(state, b);
   if (state.unknowns != Unknowns::F) {
     const Deformation<Lanes> X = load_deformation(state, b);
     const Tensor<Lanes> H_middle = X.H + algebra::cross(X.F + (0.25 * dt) * L, (0.5 * dt) * L);
     const Tensor<Lanes> H_end = X.H + algebra::cross(X.F + (0.5 * dt) * L, dt * L);
     const Tensor<Lanes> H_mean = (1.0 / 6.0) * (X.H + 4.0 * H_middle + H_end);
-    algebra::store(state.J.block(b), X.J + dt * algebra::contract(H_mean, L));
+    state.J.put(b, 0, state.J.get(b, 0) + dt * algebra::contract(H_mean, L));
     if (state.unknowns == Unknowns::FHJ) put_H(state, b, H_end);
   }
-#pragma GCC unroll 9
-  for (int k = 0; k < Dim * Dim; ++k) {
-    double* F = state.F.block(b) + k * n_lanes;
-    algebra::store(F, algebra::load(F) + dt * L(k / Dim, k % Dim));
-  }
+  put_tensor<Dim>(state.F, b, 0, get_tensor<Dim>(state.F, b, 0) + dt * L);
 }
 
 }  // namespace diptych::scheme

@@ -162,10 +162,10 @@ class LoadedBody {
       Tensor<Lanes> F{};
       for (int k = 0; k < 9; ++k)
         F(k / 3, k % 3) = lanes(0.2) + (k % 4 == 0 ? 1.0 : 0.0);
-      algebra::store_tensor<Dim>(state_.F.block(b), F);
-      const auto X = physics::deformation_of(algebra::load_tensor<Dim>(state_.F.block(b), 1));
+      algebra::put_tensor<Dim>(state_.F, b, 0, F, 1);
+      const auto X = physics::deformation_of(algebra::get_tensor<Dim>(state_.F, b, 0, 1));
       scheme::put_H(state_, b, X.H);
-      algebra::store(state_.J.block(b), X.J);
+      state_.J.put(b, 0, X.J - 1.0);
       for (int i = 0; i < Dim; ++i)
         state_.v.put(b, i, lanes(1));
       for (int k = 0; k < state_.n_branches; ++k) {
@@ -174,8 +174,8 @@ class LoadedBody {
           A.s[i] += lanes(0.2);
           S.s[i] += lanes(0.2);
         }
-        algebra::store_A<Dim>(state_.A.block(b) + k * Layout::n_A * n_lanes, A);
-        algebra::store_S<Dim>(state_.S.block(b) + k * Layout::n_S * n_lanes, S);
+        algebra::put_A<Dim>(state_.A, b, k * Layout::n_A, A);
+        algebra::put_S<Dim>(state_.S, b, k * Layout::n_S, S);
       }
     }
   }
@@ -227,8 +227,8 @@ class LoadedBody {
       Dual W = model_.material.energy(moving);
       for (int k = 0; k < state_.n_branches; ++k) {
         const auto& branch = model_.branches[k];
-        const auto A = algebra::load_A<Dim>(state_.A.block(b) + k * Layout::n_A * n_lanes);
-        const auto S = algebra::load_S<Dim>(state_.S.block(b) + k * Layout::n_S * n_lanes);
+        const auto A = algebra::get_A<Dim>(state_.A, b, k * Layout::n_A);
+        const auto S = algebra::get_S<Dim>(state_.S, b, k * Layout::n_S);
         const physics::BranchState<Dual> relaxing{
             dual(A, (1 / branch.tau_C) * (physics::inverse_C(X) + (-1.0) * A)),
             dual(S, (1 / branch.tau_G) * (physics::inverse_G(X) + (-1.0) * S))};

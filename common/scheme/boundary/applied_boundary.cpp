@@ -211,7 +211,7 @@ Impulse AppliedBoundary::overwrite(State<Dim>& state, double rho_R) const {
       Vec3 after = c.keep * before;
       if (has_velocities_) after += target_[k];
       for (int i = 0; i < Dim; ++i)
-        state.v.at(c.node, i) = after[i];
+        state.v.set(c.node, i, after[i]);
       if constexpr (Dim == 2) after[2] = 0;
       const Vec3 impulse = rho_R * c.Omega * (after - before);
       const Vec3 x = X_[c.node] + vector_at<Dim>(state.u, c.node);
@@ -250,7 +250,7 @@ void AppliedBoundary::evaluate_loads(const State<Dim>& state, double t) {
       if (placed.condition->needs_H()) {
         algebra::Tensor<double> F = algebra::identity<double>();
         for (int ij = 0; ij < Dim * Dim; ++ij)
-          F(ij / Dim, ij % Dim) = state.F.at(a, ij);
+          F(ij / Dim, ij % Dim) += state.F.at(a, ij);
         node.H = algebra::to_eigen(algebra::cofactor(F));
       }
       forces_[slot_of_node_[a]] += placed.condition->force(node, t);
@@ -266,7 +266,7 @@ LoadRates AppliedBoundary::add_loads(State<Dim>& state, double t) {
   for (size_t k = 0; k < loaded_nodes_.size(); ++k) {
     const std::int32_t a = loaded_nodes_[k];
     for (int i = 0; i < Dim; ++i)
-      state.T.at(a, i) += forces_[k][i];
+      state.T.add(a, i, forces_[k][i]);
     rates.power += forces_[k].dot(vector_at<Dim>(state.v, a));
     rates.force += forces_[k];
     rates.torque += (X_[a] + vector_at<Dim>(state.u, a)).cross(forces_[k]);

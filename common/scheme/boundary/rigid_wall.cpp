@@ -50,7 +50,7 @@ double WallContacts::stop(const WallNode& w,
   const Vec3 v = vector_at<Dim>(state.v, a);
   const Vec3 change = -v.dot(w.wall.normal) * w.push;
   for (int i = 0; i < Dim; ++i)
-    state.v.at(a, i) = v[i] + change[i];
+    state.v.set(a, i, v[i] + change[i]);
   const Vec3 impulse = rho_R * w.body.Omega * change;
   const Vec3 x = w.body.X_centred + vector_at<Dim>(state.u, a);
   action.impulse.linear += impulse;

@@ -9,12 +9,12 @@ namespace diptych::scheme {
 
 struct BarthJespersen {
   /// @param  forward, backward  jumps to both sides; the mean slope is half of their sum
-  DIPTYCH_INLINE static algebra::Lanes factor(const algebra::Lanes& forward,
-                                              const algebra::Lanes& backward) {
-    const algebra::Lanes f = algebra::magnitude(forward), b = algebra::magnitude(backward);
-    const algebra::Lanes y = algebra::ratio_or_zero(4.0 * algebra::smaller(f, b), f + b);
-    const algebra::Lanes phi = algebra::smaller(y, algebra::Lanes{} + 1.0);
-    return (forward > 0) == (backward > 0) ? phi : algebra::Lanes{};
+  template <class T>
+  DIPTYCH_INLINE static T factor(const T& forward, const T& backward) {
+    const T f = algebra::magnitude(forward), b = algebra::magnitude(backward);
+    const T y = algebra::ratio_or_zero<T>(4.0 * algebra::smaller(f, b), f + b);
+    const T phi = algebra::smaller(y, T{} + 1.0F);
+    return (forward > 0) == (backward > 0) ? phi : T{};
   }
 };
 

@@ -10,31 +10,29 @@
 
 namespace diptych::scheme {
 
-using algebra::Lanes;
 using algebra::Vector;
 
-template <int Dim>
-DIPTYCH_INLINE void limit_sign_preserving(Vector<Lanes>& jump,
-                                          const Vector<Lanes>& plain,
-                                          const Vector<Lanes>& n) {
-  const Lanes zero{}, one = zero + 1.0;
-  Lanes jump_n{}, plain_n{};
+template <int Dim, class T>
+DIPTYCH_INLINE void limit_sign_preserving(Vector<T>& jump,
+                                          const Vector<T>& plain,
+                                          const Vector<T>& n) {
+  const T zero{}, one = zero + 1.0F;
+  T jump_n{}, plain_n{};
   for (int i = 0; i < Dim; ++i) {
     jump_n += jump[i] * n[i];
     plain_n += plain[i] * n[i];
   }
-  Lanes along{}, plain_2{};
-  Vector<Lanes> plain_t{};
+  T along{}, plain_2{};
+  Vector<T> plain_t{};
   for (int i = 0; i < Dim; ++i) {
     plain_t[i] = plain[i] - plain_n * n[i];
     along += (jump[i] - jump_n * n[i]) * plain_t[i];
     plain_2 += plain_t[i] * plain_t[i];
   }
-  const Lanes magnitude_n =
-      algebra::smaller(algebra::magnitude(jump_n), algebra::magnitude(plain_n));
-  const Lanes limited_n = jump_n * plain_n > 0 ? (plain_n > 0 ? magnitude_n : -magnitude_n) : zero;
-  const Lanes share = algebra::smaller(along * algebra::inverse_or_zero(plain_2), one);
-  const Lanes share_t = along > 0 ? share : zero;
+  const T magnitude_n = algebra::smaller(algebra::magnitude(jump_n), algebra::magnitude(plain_n));
+  const T limited_n = jump_n * plain_n > 0 ? (plain_n > 0 ? magnitude_n : -magnitude_n) : zero;
+  const T share = algebra::smaller(along * algebra::inverse_or_zero(plain_2), one);
+  const T share_t = along > 0 ? share : zero;
   for (int i = 0; i < Dim; ++i)
     jump[i] = limited_n * n[i] + share_t * plain_t[i];
 }

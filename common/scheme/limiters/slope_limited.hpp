@@ -24,7 +24,6 @@
 
 namespace diptych::scheme {
 
-using algebra::Lanes;
 using algebra::Vector;
 
 /// Of D_ab where a slope limiter is fully at work, against an unlimited pair.
@@ -33,18 +32,18 @@ inline constexpr double largest_strength = 3;
 /// One direction of a pair: reconstructed jump over the plain one, times the strength.
 /// @param  plain     forward jump D of this direction
 /// @param  l_a, l_b  L X_ab of both nodes in this direction
-template <class Slope>
+template <class Slope, class T>
 struct LimitedDirection {
-  Lanes phi_a, phi_b;  ///< factors of the two slopes, 0..1
-  Lanes strength;      ///< 1..largest_strength, 0 where the two sides would cross
+  T phi_a, phi_b;  ///< factors of the two slopes, 0..1
+  T strength;      ///< 1..largest_strength, 0 where the two sides would cross
 
-  DIPTYCH_INLINE LimitedDirection(const Lanes& plain, const Lanes& l_a, const Lanes& l_b)
+  DIPTYCH_INLINE LimitedDirection(const T& plain, const T& l_a, const T& l_b)
       : phi_a(Slope::factor(plain, 2.0 * l_a - plain)),
         phi_b(Slope::factor(plain, 2.0 * l_b - plain)) {
-    const Lanes one = Lanes{} + 1.0;
-    const Lanes jump = plain - 0.5 * (phi_a * l_a + phi_b * l_b);
-    const Lanes limited = one - algebra::smaller(phi_a, phi_b);
-    strength = jump * plain > 0 ? one + (largest_strength - 1) * limited : Lanes{};
+    const T one = T{} + 1.0F;
+    const T jump = plain - 0.5 * (phi_a * l_a + phi_b * l_b);
+    const T limited = one - algebra::smaller(phi_a, phi_b);
+    strength = jump * plain > 0 ? one + static_cast<float>(largest_strength - 1) * limited : T{};
   }
 };
 
@@ -52,34 +51,33 @@ struct LimitedDirection {
 /// @param  plain     v_b - v_a  [m/s]
 /// @param  l_a, l_b  L_a X_ab, L_b X_ab  [m/s]
 /// @param  n         unit normal of the pair in space
-template <class Slope, int Dim>
-DIPTYCH_INLINE Vector<Lanes> slope_limited_jump(const Vector<Lanes>& plain,
-                                                const Vector<Lanes>& l_a,
-                                                const Vector<Lanes>& l_b,
-                                                const Vector<Lanes>& n) {
-  Lanes plain_n{}, a_n{}, b_n{};
+template <class Slope, int Dim, class T>
+DIPTYCH_INLINE Vector<T> slope_limited_jump(const Vector<T>& plain,
+                                            const Vector<T>& l_a,
+                                            const Vector<T>& l_b,
+                                            const Vector<T>& n) {
+  T plain_n{}, a_n{}, b_n{};
   for (int i = 0; i < Dim; ++i) {
     plain_n += plain[i] * n[i];
     a_n += l_a[i] * n[i];
     b_n += l_b[i] * n[i];
   }
-  Vector<Lanes> t{};
-  Lanes t_t{}, a_t{}, b_t{};
+  Vector<T> t{};
+  T t_t{}, a_t{}, b_t{};
   for (int i = 0; i < Dim; ++i) {
     t[i] = plain[i] - plain_n * n[i];
     t_t += t[i] * t[i];
     a_t += l_a[i] * t[i];
     b_t += l_b[i] * t[i];
   }
-  const Lanes length = algebra::square_root(t_t);
-  const LimitedDirection<Slope> along(plain_n, a_n, b_n);
-  const LimitedDirection<Slope> across(length, algebra::ratio_or_zero(a_t, length),
-                                       algebra::ratio_or_zero(b_t, length));
-  const Lanes jump_n = plain_n - 0.5 * (along.phi_a * a_n + along.phi_b * b_n);
-  Vector<Lanes> jump{};
+  const T length = algebra::square_root(t_t);
+  const LimitedDirection<Slope, T> along(plain_n, a_n, b_n);
+  const LimitedDirection<Slope, T> across(length, algebra::ratio_or_zero<T>(a_t, length),
+                                          algebra::ratio_or_zero<T>(b_t, length));
+  const T jump_n = plain_n - 0.5 * (along.phi_a * a_n + along.phi_b * b_n);
+  Vector<T> jump{};
   for (int i = 0; i < Dim; ++i) {
-    const Lanes slopes =
-        across.phi_a * (l_a[i] - a_n * n[i]) + across.phi_b * (l_b[i] - b_n * n[i]);
+    const T slopes = across.phi_a * (l_a[i] - a_n * n[i]) + across.phi_b * (l_b[i] - b_n * n[i]);
     jump[i] = along.strength * jump_n * n[i] + across.strength * (t[i] - 0.5 * slopes);
   }
   return jump;

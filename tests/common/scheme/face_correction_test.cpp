@@ -32,7 +32,7 @@ std::vector<Mat3> correction(const scheme::SweepGraph<3>& pairs,
   const auto n = static_cast<std::int64_t>(tensors.size());
   for (std::int64_t a = 0; a < n; ++a) {
     for (int k = 0; k < 9; ++k)
-      table.at(a, k) = tensors[a](k / 3, k % 3);
+      table.set(a, k, tensors[a](k / 3, k % 3));
   }
   std::vector<Mat3> result(tensors.size());
   for (std::int64_t b = 0; b < pairs.n_blocks; ++b) {

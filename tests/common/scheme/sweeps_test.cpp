@@ -29,10 +29,10 @@ class RandomBody {
              Arrangement arrangement = Arrangement::runs,
              bool affine = false,
              const std::array<int, 3>& cells = {5, 4, 3},
-             bool single_precision = false)
+             scheme::Precision precision = scheme::Precision::full)
       : graph_(tests::graph_of(
             method, meshes::box(meshes::CellType::hexahedron, Vec3::Zero(), Vec3::Ones(), cells))),
-        rounded_(single_precision && (round_to_single(graph_), true)),
+        rounded_((set_precision(graph_, precision), true)),
         pairs(graph_, arrangement),
         kind_(kind),
         state(graph_.n_nodes(),
@@ -55,21 +55,20 @@ class RandomBody {
                            const Eigen::Matrix3d& M) {
       constexpr int order[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
       for (int k = 0; k < 6; ++k)
-        field.at(a, first + k) = M(order[k][0], order[k][1]);
+        field.set(a, first + k, M(order[k][0], order[k][1]));
     };
     for (std::int64_t a = 0; a < pairs.n_blocks * algebra::n_lanes; ++a) {
       Eigen::Matrix3d R;
       for (int k = 0; k < 9; ++k)
         R(k / 3, k % 3) = uniform(random);
-      const Eigen::Matrix3d F = Eigen::Matrix3d::Identity() + 0.2 * R;
       for (int k = 0; k < 9; ++k)
-        state.F.at(a, k) = F(k / 3, k % 3);
-      place(state.A, a, 0, Eigen::Matrix3d::Identity() + 0.1 * (R + R.transpose()));
-      place(state.S, a, 0, Eigen::Matrix3d::Identity() - 0.1 * (R + R.transpose()));
+        state.F.set(a, k, 0.2 * R(k / 3, k % 3));
+      place(state.A, a, 0, 0.1 * (R + R.transpose()));
+      place(state.S, a, 0, -0.1 * (R + R.transpose()));
       for (int i = 0; i < 3; ++i) {
         double v = uniform(random);
         if (affine && a < graph_.n_nodes()) v = G.row(i).dot(graph_.X[a]);
-        state.v.at(a, i) = v;
+        state.v.set(a, i, v);
       }
     }
   }
@@ -254,7 +253,7 @@ TEST_P(Methods, SegmentsDoNotDependOnThreads) {
 TEST_P(Methods, SinglePrecisionGeometryKeepsTheIdentities) {
   for (const Arrangement arrangement : {Arrangement::rows, Arrangement::runs}) {
     RandomBody full(GetParam(), isotropic, arrangement),
-        single(GetParam(), isotropic, arrangement, false, {5, 4, 3}, true);
+        single(GetParam(), isotropic, arrangement, false, {5, 4, 3}, scheme::Precision::mixed);
     full.evaluate();
     single.evaluate();
     EXPECT_EQ(2 * single.pairs.strain.bytes(), full.pairs.strain.bytes());
