@@ -225,7 +225,8 @@ int cost_verb(const Arguments& arguments) {
   if (arguments.sizes.empty()) {
     harness::report_option_costs(folder, arguments.quiet);
   } else {
-    harness::report_size_costs(arguments.sizes, arguments.size_threads, folder, arguments.quiet);
+    harness::report_size_costs(
+        {arguments.sizes, arguments.size_threads, arguments.overrides, arguments.quiet}, folder);
   }
   return harness::exit_code_of_study("the rows above are written; the same command begins again");
 }
@@ -396,11 +397,13 @@ int dispatch(int argc, char** argv) {
       "material", "strain the case's material alone: stresses, loops, loss of hyperbolicity");
   add_material_options(material, arguments);
   auto* cost = app.add_subcommand("cost", "what each option of the scheme costs per stage");
-  cost->add_option("--sizes", arguments.sizes,
-                   "nodes along the side of a cube, such as 22,47,101: cost, set-up and memory by "
-                   "size instead")
-      ->delimiter(',');
-  cost->add_option("--threads", arguments.size_threads, "with --sizes: default 1");
+  auto* sizes = cost->add_option("--sizes", arguments.sizes,
+                                 "nodes along the side of a cube, such as 22,47,101: cost, set-up "
+                                 "and memory by size instead")
+                    ->delimiter(',');
+  cost->add_option("--threads", arguments.size_threads, "with --sizes: default 1")->needs(sizes);
+  cost->add_option("--set", arguments.overrides, "with --sizes: key=value of a case; repeatable")
+      ->needs(sizes);
   cost->add_option("--out", arguments.directory, "output folder (default results)");
   cost->add_flag("--quiet", arguments.quiet, "no progress");
   auto* list = app.add_subcommand("list", "shipped cases");

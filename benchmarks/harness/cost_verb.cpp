@@ -1,7 +1,6 @@
 #include "benchmarks/harness/cost_verb.hpp"
 
 #include "benchmarks/harness/option_costs.hpp"
-#include "benchmarks/harness/size_costs.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/io/run_record.hpp"
 
@@ -30,11 +29,8 @@ void report_option_costs(const std::string& folder, bool quiet) {
   show(cost_text(table), folder, "option_costs.csv", cost_csv(table));
 }
 
-void report_size_costs(const std::vector<int>& sides,
-                       int threads,
-                       const std::string& folder,
-                       bool quiet) {
-  const auto rows = measure_size_costs(sides, threads, quiet);
+void report_size_costs(const SizeRequest& request, const std::string& folder) {
+  const auto rows = measure_size_costs(request);
   if (!rows.empty()) show(size_text(rows), folder, "size_costs.csv", size_csv(rows));
 }
 

@@ -63,9 +63,9 @@ double seconds() {
 constexpr double least_node_steps = 3e6;
 constexpr int least_steps = 12;
 
-SizeRow measured(const Graph& kind, int side) {
+SizeRow measured(const Graph& kind, int side, const std::vector<std::string>& overrides) {
   const std::string text = fmt::format(scene_text, kind.element, side - 1, side - 1, side - 1);
-  const run::Case setup = run::case_from_text(text, "sizes");
+  const run::Case setup = run::case_from_text(text, "sizes", overrides);
   SizeRow row;
   row.graph = kind.name;
   const std::int64_t before = settled_memory();
@@ -110,21 +110,21 @@ const SizeRow& smallest(const std::vector<SizeRow>& rows, const SizeRow& row) {
 
 }  // namespace
 
-std::vector<SizeRow> measure_size_costs(const std::vector<int>& sides, int threads, bool quiet) {
-  for (const int side : sides) {
+std::vector<SizeRow> measure_size_costs(const SizeRequest& request) {
+  for (const int side : request.sides) {
     if (side < 3 || side > 1000) {
       throw base::InputError(
           fmt::format("--sizes {}: nodes along the side of a cube; use 3 to 1000", side));
     }
   }
-  parallel::set_threads(threads);
-  StatusLine status(quiet);
+  parallel::set_threads(request.threads);
+  StatusLine status(request.quiet);
   std::vector<SizeRow> rows;
   for (const Graph& graph : graphs) {
-    for (const int side : sides) {
+    for (const int side : request.sides) {
       if (interrupt_requested()) return rows;
       status.show(fmt::format("{}, {}^3 nodes", graph.name, side));
-      rows.push_back(measured(graph, side));
+      rows.push_back(measured(graph, side, request.overrides));
     }
     status.keep(fmt::format("{} done", graph.name));
   }

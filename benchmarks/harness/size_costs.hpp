@@ -25,8 +25,14 @@ struct SizeRow {
   double setup_steps() const { return (graph_seconds + solver_seconds) / step_seconds; }
 };
 
-/// @param sides  nodes along a side of the cubes
-std::vector<SizeRow> measure_size_costs(const std::vector<int>& sides, int threads, bool quiet);
+struct SizeRequest {
+  std::vector<int> sides;  ///< nodes along a side of the cubes
+  int threads = 1;
+  std::vector<std::string> overrides;  ///< key=value, of the scene
+  bool quiet = false;
+};
+
+std::vector<SizeRow> measure_size_costs(const SizeRequest& request);
 
 std::string size_text(const std::vector<SizeRow>& rows);
 std::string size_csv(const std::vector<SizeRow>& rows);

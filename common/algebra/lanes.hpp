@@ -9,7 +9,9 @@
 /// other, the baseline (SSE2, no fused multiply-add) does not agree with them.
 
 #include <cmath>
+#include <concepts>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #define DIPTYCH_INLINE inline __attribute__((always_inline))
@@ -35,6 +37,8 @@ inline constexpr int n_lanes = 8;
 using Lanes = double __attribute__((vector_size(n_lanes * sizeof(double))));
 using SingleLanes = float __attribute__((vector_size(n_lanes * sizeof(float))));
 
+using WideSingles = float __attribute__((vector_size(2 * n_lanes * sizeof(float))));
+
 template <class Real>
 struct PackOf;
 template <>
@@ -49,20 +53,24 @@ struct PackOf<float> {
 template <class Real>
 using Pack = typename PackOf<Real>::type;
 
-// One name for both scalars, so that a formula is written once.
+template <class T>
+concept Vectorised =
+    std::is_same_v<T, Lanes> || std::is_same_v<T, SingleLanes> || std::is_same_v<T, WideSingles>;
+/// Number and type of the elements of a vector.
+template <Vectorised T>
+using Element = std::remove_cvref_t<decltype(T{}[0])>;
+template <Vectorised T>
+inline constexpr int width_of = sizeof(T) / sizeof(Element<T>);
+
+// One name for scalars and vectors, so that a formula is written once.
 DIPTYCH_INLINE double square_root(double a) {
   return std::sqrt(a);
 }
-DIPTYCH_INLINE Lanes square_root(Lanes a) {
-  Lanes r;
-  for (int i = 0; i < n_lanes; ++i)
-    r[i] = __builtin_sqrt(a[i]);
-  return r;
-}
-DIPTYCH_INLINE SingleLanes square_root(SingleLanes a) {
-  SingleLanes r;
-  for (int i = 0; i < n_lanes; ++i)
-    r[i] = __builtin_sqrtf(a[i]);
+template <Vectorised T>
+DIPTYCH_INLINE T square_root(const T& a) {
+  T r;
+  for (int i = 0; i < width_of<T>; ++i)
+    r[i] = std::sqrt(a[i]);
   return r;
 }
 DIPTYCH_INLINE double natural_log(double a) {
@@ -86,57 +94,78 @@ DIPTYCH_INLINE Lanes cube_root(Lanes a) {
 DIPTYCH_INLINE double larger(double a, double b) {
   return a > b ? a : b;
 }
-DIPTYCH_INLINE Lanes larger(Lanes a, Lanes b) {
-  return a > b ? a : b;
-}
-DIPTYCH_INLINE SingleLanes larger(SingleLanes a, SingleLanes b) {
+template <Vectorised T>
+DIPTYCH_INLINE T larger(const T& a, const T& b) {
   return a > b ? a : b;
 }
 DIPTYCH_INLINE double smaller(double a, double b) {
   return a < b ? a : b;
 }
-DIPTYCH_INLINE Lanes smaller(Lanes a, Lanes b) {
-  return a < b ? a : b;
-}
-DIPTYCH_INLINE SingleLanes smaller(SingleLanes a, SingleLanes b) {
+template <Vectorised T>
+DIPTYCH_INLINE T smaller(const T& a, const T& b) {
   return a < b ? a : b;
 }
 DIPTYCH_INLINE double magnitude(double a) {
   return std::fabs(a);
 }
-DIPTYCH_INLINE Lanes magnitude(Lanes a) {
+template <Vectorised T>
+DIPTYCH_INLINE T magnitude(const T& a) {
   return a < 0 ? -a : a;
 }
-DIPTYCH_INLINE SingleLanes magnitude(SingleLanes a) {
-  return a < 0 ? -a : a;
-}
-/// 1/a, or 0 where a = 0.
+/// 1/a, or 0 where a is 0 or so small that 1/a is not finite (its product with 0 would be no
+/// number: ahead of a wave everything decays to such values).
 DIPTYCH_INLINE double inverse_or_zero(double a) {
-  return a != 0 ? 1 / a : 0;
+  return magnitude(a) < std::numeric_limits<double>::min() ? 0 : 1 / a;
 }
-DIPTYCH_INLINE Lanes inverse_or_zero(Lanes a) {
-  const Lanes one = Lanes{} + 1.0;
-  return a != 0 ? one / (a != 0 ? a : one) : Lanes{};
-}
-DIPTYCH_INLINE SingleLanes inverse_or_zero(SingleLanes a) {
-  const SingleLanes one = SingleLanes{} + 1.0F;
-  return a != 0 ? one / (a != 0 ? a : one) : SingleLanes{};
+template <Vectorised T>
+DIPTYCH_INLINE T inverse_or_zero(const T& a) {
+  const T one = T{} + 1.0F;
+  const T least = T{} + std::numeric_limits<Element<T>>::min();
+  return magnitude(a) < least ? T{} : one / (magnitude(a) < least ? one : a);
 }
 /// a/b, or 0 where b = 0; no overflow of 1/b where b is tiny.
-template <class T>
+template <Vectorised T>
 DIPTYCH_INLINE T ratio_or_zero(const T& a, const T& b) {
   return b != 0 ? a / (b != 0 ? b : T{} + 1.0F) : T{};
 }
 using HalfLanes = double __attribute__((vector_size(4 * sizeof(double))));
 using QuarterLanes = double __attribute__((vector_size(2 * sizeof(double))));
 
-/// Sum of the eight lanes, always in the same tree shape.
-DIPTYCH_INLINE double lane_sum(const Lanes& a) {
-  const HalfLanes half =
-      __builtin_shufflevector(a, a, 0, 1, 2, 3) + __builtin_shufflevector(a, a, 4, 5, 6, 7);
+/// In double precision.
+DIPTYCH_INLINE Lanes widened(const Lanes& a) {
+  return a;
+}
+DIPTYCH_INLINE Lanes widened(const SingleLanes& a) {
+  return Lanes{a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]};
+}
+
+/// Sum of the lanes, always in the same tree shape.
+DIPTYCH_INLINE double lane_sum(const HalfLanes& half) {
   const QuarterLanes quarter =
       __builtin_shufflevector(half, half, 0, 1) + __builtin_shufflevector(half, half, 2, 3);
   return quarter[0] + quarter[1];
+}
+DIPTYCH_INLINE double lane_sum(const Lanes& a) {
+  return lane_sum(__builtin_shufflevector(a, a, 0, 1, 2, 3) +
+                  __builtin_shufflevector(a, a, 4, 5, 6, 7));
+}
+DIPTYCH_INLINE double lane_sum(const SingleLanes& a) {
+  const auto half =
+      __builtin_shufflevector(a, a, 0, 1, 2, 3) + __builtin_shufflevector(a, a, 4, 5, 6, 7);
+  return lane_sum(HalfLanes{half[0], half[1], half[2], half[3]});
+}
+DIPTYCH_INLINE SingleLanes first_half(const WideSingles& a) {
+  return __builtin_shufflevector(a, a, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+DIPTYCH_INLINE SingleLanes second_half(const WideSingles& a) {
+  return __builtin_shufflevector(a, a, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+DIPTYCH_INLINE WideSingles joined(const SingleLanes& first, const SingleLanes& second) {
+  return __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14,
+                                 15);
+}
+DIPTYCH_INLINE double lane_sum(const WideSingles& a) {
+  return lane_sum(widened(first_half(a)) + widened(second_half(a)));
 }
 DIPTYCH_INLINE Lanes load(const double* p) {
   Lanes r;
@@ -147,29 +176,27 @@ DIPTYCH_INLINE Lanes load(const double* p) {
 DIPTYCH_INLINE Lanes load(const float* p) {
   return Lanes{p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7]};
 }
-/// Eight doubles or singles as T = Lanes or SingleLanes.
-template <class T>
+/// Doubles or singles as T.
+template <Vectorised T>
 DIPTYCH_INLINE T load_as(const double* p) {
-  if constexpr (std::is_same_v<T, Lanes>) return load(p);
-  return __builtin_convertvector(load(p), T);
+  if constexpr (std::is_same_v<T, Lanes>) {
+    return load(p);
+  } else {
+    return __builtin_convertvector(load(p), T);
+  }
 }
-template <class T>
+template <Vectorised T>
 DIPTYCH_INLINE T load_as(const float* p) {
-  if constexpr (std::is_same_v<T, Lanes>) return load(p);
-  T r;
-  __builtin_memcpy(&r, p, sizeof r);
-  return r;
+  if constexpr (std::is_same_v<T, Lanes>) {
+    return load(p);
+  } else {
+    T r;
+    __builtin_memcpy(&r, p, sizeof r);
+    return r;
+  }
 }
-DIPTYCH_INLINE Lanes widened(const Lanes& a) {
-  return a;
-}
-DIPTYCH_INLINE Lanes widened(const SingleLanes& a) {
-  return Lanes{a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]};
-}
-DIPTYCH_INLINE void store(double* p, const Lanes& a) {
-  __builtin_memcpy(p, &a, sizeof a);
-}
-DIPTYCH_INLINE void store(float* p, const SingleLanes& a) {
+template <Vectorised T>
+DIPTYCH_INLINE void store(Element<T>* p, const T& a) {
   __builtin_memcpy(p, &a, sizeof a);
 }
 /// Rounds.

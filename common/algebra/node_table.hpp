@@ -6,6 +6,7 @@
 /// load.
 
 #include "common/algebra/field.hpp"
+#include "common/algebra/gather.hpp"
 
 namespace diptych::algebra {
 
@@ -30,9 +31,11 @@ class NodeTable {
       data_ = RealArray(n * row_stride + 4, shape.single);  // gathers read four at a time
       return;
     }
-    const std::int64_t guard = n_blocks_of(shape.guard) * n_lanes;
-    component_stride_ = n + 2 * guard;
-    if (component_stride_ / n_lanes % 2 == 0) component_stride_ += n_lanes;  // not all in one set
+    const std::int64_t line = 64 / (shape.single ? sizeof(float) : sizeof(double));
+    const auto whole = [&](std::int64_t length) { return (length + line - 1) / line * line; };
+    const std::int64_t guard = whole(shape.guard);
+    component_stride_ = whole(n) + 2 * guard;
+    if (component_stride_ / line % 2 == 0) component_stride_ += line;  // not all in one set
     data_ = RealArray(component_stride_ * n_components, shape.single);
     first_ = guard;
   }
@@ -87,14 +90,11 @@ class NodeTable {
           take(c, load(p + c * component_stride_));
         return;
       }
+      Pack<std::decay_t<decltype(*p)>> columns[(n + 3) / 4 * 4];
+      read_rows<n>(p, node_stride_, columns);
 #pragma GCC unroll 9
-      for (int c = 0; c < n; ++c) {
-        Lanes value;
-#pragma GCC unroll 8
-        for (int lane = 0; lane < n_lanes; ++lane)
-          value[lane] = p[lane * node_stride_ + c];
-        take(c, value);
-      }
+      for (int c = 0; c < n; ++c)
+        take(c, widened(columns[c]));
     });
   }
   /// Sets them to give(c).
@@ -108,13 +108,12 @@ class NodeTable {
           store(p + c * component_stride_, give(c));
         return;
       }
+      using T = Pack<std::decay_t<decltype(*p)>>;
+      T columns[n];
 #pragma GCC unroll 9
-      for (int c = 0; c < n; ++c) {
-        const Lanes value = give(c);
-#pragma GCC unroll 8
-        for (int lane = 0; lane < n_lanes; ++lane)
-          p[lane * node_stride_ + c] = static_cast<std::decay_t<decltype(*p)>>(value[lane]);
-      }
+      for (int c = 0; c < n; ++c)
+        columns[c] = __builtin_convertvector(give(c), T);
+      write_rows<n>(columns, node_stride_, p);
     });
   }
 

@@ -12,6 +12,7 @@ DIPTYCH_INLINE void forces_in(const MomentumSweep<Dim>& sweep,
                               std::int64_t begin,
                               std::int64_t end,
                               std::int64_t chunk) {
+  const algebra::FlushToZero flush(sweep.state.shape.single);
   double power = 0, rate = 0;
   if (sweep.graph.shape.arrangement == Arrangement::runs) {
     for (std::int64_t b = begin; b < end;)

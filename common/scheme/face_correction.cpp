@@ -14,6 +14,7 @@ DIPTYCH_INLINE void plain_gradients(const SweepGraph<Dim>& graph,
                                     State<Dim>& state,
                                     std::int64_t begin,
                                     std::int64_t end) {
+  const algebra::FlushToZero flush(state.shape.single);
   for (std::int64_t b = begin; b < end; ++b) {
     Lanes L[Dim * Dim];
     strain_rates_of_block<isa>(graph, state, b, L);

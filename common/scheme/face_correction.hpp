@@ -103,6 +103,7 @@ DIPTYCH_INLINE void correct_stresses(const SweepGraph<Dim>& graph,
                                      double kappa_f,
                                      std::int64_t begin,
                                      std::int64_t end) {
+  const algebra::FlushToZero flush(state.shape.single);
   for (std::int64_t b = begin; b < end; ++b) {
     Lanes P[Dim * Dim];
     corrected_block<isa, Side::stress>(graph, state.stresses, kappa_f, b, P);

@@ -57,6 +57,7 @@ DIPTYCH_CLONES void use_sums(const MomentumSweep<Dim>& sweep,
                              std::int64_t begin,
                              std::int64_t end) {
   State<Dim>& state = sweep.state;
+  const algebra::FlushToZero flush(state.shape.single);
   for (std::int64_t b = begin; b < end; ++b) {
     for (int i = 0; i < Dim; ++i)
       state.T.put(b, i, 0.5 * state.T.get(b, i));

@@ -61,9 +61,9 @@ DIPTYCH_INLINE double forces_on_block(const MomentumSweep<Dim>& sweep,
   for (int lane = 0; lane < n_lanes; ++lane) {
     const auto of_node = sums_of_node<isa, Real, Dim, kind, has_H>(sweep, b * n_lanes + lane);
     for (int i = 0; i < Dim; ++i)
-      sums.force[i][lane] = algebra::lane_sum(algebra::widened(of_node.force[i]));
-    sums.power[lane] = algebra::lane_sum(algebra::widened(of_node.power));
-    sums.rate[lane] = algebra::lane_sum(algebra::widened(of_node.rate));
+      sums.force[i][lane] = algebra::lane_sum(of_node.force[i]);
+    sums.power[lane] = algebra::lane_sum(of_node.power);
+    sums.rate[lane] = algebra::lane_sum(of_node.rate);
   }
   for (int i = 0; i < Dim; ++i) {
     Lanes PC{};

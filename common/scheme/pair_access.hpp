@@ -4,11 +4,13 @@
 ///   pairs.own(c)         component c of the node a (rows: a number) or nodes a (runs: lanes)
 /// A unit is what a row of chunks belongs to: a node in rows, a block of eight in runs.
 
-#include "common/scheme/gather.hpp"
 #include "common/scheme/sweep_graph.hpp"
 
 namespace diptych::scheme {
 
+using algebra::InstructionSet;
+using algebra::Lanes;
+using algebra::n_lanes;
 using algebra::NodeTable;
 
 /// Eight neighbours of one node, gathered.
@@ -27,7 +29,7 @@ class GatheredPairs {
       row[l] = table.origin<Real>() +
                static_cast<std::int64_t>(graph.neighbours.data()[chunk].node[l]) * stride;
     }
-    gather<isa, n>(row, values_);
+    algebra::gather<isa, n>(row, values_);
   }
   DIPTYCH_INLINE T neighbour(int c) const { return values_[c]; }
   DIPTYCH_INLINE Real own(int c) const { return own_[c]; }
@@ -37,11 +39,12 @@ class GatheredPairs {
   const Real* own_;
 };
 
-/// A neighbour of each of eight nodes, side by side.
-template <class Real>
+/// A neighbour of each of the eight or sixteen nodes from block b on, side by side.
+template <class T_>
 class RunPairs {
  public:
-  using T = algebra::Pack<Real>;
+  using T = T_;
+  using Real = algebra::Element<T>;
   DIPTYCH_INLINE RunPairs(const NodeTable& table, std::int64_t b, std::int64_t offset)
       : own_(table.origin<Real>() + b * n_lanes),
         neighbour_(own_ + offset),
@@ -53,6 +56,16 @@ class RunPairs {
   const Real *own_, *neighbour_;
   std::int64_t stride_;
 };
+
+/// Runs: whether the pairs of blocks b and b + 1 are at the same offsets.
+DIPTYCH_INLINE bool same_offsets(const algebra::AlignedArray<std::int64_t>& row,
+                                 const algebra::AlignedArray<std::int32_t>& offset,
+                                 std::int64_t b) {
+  const std::int64_t first = row[b], next = row[b + 1], n = next - first;
+  return row[b + 2] - next == n &&
+         __builtin_memcmp(offset.data() + first, offset.data() + next,
+                          static_cast<size_t>(n) * sizeof(std::int32_t)) == 0;
+}
 
 /// Asks for n components of what the next blocks will be the first to read: the run farthest ahead.
 /// The processor does not follow as many streams as there are components.
@@ -85,7 +98,7 @@ DIPTYCH_INLINE auto pairs_of(const SweepGraph<Dim>& graph,
   if constexpr (arrangement == Arrangement::rows) {
     return GatheredPairs<isa, Real, n, stride>(graph, table, unit, chunk);
   } else {
-    return RunPairs<Real>(table, unit, graph.offset.data()[chunk]);
+    return RunPairs<algebra::Pack<Real>>(table, unit, graph.offset.data()[chunk]);
   }
 }
 

@@ -9,7 +9,7 @@
 
 namespace diptych::scheme {
 
-/// Sums of a node over its pairs. T, here and below: eight doubles or singles.
+/// Sums of nodes over their pairs. T, here and below: Lanes, SingleLanes or WideSingles.
 template <int Dim, class T>
 struct NodeSums {
   T force[Dim] = {};  ///< 2 T; in rows without P_a sum C_ab
@@ -43,12 +43,6 @@ DIPTYCH_INLINE void mean_state(const Pairs& pairs,
     r.S_tot.s[algebra::order_of_S<Dim>[k]] = mean(Record::S_tot + k);
   r.W_JJ = mean(Record::W_JJ);
   r.W_FJ = mean(Record::W_FJ);
-}
-
-/// A number as T has them: vectors of singles take no doubles.
-template <class T>
-DIPTYCH_INLINE auto scalar(double value) {
-  return static_cast<std::decay_t<decltype(T{}[0])>>(value);
 }
 
 /// L X_ab of both nodes, or only their sum where the limiter needs no more.
@@ -141,7 +135,7 @@ DIPTYCH_INLINE Vector<T> dissipation_of(const MomentumSweep<Dim>& sweep,
     D = algebra::product(physics::impedance<has_H>(response, X, sweep.rho_R, N), jump);
   }
   for (int i = 0; i < Dim; ++i)
-    D[i] *= scalar<T>(sweep.factor) * face.area;
+    D[i] *= static_cast<algebra::Element<T>>(sweep.factor) * face.area;
   return D;
 }
 
@@ -159,7 +153,7 @@ DIPTYCH_INLINE T rate_of(const Vector<T>& C, const Pairs& pairs) {
 /// v_b - v_a of eight pairs.
 /// @param pairs  with v from component c
 template <int Dim, class Pairs>
-DIPTYCH_INLINE Vector<typename Pairs::T> plain_jump(const Pairs& pairs, int c) {
+DIPTYCH_INLINE auto plain_jump(const Pairs& pairs, int c) {
   Vector<typename Pairs::T> plain{};
   for (int i = 0; i < Dim; ++i)
     plain[i] = pairs.neighbour(c + i) - pairs.own(c + i);

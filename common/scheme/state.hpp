@@ -6,6 +6,7 @@
 /// value stands twice, but for the velocity in rows.
 
 #include "common/algebra/field.hpp"
+#include "common/algebra/flush_to_zero.hpp"
 #include "common/algebra/layout.hpp"
 #include "common/scheme/sweep_graph.hpp"
 

@@ -40,20 +40,21 @@ using StrainRateFunction = void (*)(const StrainRateSweep<Dim, Material>& sweep,
                                     std::int64_t end,
                                     std::int64_t chunk);
 
-/// sum_b (v_b - v_a) (x) C_ab over the pairs of a unit, lane by lane, in the precision Real of v.
-template <InstructionSet isa, Arrangement arrangement, class Real, int Dim>
-DIPTYCH_INLINE void sum_gradients(const SweepGraph<Dim>& graph,
-                                  const NodeTable& velocity,
-                                  std::int64_t unit,
-                                  Lanes (&total)[Dim * Dim]) {
-  using T = algebra::Pack<Real>;
-  T sum[Dim * Dim] = {};
-  const std::int64_t begin = graph.row[unit], end = graph.row[unit + 1];
-  VectorCursor<Dim> geometry(graph.strain, graph.first[unit]);
-  for (std::int64_t chunk = begin; chunk < end; ++chunk) {
+/// sum_b (v_b - v_a) (x) C_ab over n chunks, lane by lane.
+/// @param geometry  cursor over C_ab
+/// @param pairs     pairs(k): of v, of chunk k < n
+template <int Dim, class T, class Cursor, class Pairs>
+DIPTYCH_INLINE void sum_gradients(std::int64_t n,
+                                  Cursor geometry,
+                                  const Pairs& pairs,
+                                  T (&sum)[Dim * Dim]) {
+#pragma GCC unroll 9
+  for (int k = 0; k < Dim * Dim; ++k)
+    sum[k] = T{};
+  for (std::int64_t chunk = 0; chunk < n; ++chunk) {
     T C_ab[Dim];
     geometry.next(C_ab);
-    const auto v = vector_pairs_of<isa, arrangement, Real>(graph, velocity, unit, chunk);
+    const auto v = pairs(chunk);
 #pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i) {
       const T jump = v.neighbour(i) - v.own(i);
@@ -62,27 +63,61 @@ DIPTYCH_INLINE void sum_gradients(const SweepGraph<Dim>& graph,
         sum[i * Dim + j] += jump * C_ab[j];
     }
   }
-#pragma GCC unroll 9
-  for (int k = 0; k < Dim * Dim; ++k)
-    total[k] = algebra::widened(sum[k]);
 }
 
-/// Of the eight nodes of block b.
+/// Of block b, runs.
+template <int Dim, class T, class Cursor>
+DIPTYCH_INLINE void sum_gradients_of_runs(const SweepGraph<Dim>& graph,
+                                          const NodeTable& velocity,
+                                          std::int64_t b,
+                                          const Cursor& geometry,
+                                          T (&sum)[Dim * Dim]) {
+  const std::int64_t first = graph.row[b];
+  sum_gradients<Dim>(
+      graph.row[b + 1] - first, geometry,
+      [&](std::int64_t k) DIPTYCH_INLINE_LAMBDA {
+        return RunPairs<T>(velocity, b, graph.offset.data()[first + k]);
+      },
+      sum);
+}
+
+/// Of block b, of a table in the precision of Real.
 template <InstructionSet isa, class Real, int Dim>
 DIPTYCH_INLINE void sum_gradients_of_block(const SweepGraph<Dim>& graph,
                                            const NodeTable& velocity,
                                            std::int64_t b,
                                            Lanes (&L)[Dim * Dim]) {
+  using T = algebra::Pack<Real>;
+  T sum[Dim * Dim];
   if (graph.shape.arrangement == Arrangement::runs) {
-    sum_gradients<isa, Arrangement::runs, Real>(graph, velocity, b, L);
-  } else {
-    for (int lane = 0; lane < n_lanes; ++lane) {
-      Lanes sum[Dim * Dim];
-      sum_gradients<isa, Arrangement::rows, Real>(graph, velocity, b * n_lanes + lane, sum);
-      for (int k = 0; k < Dim * Dim; ++k)
-        L[k][lane] = algebra::lane_sum(sum[k]);
-    }
+    sum_gradients_of_runs(graph, velocity, b, VectorCursor<Dim>(graph.strain, graph.first[b]), sum);
+#pragma GCC unroll 9
+    for (int k = 0; k < Dim * Dim; ++k)
+      L[k] = algebra::widened(sum[k]);
+    return;
   }
+  for (int lane = 0; lane < n_lanes; ++lane) {
+    const std::int64_t a = b * n_lanes + lane, first = graph.row[a];
+    sum_gradients<Dim>(
+        graph.row[a + 1] - first, VectorCursor<Dim>(graph.strain, graph.first[a]),
+        [&](std::int64_t k) DIPTYCH_INLINE_LAMBDA {
+          return vector_pairs_of<isa, Arrangement::rows, Real>(graph, velocity, a, first + k);
+        },
+        sum);
+    for (int k = 0; k < Dim * Dim; ++k)
+      L[k][lane] = algebra::lane_sum(sum[k]);
+  }
+}
+
+/// dF/dt of the eight nodes of block b from sums over their pairs.
+template <int Dim>
+DIPTYCH_INLINE void scale_gradients(const SweepGraph<Dim>& graph,
+                                    std::int64_t b,
+                                    Lanes (&L)[Dim * Dim]) {
+  const Lanes scale = 0.5 * algebra::load(graph.inverse_Omega.data() + b * n_lanes);
+#pragma GCC unroll 9
+  for (int k = 0; k < Dim * Dim; ++k)
+    L[k] *= scale;
 }
 
 /// dF/dt of the eight nodes of block b.
@@ -96,10 +131,34 @@ DIPTYCH_INLINE void strain_rates_of_block(const SweepGraph<Dim>& graph,
   } else {
     sum_gradients_of_block<isa, double>(graph, state.v, b, L);
   }
-  const Lanes scale = 0.5 * algebra::load(graph.inverse_Omega.data() + b * n_lanes);
-#pragma GCC unroll 9
-  for (int k = 0; k < Dim * Dim; ++k)
-    L[k] *= scale;
+  scale_gradients(graph, b, L);
+}
+
+/// dF/dt of block b, and of b + 1 where both can be summed at once: singles whose pairs are at the
+/// same offsets.
+/// @return number of blocks
+template <InstructionSet isa, int Dim>
+DIPTYCH_INLINE int strain_rates_of_next(const SweepGraph<Dim>& graph,
+                                        const State<Dim>& state,
+                                        std::int64_t b,
+                                        std::int64_t end,
+                                        Lanes (&L)[2][Dim * Dim]) {
+  const bool two = state.shape.single && graph.shape.arrangement == Arrangement::runs &&
+                   b + 1 < end && same_offsets(graph.row, graph.offset, b);
+  if (!two) {
+    strain_rates_of_block<isa>(graph, state, b, L[0]);
+    return 1;
+  }
+  algebra::WideSingles sum[Dim * Dim];
+  sum_gradients_of_runs(graph, state.v, b,
+                        TwoCursors<Dim>(graph.strain, graph.first[b], graph.first[b + 1]), sum);
+  for (int k = 0; k < Dim * Dim; ++k) {
+    L[0][k] = algebra::widened(algebra::first_half(sum[k]));
+    L[1][k] = algebra::widened(algebra::second_half(sum[k]));
+  }
+  scale_gradients(graph, b, L[0]);
+  scale_gradients(graph, b + 1, L[1]);
+  return 2;
 }
 
 /// Fills the records of block b, but for L, and for H where it is evolved, which are there.
@@ -134,9 +193,10 @@ DIPTYCH_INLINE void write_records(State<Dim>& state,
 }
 
 /// One block of the sweep. @return sum of the viscous dissipation over the block [W]
-template <InstructionSet isa, int Dim, class Material>
+template <int Dim, class Material>
 DIPTYCH_INLINE double evaluate_block(const StrainRateSweep<Dim, Material>& sweep,
                                      std::int64_t b,
+                                     const Lanes (&L)[Dim * Dim],
                                      Lanes& least_J,
                                      Lanes& n_bad) {
   using Layout = algebra::Layout<Dim>;
@@ -146,12 +206,6 @@ DIPTYCH_INLINE double evaluate_block(const StrainRateSweep<Dim, Material>& sweep
     prefetch_to_write<NodeRecord<Dim>::n_isotropic>(state.records, b);
   }
   if (sweep.stage != nullptr) update_deformation_of_block(state, *sweep.stage, b);
-  Lanes L[Dim * Dim];
-  if (sweep.face_correction == 0) {
-    strain_rates_of_block<isa>(sweep.graph, state, b, L);
-  } else {
-    corrected_block<isa, Side::rates>(sweep.graph, state.gradients, sweep.face_correction, b, L);
-  }
   state.records.template put_each<Dim * Dim>(b, NodeRecord<Dim>::L,
                                              [&](int k) DIPTYCH_INLINE_LAMBDA { return L[k]; });
   if (sweep.drift != 0) drift_block(state, sweep.drift, b);
@@ -186,10 +240,21 @@ DIPTYCH_INLINE void evaluate_blocks(const StrainRateSweep<Dim, Material>& sweep,
                                     std::int64_t begin,
                                     std::int64_t end,
                                     std::int64_t chunk) {
+  const algebra::FlushToZero flush(sweep.state.shape.single);
   double power = 0;
   Lanes least = Lanes{} + 1e300, n_bad{};
-  for (std::int64_t b = begin; b < end; ++b) {
-    power += evaluate_block<isa>(sweep, b, least, n_bad);
+  for (std::int64_t b = begin; b < end;) {
+    Lanes L[2][Dim * Dim];
+    int n = 1;
+    if (sweep.face_correction == 0) {
+      n = strain_rates_of_next<isa>(sweep.graph, sweep.state, b, end, L);
+    } else {
+      corrected_block<isa, Side::rates>(sweep.graph, sweep.state.gradients, sweep.face_correction,
+                                        b, L[0]);
+    }
+    for (int k = 0; k < n; ++k)
+      power += evaluate_block(sweep, b + k, L[k], least, n_bad);
+    b += n;
   }
   sweep.viscous_power[chunk] = power;
   double least_of_all = least[0];

@@ -181,6 +181,26 @@ class VectorCursor {
   typename GeometryArray<PairVectors, Dim>::Cursor cursor_;
 };
 
+/// C_ab of two blocks of runs, side by side.
+template <int Dim>
+class TwoCursors {
+ public:
+  DIPTYCH_INLINE TwoCursors(const GeometryArray<PairVectors, Dim>& array,
+                            std::int64_t first,
+                            std::int64_t second)
+      : first_(array, first), second_(array, second) {}
+  DIPTYCH_INLINE void next(algebra::WideSingles (&C)[Dim]) {
+    algebra::SingleLanes first[Dim], second[Dim];
+    first_.next(first);
+    second_.next(second);
+    for (int i = 0; i < Dim; ++i)
+      C[i] = algebra::joined(first[i], second[i]);
+  }
+
+ private:
+  VectorCursor<Dim> first_, second_;
+};
+
 /// S_ab of consecutive chunks; in rows of single precision 1/2 (C_ab - C_ba).
 template <int Dim>
 class FaceCursor {

@@ -9,6 +9,7 @@ DIPTYCH_CLONES void update_motion(State<Dim>& state,
                                   const StageCombination& stage,
                                   std::int64_t begin,
                                   std::int64_t end) {
+  const algebra::FlushToZero flush(state.shape.single);
   for (std::int64_t b = begin; b < end; ++b) {
     const Lanes inverse_mass =
         (1 / rho_R) * algebra::load(graph.inverse_Omega.data() + b * n_lanes);
@@ -32,6 +33,7 @@ DIPTYCH_CLONES void kick(State<Dim>& state,
                          bool keep_F,
                          std::int64_t begin,
                          std::int64_t end) {
+  const algebra::FlushToZero flush(state.shape.single);
   for (std::int64_t b = begin; b < end; ++b) {
     const Lanes scale = (dt / rho_R) * algebra::load(graph.inverse_Omega.data() + b * n_lanes);
     for (int i = 0; i < Dim; ++i)

@@ -63,6 +63,13 @@ std::vector<Bad> bad_cases() {
       {"UnknownMaterial", with("\"mooney-rivlin\"", "\"mooney\""), {"mooney-rivlin"}},
       {"NotPolyconvex", with("zeta_ratio = 0.5", "zeta_ratio = 0.99\n#") + "", {"zeta_ratio"}},
       {"NegativeEnd", with("end = 1e-3", "end = -1"), {"end"}},
+      {"SingleWithExactImpedance",
+       with("[time]", "[scheme]\nprecision = \"single\"\nimpedance = \"exact\"\n[time]"),
+       {"case.toml:19", "precision", "isotropic"}},
+      {"TooSmallForSingle",
+       with("upper = [1, 1, 1]", "upper = [1e-7, 1e-7, 1e-7]") +
+           "[scheme]\nprecision = \"single\"\n",
+       {"scheme.precision", "units"}},
       {"NotToml", with("[material]", "[material"), {"case.toml:7"}},
   };
 }

@@ -69,6 +69,16 @@ TEST(LargestEigenvalueBound, IsExactForMultiplesOfTheIdentity) {
   EXPECT_NEAR(largest_eigenvalue_bound(-2.0 * symmetric_identity<double>()), -2, 2e-15);
 }
 
+/// As ahead of a wave, where deviations decay through the whole range of numbers.
+TEST(LargestEigenvalueBound, StaysFiniteForVanishingDeviations) {
+  for (int n = 40; n < 646; ++n) {
+    const double deviation = std::pow(10, -0.5 * n);
+    SymmetricTensor<double> A = 3e7 * symmetric_identity<double>();
+    A(0, 1) = deviation;
+    ASSERT_NEAR(largest_eigenvalue_bound(A), 3e7, 1) << deviation;
+  }
+}
+
 TEST(LargestEigenvalueBound, PassesNotANumberOn) {
   SymmetricTensor<double> A = symmetric_identity<double>();
   A(0, 1) = std::nan("");
