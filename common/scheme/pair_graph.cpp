@@ -180,12 +180,10 @@ void set_precision(PairGraph& graph, Precision precision) {
   if (precision == Precision::full) return;
   if (precision == Precision::single) check_range(graph);
   const RowClasses classes = classes_of(graph);  // rows of a class must not round apart
-  std::vector<Vec3> C(graph.C.size());
   for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
     for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k)
-      C[k] = shared_C(graph, classes, a, k).cast<float>().cast<double>();
+      graph.C[k] = shared_C(graph, classes, a, k).cast<float>().cast<double>();
   }
-  graph.C = std::move(C);
 }
 
 void link_reverse_pairs(PairGraph& graph) {
