@@ -90,8 +90,7 @@ DIPTYCH_INLINE void gather_four(const float* const* row, int c, SingleLanes* r) 
   r[3] = __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15);
 }
 
-/// The first n components of eight rows; n is rounded up to a multiple of four, which rows must
-/// hold.
+/// The first n components of eight rows. Reads up to the next multiple of four.
 template <InstructionSet isa, int n, class Real>
 DIPTYCH_INLINE void gather(const Real* const* row, Pack<Real>* r) {
 #pragma GCC unroll 16
@@ -118,15 +117,22 @@ DIPTYCH_INLINE void scatter_four(const Pack<Real>* columns, Real* rows, std::int
     __builtin_memcpy(rows + (k + 4) * stride, &row[k], sizeof row[k]);
 }
 
-/// Components 0..n-1 of eight rows that are `stride` apart, read as multiples of four.
+/// Components 0..n-1 of eight rows that are `stride` apart; no other is read.
 template <int n, class Real>
 DIPTYCH_INLINE void read_rows(const Real* rows, std::int64_t stride, Pack<Real>* columns) {
+  constexpr int by_four = n / 4 * 4;
   const Real* row[n_lanes];
   for (int lane = 0; lane < n_lanes; ++lane)
     row[lane] = rows + lane * stride;
-  gather<InstructionSet::baseline, n>(row, columns);
+  if constexpr (by_four > 0) gather<InstructionSet::baseline, by_four>(row, columns);
+#pragma GCC unroll 4
+  for (int c = by_four; c < n; ++c) {
+#pragma GCC unroll 8
+    for (int lane = 0; lane < n_lanes; ++lane)
+      columns[c][lane] = row[lane][c];
+  }
 }
-/// Writes exactly n components.
+/// Writes them.
 template <int n, class Real>
 DIPTYCH_INLINE void write_rows(const Pack<Real>* columns, std::int64_t stride, Real* rows) {
   constexpr int by_four = n / 4 * 4;

@@ -1,7 +1,7 @@
 #pragma once
 /// Eight nodes at once. `Lanes` is a GCC vector of eight doubles; the compiler lowers it to SSE2,
 /// AVX2 or AVX-512. Code of physics and scheme is generic in its scalar T = double or Lanes; pair
-/// sweeps also in `Pack<float>`, eight singles.
+/// sweeps also in `SingleLanes`, eight singles, and `WideSingles`, those of two blocks.
 ///
 /// DIPTYCH_CLONES compiles a hot function once per instruction set and picks at start-up. Only what
 /// is inlined into such a function is compiled with it: mark helpers DIPTYCH_INLINE.

@@ -90,7 +90,7 @@ class NodeTable {
           take(c, load(p + c * component_stride_));
         return;
       }
-      Pack<std::decay_t<decltype(*p)>> columns[(n + 3) / 4 * 4];
+      Pack<std::decay_t<decltype(*p)>> columns[n];
       read_rows<n>(p, node_stride_, columns);
 #pragma GCC unroll 9
       for (int c = 0; c < n; ++c)

@@ -307,7 +307,7 @@ constexpr std::array key_table{
     choice("scheme.precision", "\"double\"", "", menus::precisions,
            "Precision of what the sweeps keep. mixed: pseudo-areas C_ab in single, half the memory of "
            "irregular nodes, 1e-7 of error. single: the state and the sums over pairs too; half the "
-           "memory, some 1e-5 of error.",
+           "memory, some 1e-5 of error relative to the largest speed.",
            "\"single\""),
     key("scheme.angular_momentum_projection", flag, "-", "false", "", any,
         "Correct the forces so that angular momentum is conserved.", "true"),

@@ -27,7 +27,7 @@ struct BoundaryPatch {
 
 /// Of what sweeps read and write; set-up is always in double precision.
 enum class Precision {
-  full,   ///< all in double
+  full,   ///< all in double, but for |S_ab| and S_ab, which only scale the dissipation
   mixed,  ///< C_ab in single, all else in double
   single  ///< C_ab and the state in single; sums over pairs in single, pointwise physics in double
 };

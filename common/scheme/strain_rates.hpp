@@ -5,7 +5,7 @@
 /// dF/dt and stand in the update.
 ///
 /// Cost per directed pair in 3-D: 9 multiply-adds and 3 subtractions on 32 bytes gathered and at
-/// most 28 of geometry.
+/// most 28 of geometry (double precision).
 
 #include "common/algebra/layout.hpp"
 #include "common/physics/wave_speeds.hpp"

@@ -243,13 +243,25 @@ void set_mutual(const PairGraph& graph,
   set_geometry(graph, classes, RunLayouts(graph, half), alike, mutual.first, allocate, set);
 }
 
+/// Middle of the box around the nodes.
+Vec3 middle(const PairGraph& graph) {
+  Vec3 lower = graph.X.front(), upper = lower;
+  for (const Vec3& X : graph.X) {
+    lower = lower.cwiseMin(X);
+    upper = upper.cwiseMax(X);
+  }
+  return 0.5 * (lower + upper);
+}
+
 template <int Dim>
 void set_nodes(const PairGraph& graph, const RowClasses& classes, SweepGraph<Dim>& sweep) {
+  // far from the origin singles would have no digits left for the distances between nodes
+  const Vec3 origin = sweep.shape.single ? middle(graph) : Vec3::Zero();
   for (std::int64_t a = 0; a < sweep.n_nodes; ++a) {
     sweep.Omega[a] = graph.Omega[a];
     sweep.inverse_Omega[a] = 1 / graph.Omega[a];
     for (int i = 0; i < Dim; ++i)
-      sweep.X.set(a, i, graph.X[a][i]);
+      sweep.X.set(a, i, graph.X[a][i] - origin[i]);
     if (sweep.C_sum.empty()) continue;
     for (std::int64_t k = 0; k < graph.row[a + 1] - graph.row[a]; ++k) {
       const Vec3& C = shared_C(graph, classes, a, classes.pair(graph.row[a], k));

@@ -27,7 +27,7 @@ namespace diptych::scheme {
 
 using algebra::Arrangement;
 
-/// Row of v or X in a table of rows: four (3-D) or two doubles.
+/// Row of v or X in a table of rows: four (3-D) or two numbers.
 template <int Dim>
 inline constexpr int vector_stride = Dim == 3 ? 4 : 2;
 
@@ -144,7 +144,7 @@ struct SweepGraph {
   algebra::AlignedArray<PairArea> area;          ///< rows
   algebra::AlignedArray<PairVectors<Dim, float>> face;  ///< S_ab, not in rows of single precision
   MutualPairs<Dim> mutual;
-  algebra::NodeTable X;                         ///< m
+  algebra::NodeTable X;  ///< m; in single precision from the middle of the body
   algebra::AlignedArray<double> inverse_Omega;  ///< [n_blocks * 8] 1/m^3, 0 in the padding
   algebra::AlignedArray<double> Omega;          ///< [n_blocks * 8] m^3, 0 in the padding
   algebra::BlockField C_sum;                    ///< [n_nodes][Dim] sum_b C_ab

@@ -63,6 +63,10 @@ INSTANTIATE_TEST_SUITE_P(
                           20},
             PrecisionCase{
                 "swinging-cube-elastic-tet", {text_of("scheme.unknowns", "FJ")}, 2e-3, 20},
+            PrecisionCase{"swinging-cube-elastic-tet",  // far from the origin
+                          {"mesh.lower=[1e5, 1e5, 1e5]", "mesh.upper=[100001, 100001, 100001]"},
+                          2e-3,
+                          20},
             PrecisionCase{"manufactured-swirl-2d", {"scheme.face_correction=1/6"}, 1e-3, 10},
             PrecisionCase{"vibrating-bar", {leapfrog}, 0.005, 30}),
         testing::Values("mixed", "single")));

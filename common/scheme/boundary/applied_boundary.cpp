@@ -212,7 +212,7 @@ Impulse AppliedBoundary::overwrite(State<Dim>& state, double rho_R) const {
       if (has_velocities_) after += target_[k];
       for (int i = 0; i < Dim; ++i)
         state.v.set(c.node, i, after[i]);
-      if constexpr (Dim == 2) after[2] = 0;
+      after = vector_at<Dim>(state.v, c.node);  // as the state has it
       const Vec3 impulse = rho_R * c.Omega * (after - before);
       const Vec3 x = X_[c.node] + vector_at<Dim>(state.u, c.node);
       parts[chunk].linear += impulse;

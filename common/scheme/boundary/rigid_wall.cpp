@@ -48,9 +48,10 @@ double WallContacts::stop(const WallNode& w,
                           ConstraintAction& action) {
   const std::int32_t a = w.body.node;
   const Vec3 v = vector_at<Dim>(state.v, a);
-  const Vec3 change = -v.dot(w.wall.normal) * w.push;
+  const Vec3 wanted = v - v.dot(w.wall.normal) * w.push;
   for (int i = 0; i < Dim; ++i)
-    state.v.set(a, i, v[i] + change[i]);
+    state.v.set(a, i, wanted[i]);
+  const Vec3 change = vector_at<Dim>(state.v, a) - v;  // as the state has it
   const Vec3 impulse = rho_R * w.body.Omega * change;
   const Vec3 x = w.body.X_centred + vector_at<Dim>(state.u, a);
   action.impulse.linear += impulse;
