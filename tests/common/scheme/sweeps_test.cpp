@@ -290,17 +290,17 @@ TEST_P(Methods, MixedPrecisionKeepsTheIdentities) {
   }
 }
 
-double relative_distance(const std::vector<double>& one, const std::vector<double>& other) {
-  double difference = 0, size = 0;
-  for (size_t k = 0; k < one.size(); ++k) {
-    difference += (one[k] - other[k]) * (one[k] - other[k]);
-    size += one[k] * one[k];
-  }
-  return std::sqrt(difference / size);
+/// Share of the values that differ by more than 1e-6 of the largest.
+double share_that_differs(const std::vector<double>& one, const std::vector<double>& other) {
+  const double bound = 1e-6 * largest(one);
+  int n = 0;
+  for (size_t k = 0; k < one.size(); ++k)
+    n += std::abs(one[k] - other[k]) <= bound ? 0 : 1;
+  return n / static_cast<double>(one.size());
 }
 
-/// The state in single precision: all holds to single rounding. (Limiters switch on differences of
-/// that size.)
+/// The state in single precision: all holds to single rounding, but for the few pairs whose slopes
+/// are limited on one side of a switch in double and on the other in single.
 TEST_P(Methods, SinglePrecisionKeepsTheIdentitiesToItsRounding) {
   for (const DissipationKind& kind :
        {isotropic, limited, barth_jespersen, venkatakrishnan, plain}) {
@@ -310,8 +310,8 @@ TEST_P(Methods, SinglePrecisionKeepsTheIdentitiesToItsRounding) {
       full.evaluate();
       single.evaluate();
       EXPECT_LT(single.state.bytes(), 0.6 * static_cast<double>(full.state.bytes()));
-      EXPECT_LT(relative_distance(results(full), results(single)),
-                kind.limiter == scheme::PairLimiter::none ? 1e-6 : 1e-4);
+      EXPECT_LE(share_that_differs(results(full), results(single)),
+                limits_slopes(kind.limiter) ? 0.02 : 0);
       EXPECT_NEAR(single.numerical_power(), full.numerical_power(),
                   1e-4 * std::abs(full.numerical_power()));
       EXPECT_NEAR(single.rate[0], full.rate[0], 1e-6 * full.rate[0]);
