@@ -16,7 +16,8 @@ packages_format="clang-format-14"
 need_packages() {
   missing=""
   for package in "$@"; do
-    status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null)
+    # dpkg-query fails for a package that it has never heard of
+    status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null || true)
     [ "$status" = "install ok installed" ] || missing="$missing $package"
   done
   [ -z "$missing" ] && return 0

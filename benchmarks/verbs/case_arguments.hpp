@@ -1,0 +1,44 @@
+#pragma once
+/// What the verbs that run a case ask for alike: the case, its level, overrides, output.
+
+#include "benchmarks/harness/convergence.hpp"
+#include "benchmarks/harness/study.hpp"
+#include "benchmarks/verbs/command_line.hpp"
+#include "common/run/case.hpp"
+
+#include <string>
+#include <vector>
+
+namespace diptych::verbs {
+
+struct CaseArguments {
+  std::string case_name, method = "both", directory;
+  std::vector<std::string> overrides;
+  int level = 0, threads = 0;
+  bool quiet = false, no_fields = false;
+
+  /// Adds `case`, --level, --threads, --set, --out, --quiet, --no-fields.
+  void declare(CommandLine& line);
+  /// Adds --method too.
+  void declare_with_method(CommandLine& line);
+
+  /// The case with its overrides. @throws base::InputError
+  run::Case read() const;
+  /// Both methods, or the one named. @throws base::InputError for an unknown name
+  std::vector<std::string> methods() const;
+  /// --out, or results/CASE.
+  std::string output_folder(const run::Case& setup) const;
+  /// A study of one level with all that was asked.
+  harness::StudyOptions study_options(const run::Case& setup) const;
+};
+
+/// Writes to standard output and flushes it.
+void print(const std::string& text);
+
+/// Writes DIR/report.html and says so. @param convergence  of the runs; empty: of one level
+void write_report(const run::Case& setup,
+                  const harness::Study& study,
+                  const std::string& folder,
+                  const std::vector<harness::MethodConvergence>& convergence = {});
+
+}  // namespace diptych::verbs

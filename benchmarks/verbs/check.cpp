@@ -1,0 +1,43 @@
+/// diptych check: reads a case, builds its graphs and makes one step.
+
+#include "benchmarks/harness/run_case.hpp"
+#include "benchmarks/verbs/case_arguments.hpp"
+#include "benchmarks/verbs/table.hpp"
+
+#include <fmt/format.h>
+#include <memory>
+
+namespace diptych::verbs {
+
+namespace {
+
+int check(const CaseArguments& arguments) {
+  const run::Case setup = arguments.read();
+  for (const std::string& method : arguments.methods()) {
+    const auto check = harness::check_case(setup, method, arguments.level);
+    const auto kilobytes = [&](std::int64_t bytes) {
+      return 1e-3 * static_cast<double>(bytes) / static_cast<double>(check.nodes);
+    };
+    print(fmt::format(
+        "{:4} {} nodes, {} cells, {} pairs ({:.1f} a node, least {}), linear exactness {:.1e}, "
+        "closure {:.1e}\n     first dt {:.4g} s, about {} steps\n"
+        "     memory a node: {:.2f} kB in arrays of the solver; process {:.2f} kB while running, "
+        "{:.2f} kB while building\n",
+        method, check.nodes, check.cells, check.pairs, check.quality.mean_neighbours,
+        check.quality.least_neighbours, check.quality.linear_exactness, check.quality.closure,
+        check.dt, check.steps, kilobytes(check.bytes), kilobytes(check.running_bytes),
+        kilobytes(check.building_bytes)));
+  }
+  print(setup.name + ": the case is sound\n");
+  return 0;
+}
+
+}  // namespace
+
+Action declare_check(CommandLine& line) {
+  const auto arguments = std::make_shared<CaseArguments>();
+  arguments->declare_with_method(line);
+  return [arguments] { return check(*arguments); };
+}
+
+}  // namespace diptych::verbs

@@ -1,0 +1,43 @@
+/// diptych compare: both methods on the same nodes, what they cost, how far they are apart.
+
+#include "benchmarks/harness/history_differences.hpp"
+#include "benchmarks/harness/interruption.hpp"
+#include "benchmarks/harness/run_table.hpp"
+#include "benchmarks/harness/tables.hpp"
+#include "benchmarks/verbs/case_arguments.hpp"
+#include "benchmarks/verbs/table.hpp"
+
+#include <memory>
+
+namespace diptych::verbs {
+
+namespace {
+
+int compare_methods(const CaseArguments& arguments) {
+  const run::Case setup = arguments.read();
+  auto options = arguments.study_options(setup);
+  options.shapes = true;
+  const harness::Study study = harness::run_study(setup, options);
+  if (study.runs.size() == 2) {
+    std::vector<std::string> probes;
+    for (const auto& probe : setup.probes)
+      probes.push_back(probe.name);
+    const auto apart = harness::history_differences(
+        probes, study.histories.at(study.runs[0].method), study.histories.at(study.runs[1].method));
+    print(harness::comparison_table(study.runs[0], study.runs[1], study.differences, apart));
+    for (const auto& summary : study.runs)
+      print(harness::inverted_cells_warning(summary));
+    write_report(setup, study, options.directory);
+  }
+  return harness::exit_code_of_study(harness::begin_again(options.directory));
+}
+
+}  // namespace
+
+Action declare_compare(CommandLine& line) {
+  const auto arguments = std::make_shared<CaseArguments>();
+  arguments->declare(line);
+  return [arguments] { return compare_methods(*arguments); };
+}
+
+}  // namespace diptych::verbs

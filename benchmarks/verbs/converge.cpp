@@ -1,0 +1,103 @@
+/// diptych converge: levels of refinement, errors with observed orders, extrapolated quantities.
+
+#include "benchmarks/harness/interruption.hpp"
+#include "benchmarks/harness/run_table.hpp"
+#include "benchmarks/harness/tables.hpp"
+#include "benchmarks/verbs/case_arguments.hpp"
+#include "benchmarks/verbs/table.hpp"
+#include "common/base/error.hpp"
+#include "common/io/atomic_file.hpp"
+#include "common/io/run_record.hpp"
+
+#include <filesystem>
+#include <memory>
+
+namespace diptych::verbs {
+
+namespace {
+
+struct ConvergeArguments : CaseArguments {
+  int levels = 3;
+  bool fresh = false;
+  std::vector<std::string> quantities;
+};
+
+std::vector<harness::MethodConvergence> finished_levels(const harness::Study& study,
+                                                        const std::vector<std::string>& columns) {
+  std::vector<harness::LevelRecord> records;
+  for (size_t i = 0; i < study.runs.size(); ++i) {
+    if (study.runs[i].status == "interrupted") continue;
+    const std::string file = (std::filesystem::path(study.directories[i]) / "history.csv").string();
+    records.push_back({study.runs[i], io::history_columns_from_csv(io::read_file(file), file)});
+  }
+  return harness::convergence_of(records, columns);
+}
+
+void write_tables(const std::vector<harness::MethodConvergence>& convergence,
+                  const std::string& folder) {
+  const auto write = [&](const char* name, const std::string& text) {
+    const std::string file = (std::filesystem::path(folder) / name).string();
+    io::write_file_atomically(file, text);
+    print("output: " + file + "\n");
+  };
+  write("convergence.csv", harness::convergence_csv(convergence));
+  write("convergence.tex", harness::convergence_tex(convergence));
+}
+
+/// What is written and printed of the levels that are finished.
+void show_convergence(const run::Case& setup,
+                      const ConvergeArguments& arguments,
+                      const harness::Study& study,
+                      const std::string& folder) {
+  const auto convergence = finished_levels(study, arguments.quantities);
+  for (const auto& method : convergence) {
+    print(harness::convergence_table(method.levels) + "\n");
+    const std::string table = harness::quantity_table(method);
+    if (!table.empty()) print(table + "\n");
+  }
+  const std::string agreement = harness::agreement_table(convergence);
+  if (!agreement.empty()) print(agreement + "\n");
+  for (const auto& summary : study.runs)
+    print(harness::inverted_cells_warning(summary));
+  if (convergence.empty()) return;
+  write_tables(convergence, folder);
+  if (study.shapes.size() < arguments.methods().size() && !harness::interrupt_requested()) {
+    print(
+        "bodies and difference of the methods: not all in this report, as a run of the finest "
+        "level was\n  taken over; 'diptych compare' or --fresh gives them\n");
+  }
+  write_report(setup, study, folder, convergence);
+}
+
+int converge(const ConvergeArguments& arguments) {
+  if (arguments.levels < 2) throw base::InputError("--levels must be 2 or more");
+  const run::Case setup = arguments.read();
+  auto options = arguments.study_options(setup);
+  options.fields = false;
+  options.shapes = true;
+  options.resume = !arguments.fresh;
+  options.levels.clear();
+  for (int k = 0; k < arguments.levels; ++k)
+    options.levels.push_back(arguments.level + k);
+  const harness::Study study = harness::run_study(setup, options);
+  for (const std::string& folder : study.taken_over)
+    print("taken over, not run again: " + folder + "\n");
+  if (!study.taken_over.empty()) print("\n");
+  show_convergence(setup, arguments, study, options.directory);
+  return harness::exit_code_of_study(harness::go_on_from(options.directory));
+}
+
+}  // namespace
+
+Action declare_converge(CommandLine& line) {
+  const auto arguments = std::make_shared<ConvergeArguments>();
+  arguments->declare_with_method(line);
+  line.option("--levels", arguments->levels, "number of levels, from --level on");
+  line.flag("--fresh", arguments->fresh, "run finished levels again too");
+  line.repeated("--quantity", arguments->quantities,
+                "column of history.csv to extrapolate, or 'all'; repeatable (default: energies, "
+                "least J, probes)");
+  return [arguments] { return converge(*arguments); };
+}
+
+}  // namespace diptych::verbs

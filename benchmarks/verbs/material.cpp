@@ -1,0 +1,68 @@
+/// diptych material: strain paths on the material of a case alone.
+
+#include "benchmarks/harness/case_list.hpp"
+#include "benchmarks/harness/material_report.hpp"
+#include "benchmarks/verbs/case_arguments.hpp"
+#include "benchmarks/verbs/table.hpp"
+#include "common/base/registry.hpp"
+#include "common/io/atomic_file.hpp"
+#include "common/io/run_record.hpp"
+
+#include <filesystem>
+#include <memory>
+
+namespace diptych::verbs {
+
+namespace {
+
+struct MaterialArguments : CaseArguments {
+  std::string path = "shear-oscillation", update = "gauss";
+  harness::MaterialPath material;
+};
+
+int strain_material(const MaterialArguments& arguments) {
+  const run::Case setup = arguments.read();
+  harness::MaterialPath path = arguments.material;
+  harness::read_path_name(arguments.path, path);
+  path.update = base::Registry<harness::Update>("--update")
+                    .add("linear", harness::Update::linear)
+                    .add("gauss", harness::Update::gauss)
+                    .at(arguments.update);
+  const auto material = run::make_material_point(setup.material);
+  const auto points = harness::follow(*material, path);
+  print(harness::path_table(setup, path, points,
+                            harness::scan_hyperbolicity(*material, points, 200)));
+  const std::string folder = arguments.output_folder(setup);
+  io::make_directory(folder);
+  const auto write = [&](const std::string& ending, const std::string& text) {
+    const std::string file =
+        (std::filesystem::path(folder) / ("material-" + arguments.path + ending)).string();
+    io::write_file_atomically(file, text);
+    print("output: " + file + "\n");
+  };
+  write(".csv", harness::path_csv(points));
+  write(".svg", harness::path_svg(setup, path, points));
+  return 0;
+}
+
+}  // namespace
+
+Action declare_material(CommandLine& line) {
+  const auto arguments = std::make_shared<MaterialArguments>();
+  harness::MaterialPath& path = arguments->material;
+  line.word("case", arguments->case_name, "path of a case file, or a name of 'list'");
+  line.option("--path", arguments->path,
+              "{shear, confined, uniaxial, creep}-{step, ramp, oscillation}: F12, F11, F11 with "
+              "free sides, or P11 with free sides");
+  line.option("--amplitude", path.amplitude, "strain, or Pa for creep, of step or oscillation");
+  line.option("--rate", path.rate, "of a ramp, per second");
+  line.option("--frequency", path.angular_frequency, "of an oscillation, rad/s");
+  line.required("--end", path.end, "final time, s");
+  line.option("--steps", path.n_steps, "number of steps (default 1000)");
+  line.option("--update", arguments->update, "of the branches: gauss (default) or linear");
+  line.repeated("--set", arguments->overrides, "key=value, overrides the case file; repeatable");
+  line.option("--out", arguments->directory, "output folder (default results/CASE)");
+  return [arguments] { return strain_material(*arguments); };
+}
+
+}  // namespace diptych::verbs

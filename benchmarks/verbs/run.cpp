@@ -1,0 +1,32 @@
+/// diptych run: a case with one method or both.
+
+#include "benchmarks/harness/interruption.hpp"
+#include "benchmarks/harness/run_table.hpp"
+#include "benchmarks/verbs/case_arguments.hpp"
+#include "benchmarks/verbs/table.hpp"
+
+#include <memory>
+
+namespace diptych::verbs {
+
+namespace {
+
+int run_methods(const CaseArguments& arguments) {
+  const run::Case setup = arguments.read();
+  const auto options = arguments.study_options(setup);
+  const harness::Study study = harness::run_study(setup, options);
+  for (const auto& summary : study.runs)
+    print(harness::run_table(summary) + "\n");
+  print("output: " + options.directory + "\n");
+  return harness::exit_code_of_study(harness::begin_again(options.directory));
+}
+
+}  // namespace
+
+Action declare_run(CommandLine& line) {
+  const auto arguments = std::make_shared<CaseArguments>();
+  arguments->declare_with_method(line);
+  return [arguments] { return run_methods(*arguments); };
+}
+
+}  // namespace diptych::verbs

@@ -1,0 +1,58 @@
+/// diptych study: error against cost of a case and its variants, or stability limits.
+
+#include "benchmarks/harness/case_list.hpp"
+#include "benchmarks/harness/interruption.hpp"
+#include "benchmarks/harness/study_verb.hpp"
+#include "benchmarks/verbs/case_arguments.hpp"
+#include "benchmarks/verbs/table.hpp"
+#include "common/run/case_reader.hpp"
+
+#include <memory>
+
+namespace diptych::verbs {
+
+namespace {
+
+struct StudyArguments : CaseArguments {
+  harness::StudyRequest request;
+  bool stability = false;
+};
+
+int study(const StudyArguments& arguments) {
+  harness::StudyRequest request = arguments.request;
+  request.case_file = harness::find_case(arguments.case_name);
+  request.overrides = arguments.overrides;
+  request.methods = arguments.methods();
+  request.level = arguments.level;
+  request.threads = arguments.threads;
+  request.quiet = arguments.quiet;
+  request.directory = arguments.output_folder(run::read_case(request.case_file));
+  if (arguments.stability) {
+    harness::study_stability(request);
+    return harness::exit_code_of_study(
+        "the limits above are in stability.csv; the same command begins again");
+  }
+  harness::study_work_precision(request);
+  return harness::exit_code_of_study(harness::go_on_from(request.directory));
+}
+
+}  // namespace
+
+Action declare_study(CommandLine& line) {
+  const auto arguments = std::make_shared<StudyArguments>();
+  harness::StudyRequest& request = arguments->request;
+  arguments->declare_with_method(line);
+  line.repeated("--vary", request.variations,
+                "KEY=VALUE,VALUE: a run for every value, all combinations; repeatable");
+  line.option("--levels", request.n_levels, "number of levels, from --level on");
+  line.option("--repeats", request.repeats, "timings of every run (default 3)");
+  line.flag("--fresh", request.fresh, "run finished runs again too");
+  line.option("--field", request.field, "whose error is shown, such as stress");
+  line.flag("--stability", arguments->stability, "find the largest stable time step by bisection");
+  line.list("--integrators", request.integrators,
+            "with --stability: leapfrog,ssp-rk2,ssp-rk3,ssp-rk43 (default all)");
+  line.option("--steps", request.stability.n_steps, "with --stability: of a trial (default 1000)");
+  return [arguments] { return study(*arguments); };
+}
+
+}  // namespace diptych::verbs
