@@ -1,5 +1,6 @@
 #include "benchmarks/harness/case_list.hpp"
 
+#include "benchmarks/harness/data_folder.hpp"
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
 #include "common/run/case_reader.hpp"
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 
 std::string cases_folder() {
   const char* folder = std::getenv("DIPTYCH_CASES");
-  return folder != nullptr ? folder : DIPTYCH_CASES;
+  return folder != nullptr ? folder : data_folder("cases");
 }
 
 namespace {

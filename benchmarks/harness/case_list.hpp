@@ -7,8 +7,7 @@
 
 namespace diptych::harness {
 
-/// Folder of the shipped cases: the environment variable DIPTYCH_CASES, or where the program was
-/// built.
+/// Folder of the shipped cases: the environment variable DIPTYCH_CASES, or the program's data.
 std::string cases_folder();
 
 /// (name, title), by name.

@@ -118,8 +118,7 @@ struct RegressRequest {
   bool quiet = false;
 };
 
-/// Folder of the baselines: the environment variable DIPTYCH_BASELINES, or where the program was
-/// built.
+/// Folder of the baselines: the environment variable DIPTYCH_BASELINES, or the program's data.
 std::string baselines_folder();
 
 /// Prints the table; writes it and what was measured. @throws base::BoundError after the table

@@ -1,5 +1,6 @@
 /// Baselines of the regression as JSON: numbers with all their digits, one file for each case.
 
+#include "benchmarks/harness/data_folder.hpp"
 #include "benchmarks/harness/regress.hpp"
 #include "common/base/error.hpp"
 
@@ -179,7 +180,7 @@ RegressBaseline baseline_from_json(const std::string& text, const std::string& p
 
 std::string baselines_folder() {
   const char* folder = std::getenv("DIPTYCH_BASELINES");
-  return folder != nullptr ? folder : DIPTYCH_BASELINES;
+  return folder != nullptr ? folder : data_folder("baselines");
 }
 
 }  // namespace diptych::harness

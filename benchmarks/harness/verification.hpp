@@ -73,7 +73,7 @@ std::string find_verification_table(const std::string& name);
 enum class VerificationSet { verification, literature };
 
 /// Names of the shipped tables, sorted. Folder: the environment variable DIPTYCH_VERIFICATION
-/// (DIPTYCH_LITERATURE), or benchmarks/verification (literature) where the program was built.
+/// (DIPTYCH_LITERATURE), or the program's data.
 std::vector<std::string> shipped_verification_tables(VerificationSet set);
 
 /// One row: a run of one method, or how it failed.

@@ -2,6 +2,7 @@
 
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_list.hpp"
+#include "benchmarks/harness/data_folder.hpp"
 #include "benchmarks/harness/verification.hpp"
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
@@ -286,7 +287,7 @@ std::string folder_of(VerificationSet set) {
   const bool literature = set == VerificationSet::literature;
   const char* folder = std::getenv(literature ? "DIPTYCH_LITERATURE" : "DIPTYCH_VERIFICATION");
   if (folder != nullptr) return folder;
-  return literature ? DIPTYCH_LITERATURE : DIPTYCH_VERIFICATION;
+  return data_folder(literature ? "literature" : "verification");
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
-# Debian packages of Diptych and how to get them. Sourced by benchmarks/quickstart, tests/run and
-# .ci/run; defines need_packages.
+# Debian packages of Diptych and how to get them. Sourced by build.sh; defines need_packages.
 
 packages_build="g++ cmake ninja-build pkg-config libeigen3-dev libhdf5-dev libtomlplusplus-dev
   libmuparser-dev libcli11-dev libfmt-dev nlohmann-json3-dev libxxhash-dev"
@@ -7,9 +6,12 @@ packages_report="libjs-chart.js"
 packages_tests="libgtest-dev libgmock-dev gmsh"
 packages_pictures="libvtk9-dev libx11-dev xvfb xauth libgl1-mesa-dri"
 packages_python="python3-h5py python3-pandas python3-matplotlib"
+packages_browser="chromium"
 packages_micro="libbenchmark-dev"
 packages_instructions="valgrind"
 packages_format="clang-format-14"
+packages_package="dpkg-dev"
+packages_bare="mmdebstrap ca-certificates"
 
 # need_packages PACKAGE...: installs those that are missing; says which, and where it may not, what
 # to type.
@@ -22,12 +24,19 @@ need_packages() {
   done
   [ -z "$missing" ] && return 0
   echo "missing Debian packages:$missing"
+  if ! command -v apt-get >/dev/null 2>&1; then
+    echo "this machine has no apt-get: install what these packages of Debian 12 hold, or use Debian 12" >&2
+    return 4
+  fi
   if [ "$(id -u)" = 0 ]; then
     as_root=""
-  elif command -v sudo >/dev/null 2>&1 && sudo -n true 2>/dev/null; then
+  elif command -v sudo >/dev/null 2>&1 && { sudo -n true 2>/dev/null || { [ -t 0 ] && sudo -v; }; }; then
     as_root="sudo"
   else
-    echo "this needs root: run  sudo apt-get install -y --no-install-recommends$missing  and try again" >&2
+    as_root="su -c"
+    if command -v sudo >/dev/null 2>&1; then as_root="sudo sh -c"; fi
+    echo "this needs root; run the next line and try again:" >&2
+    echo "  $as_root 'apt-get update && apt-get install -y --no-install-recommends$missing'" >&2
     return 4
   fi
   echo "installing them"

@@ -103,7 +103,8 @@ std::string mistake(const CLI::App& app,
 }  // namespace
 
 int run_program(const std::vector<Verb>& verbs, int argc, char** argv) {
-  CLI::App app{"Diptych: one large-strain solid-dynamics scene on SPH and finite volumes"};
+  CLI::App app{"Diptych: one large-strain solid-dynamics scene on SPH and finite volumes",
+               "diptych"};
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("diptych ") + DIPTYCH_VERSION);
   std::vector<std::pair<const CLI::App*, Action>> actions;

@@ -117,6 +117,9 @@ DIPTYCH_INLINE void scatter_four(const Pack<Real>* columns, Real* rows, std::int
     __builtin_memcpy(rows + (k + 4) * stride, &row[k], sizeof row[k]);
 }
 
+// GCC 12 takes the first of eight writes to the lanes of a vector for a use of all of it.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 /// Components 0..n-1 of eight rows that are `stride` apart; no other is read.
 template <int n, class Real>
 DIPTYCH_INLINE void read_rows(const Real* rows, std::int64_t stride, Pack<Real>* columns) {
@@ -132,6 +135,7 @@ DIPTYCH_INLINE void read_rows(const Real* rows, std::int64_t stride, Pack<Real>*
       columns[c][lane] = row[lane][c];
   }
 }
+#pragma GCC diagnostic pop
 /// Writes them.
 template <int n, class Real>
 DIPTYCH_INLINE void write_rows(const Pack<Real>* columns, std::int64_t stride, Real* rows) {

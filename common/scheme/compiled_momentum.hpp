@@ -2,6 +2,7 @@
 /// The momentum sweeps that are compiled, by instruction set and kind of dissipation: for the files
 /// that compile them (sweeps/momentum_*.cpp) and for tests.
 
+#include "common/algebra/versions.hpp"
 #include "common/scheme/momentum_rows.hpp"
 #include "common/scheme/momentum_runs.hpp"
 
@@ -25,54 +26,34 @@ DIPTYCH_INLINE void forces_in(const MomentumSweep<Dim>& sweep,
   sweep.largest_rate[chunk] = rate;
 }
 
-/// In the precision of the state.
-template <InstructionSet isa, int Dim, DissipationKind kind, bool has_H>
-DIPTYCH_INLINE void forces_on_blocks(const MomentumSweep<Dim>& sweep,
-                                     std::int64_t begin,
-                                     std::int64_t end,
-                                     std::int64_t chunk) {
-  if constexpr (has_single_precision(kind)) {
-    if (sweep.state.shape.single) {
-      forces_in<isa, float, Dim, kind, has_H>(sweep, begin, end, chunk);
-      return;
+template <int Dim, DissipationKind kind, bool has_H>
+struct MomentumKernel {
+  /// In the precision of the state.
+  template <InstructionSet isa>
+  DIPTYCH_INLINE static void run(const MomentumSweep<Dim>& sweep,
+                                 std::int64_t begin,
+                                 std::int64_t end,
+                                 std::int64_t chunk) {
+    if constexpr (has_single_precision(kind)) {
+      if (sweep.state.shape.single) {
+        forces_in<isa, float, Dim, kind, has_H>(sweep, begin, end, chunk);
+        return;
+      }
     }
+    forces_in<isa, double, Dim, kind, has_H>(sweep, begin, end, chunk);
   }
-  forces_in<isa, double, Dim, kind, has_H>(sweep, begin, end, chunk);
-}
-
+};
 template <int Dim, DissipationKind kind, bool has_H>
-void momentum_sweep_baseline(const MomentumSweep<Dim>& sweep,
-                             std::int64_t begin,
-                             std::int64_t end,
-                             std::int64_t chunk) {
-  forces_on_blocks<InstructionSet::baseline, Dim, kind, has_H>(sweep, begin, end, chunk);
-}
-template <int Dim, DissipationKind kind, bool has_H>
-DIPTYCH_AVX2 void momentum_sweep_avx2(const MomentumSweep<Dim>& sweep,
-                                      std::int64_t begin,
-                                      std::int64_t end,
-                                      std::int64_t chunk) {
-  forces_on_blocks<InstructionSet::avx2, Dim, kind, has_H>(sweep, begin, end, chunk);
-}
-template <int Dim, DissipationKind kind, bool has_H>
-DIPTYCH_AVX512 void momentum_sweep_avx512(const MomentumSweep<Dim>& sweep,
-                                          std::int64_t begin,
-                                          std::int64_t end,
-                                          std::int64_t chunk) {
-  forces_on_blocks<InstructionSet::avx512, Dim, kind, has_H>(sweep, begin, end, chunk);
-}
+using MomentumVersions = algebra::Versions<MomentumKernel<Dim, kind, has_H>,
+                                           const MomentumSweep<Dim>&,
+                                           std::int64_t,
+                                           std::int64_t,
+                                           std::int64_t>;
 
 /// The sweep of one kind for this processor.
 template <int Dim, DissipationKind kind, bool has_H>
 MomentumFunction<Dim> momentum_sweep() {
-  switch (algebra::instruction_set()) {
-    case InstructionSet::avx512:
-      return momentum_sweep_avx512<Dim, kind, has_H>;
-    case InstructionSet::avx2:
-      return momentum_sweep_avx2<Dim, kind, has_H>;
-    default:
-      return momentum_sweep_baseline<Dim, kind, has_H>;
-  }
+  return algebra::version_here<MomentumVersions<Dim, kind, has_H>>();
 }
 
 /// Sweeps of linear reconstruction with one impedance, by limiter.

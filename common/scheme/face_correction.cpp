@@ -24,50 +24,26 @@ DIPTYCH_INLINE void plain_gradients(const SweepGraph<Dim>& graph,
 }
 
 template <int Dim>
-void gradients_baseline(const SweepGraph<Dim>& graph,
-                        State<Dim>& state,
-                        std::int64_t begin,
-                        std::int64_t end) {
-  plain_gradients<InstructionSet::baseline>(graph, state, begin, end);
-}
-template <int Dim>
-void stresses_baseline(const SweepGraph<Dim>& graph,
-                       State<Dim>& state,
-                       double kappa_f,
-                       std::int64_t begin,
-                       std::int64_t end) {
-  correct_stresses<InstructionSet::baseline>(graph, state, kappa_f, begin, end);
-}
-template <int Dim>
-DIPTYCH_AVX2 void gradients_avx2(const SweepGraph<Dim>& graph,
+struct GradientKernel {
+  template <InstructionSet isa>
+  DIPTYCH_INLINE static void run(const SweepGraph<Dim>& graph,
                                  State<Dim>& state,
                                  std::int64_t begin,
                                  std::int64_t end) {
-  plain_gradients<InstructionSet::avx2>(graph, state, begin, end);
-}
+    plain_gradients<isa>(graph, state, begin, end);
+  }
+};
 template <int Dim>
-DIPTYCH_AVX2 void stresses_avx2(const SweepGraph<Dim>& graph,
-                                State<Dim>& state,
-                                double kappa_f,
-                                std::int64_t begin,
-                                std::int64_t end) {
-  correct_stresses<InstructionSet::avx2>(graph, state, kappa_f, begin, end);
-}
-template <int Dim>
-DIPTYCH_AVX512 void gradients_avx512(const SweepGraph<Dim>& graph,
-                                     State<Dim>& state,
-                                     std::int64_t begin,
-                                     std::int64_t end) {
-  plain_gradients<InstructionSet::avx512>(graph, state, begin, end);
-}
-template <int Dim>
-DIPTYCH_AVX512 void stresses_avx512(const SweepGraph<Dim>& graph,
-                                    State<Dim>& state,
-                                    double kappa_f,
-                                    std::int64_t begin,
-                                    std::int64_t end) {
-  correct_stresses<InstructionSet::avx512>(graph, state, kappa_f, begin, end);
-}
+struct StressKernel {
+  template <InstructionSet isa>
+  DIPTYCH_INLINE static void run(const SweepGraph<Dim>& graph,
+                                 State<Dim>& state,
+                                 double kappa_f,
+                                 std::int64_t begin,
+                                 std::int64_t end) {
+    correct_stresses<isa>(graph, state, kappa_f, begin, end);
+  }
+};
 
 }  // namespace
 
@@ -81,14 +57,12 @@ double frequency_factor(double kappa_f) {
 
 template <int Dim>
 FaceCorrectionSweeps<Dim> face_correction_sweeps() {
-  switch (algebra::instruction_set()) {
-    case InstructionSet::avx512:
-      return {gradients_avx512<Dim>, stresses_avx512<Dim>};
-    case InstructionSet::avx2:
-      return {gradients_avx2<Dim>, stresses_avx2<Dim>};
-    default:
-      return {gradients_baseline<Dim>, stresses_baseline<Dim>};
-  }
+  using algebra::version_here;
+  using algebra::Versions;
+  using Index = std::int64_t;
+  using Graph = const SweepGraph<Dim>&;
+  return {version_here<Versions<GradientKernel<Dim>, Graph, State<Dim>&, Index, Index>>(),
+          version_here<Versions<StressKernel<Dim>, Graph, State<Dim>&, double, Index, Index>>()};
 }
 
 template FaceCorrectionSweeps<2> face_correction_sweeps<2>();

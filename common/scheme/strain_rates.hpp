@@ -8,6 +8,7 @@
 /// most 28 of geometry (double precision).
 
 #include "common/algebra/layout.hpp"
+#include "common/algebra/versions.hpp"
 #include "common/physics/wave_speeds.hpp"
 #include "common/scheme/face_correction.hpp"
 #include "common/scheme/pair_access.hpp"
@@ -264,38 +265,26 @@ DIPTYCH_INLINE void evaluate_blocks(const StrainRateSweep<Dim, Material>& sweep,
 }
 
 template <int Dim, class Material>
-void strain_rate_sweep_baseline(const StrainRateSweep<Dim, Material>& sweep,
-                                std::int64_t begin,
-                                std::int64_t end,
-                                std::int64_t chunk) {
-  evaluate_blocks<InstructionSet::baseline>(sweep, begin, end, chunk);
-}
+struct StrainRateKernel {
+  template <InstructionSet isa>
+  DIPTYCH_INLINE static void run(const StrainRateSweep<Dim, Material>& sweep,
+                                 std::int64_t begin,
+                                 std::int64_t end,
+                                 std::int64_t chunk) {
+    evaluate_blocks<isa>(sweep, begin, end, chunk);
+  }
+};
 template <int Dim, class Material>
-DIPTYCH_AVX2 void strain_rate_sweep_avx2(const StrainRateSweep<Dim, Material>& sweep,
-                                         std::int64_t begin,
-                                         std::int64_t end,
-                                         std::int64_t chunk) {
-  evaluate_blocks<InstructionSet::avx2>(sweep, begin, end, chunk);
-}
-template <int Dim, class Material>
-DIPTYCH_AVX512 void strain_rate_sweep_avx512(const StrainRateSweep<Dim, Material>& sweep,
-                                             std::int64_t begin,
-                                             std::int64_t end,
-                                             std::int64_t chunk) {
-  evaluate_blocks<InstructionSet::avx512>(sweep, begin, end, chunk);
-}
+using StrainRateVersions = algebra::Versions<StrainRateKernel<Dim, Material>,
+                                             const StrainRateSweep<Dim, Material>&,
+                                             std::int64_t,
+                                             std::int64_t,
+                                             std::int64_t>;
 
 /// The sweep for this processor.
 template <int Dim, class Material>
 StrainRateFunction<Dim, Material> strain_rate_function() {
-  switch (algebra::instruction_set()) {
-    case InstructionSet::avx512:
-      return strain_rate_sweep_avx512<Dim, Material>;
-    case InstructionSet::avx2:
-      return strain_rate_sweep_avx2<Dim, Material>;
-    default:
-      return strain_rate_sweep_baseline<Dim, Material>;
-  }
+  return algebra::version_here<StrainRateVersions<Dim, Material>>();
 }
 
 }  // namespace diptych::scheme

@@ -37,10 +37,12 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// `diptych ARGUMENTS`, from inside the folder. ARGUMENTS go through a shell.
-inline Outcome diptych(const Folder& folder, const std::string& arguments) {
-  const std::string command = "cd " + folder.path().string() +
-                              " && " DIPTYCH_BUILD_DIR "/diptych " + arguments + " 2>&1 </dev/null";
+/// `PROGRAM ARGUMENTS`, from inside the folder. ARGUMENTS go through a shell.
+inline Outcome run_program(const Folder& folder,
+                           const std::string& program,
+                           const std::string& arguments) {
+  const std::string command =
+      "cd " + folder.path().string() + " && " + program + " " + arguments + " 2>&1 </dev/null";
   Outcome outcome;
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return outcome;
@@ -50,6 +52,11 @@ inline Outcome diptych(const Folder& folder, const std::string& arguments) {
   const int status = pclose(pipe);
   outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return outcome;
+}
+
+/// `diptych ARGUMENTS`, the same.
+inline Outcome diptych(const Folder& folder, const std::string& arguments) {
+  return run_program(folder, DIPTYCH_BUILD_DIR "/diptych", arguments);
 }
 
 inline std::string text_of(const std::filesystem::path& path) {

@@ -191,7 +191,7 @@ class LoadedBody {
         model_,   pairs_,  state_, frozen,          false,          true,
         kappa_f_, nullptr, 0,      viscous_.data(), least_J_.data()};
     parallel::for_chunks(blocks, [&](auto b, auto e, auto c) {
-      scheme::strain_rate_sweep_baseline<Dim, Material>(rates, b, e, c);
+      scheme::StrainRateVersions<Dim, Material>::baseline(rates, b, e, c);
     });
     if (kappa_f_ != 0) face.stresses(pairs_, state_, kappa_f_, 0, blocks);
     const scheme::MomentumSweep<Dim> forces{

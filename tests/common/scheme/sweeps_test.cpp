@@ -354,22 +354,21 @@ TEST_P(Methods, DissipationIsProportionalToItsFactor) {
 
 TEST_P(Methods, CompiledFormsAgree) {
 #if defined(DIPTYCH_MULTIVERSION)
+  using StrainRates = scheme::StrainRateVersions<3, Material>;
+  using Momentum = scheme::MomentumVersions<3, isotropic, true>;
   for (const Arrangement arrangement : {Arrangement::rows, Arrangement::runs}) {
     RandomBody body(GetParam(), isotropic, arrangement);
-    body.evaluate(scheme::strain_rate_sweep_baseline<3, Material>,
-                  scheme::momentum_sweep_baseline<3, isotropic, true>);
+    body.evaluate(StrainRates::baseline, Momentum::baseline);
     const auto baseline = results(body);
     const auto here = algebra::instruction_set();
     if (here == algebra::InstructionSet::baseline) return;  // one form only on this processor
-    body.evaluate(scheme::strain_rate_sweep_avx2<3, Material>,
-                  scheme::momentum_sweep_avx2<3, isotropic, true>);
+    body.evaluate(StrainRates::avx2, Momentum::avx2);
     const auto avx2 = results(body);
     for (size_t k = 0; k < avx2.size(); ++k) {
       ASSERT_NEAR(avx2[k], baseline[k], rounding * largest(baseline));
     }
     if (here != algebra::InstructionSet::avx512) continue;
-    body.evaluate(scheme::strain_rate_sweep_avx512<3, Material>,
-                  scheme::momentum_sweep_avx512<3, isotropic, true>);
+    body.evaluate(StrainRates::avx512, Momentum::avx512);
     EXPECT_EQ(results(body), avx2) << "AVX2 and AVX-512 promise the same bits";
   }
 #endif

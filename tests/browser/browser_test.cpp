@@ -1,5 +1,5 @@
 /// The page in a browser: no error on the console, every canvas drawn, hovering tells values, no
-/// wider than a phone. Needs headless Chromium; skipped where there is none.
+/// wider than a phone. Built where Chromium was found.
 
 #include "tests/report/browser.hpp"
 
@@ -14,7 +14,6 @@
 namespace diptych::report {
 namespace {
 
-using test::chromium;
 using test::seen_in;
 using test::with_witness;
 
@@ -60,7 +59,6 @@ addEventListener('load', async () => {
 </script>)";
 
 TEST(Browser, DrawsEveryCanvasAndTellsValuesWithoutAnError) {
-  if (chromium().empty()) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
   if (!std::filesystem::exists(chart_script_path())) {
     GTEST_SKIP() << "no Chart.js here: apt-get install libjs-chart.js";
   }
@@ -86,7 +84,6 @@ TEST(Browser, DrawsEveryCanvasAndTellsValuesWithoutAnError) {
 }
 
 TEST(Browser, WouldShowAnError) {
-  if (chromium().empty()) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
   const std::string broken = report_html(test::full_study(), "/* Chart.js v3. without Chart */");
   const nlohmann::json seen = seen_in(with_witness(broken, looking), 390);
   ASSERT_TRUE(seen.is_object());
@@ -171,7 +168,6 @@ void expect_zooms(const std::string& page, size_t n_plots) {
 }
 
 TEST(Browser, ZoomsEveryPlotAndHidesItsSeries) {
-  if (chromium().empty()) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
   if (!std::filesystem::exists(chart_script_path())) {
     GTEST_SKIP() << "no Chart.js here: apt-get install libjs-chart.js";
   }
