@@ -210,7 +210,7 @@ void advance(const run::Case& setup,
              Recorder& recorder,
              io::RunSummary& s) {
   Progress progress(fmt::format("{} level {}", options.method, options.level), setup.time.end,
-                    options.quiet);
+                    options.quiet, options.schedule);
   run::StepReport report;
   report.step = 0;
   recorder.record(report);
