@@ -198,7 +198,7 @@ std::string quantities_table(const VariantStudy& study) {
   const size_t fit = width + column_width < page_width ? (page_width - width) / column_width : 1;
   std::string text;
   for (const std::string& quantity : study.quantities) {
-    text += "\n" + titled(quantity, unit_of(study, quantity)) + "\n";
+    text += fmt::format("\n{}\n", titled(quantity, unit_of(study, quantity)));
     for (size_t first = 0; first < columns.size(); first += fit) {
       const size_t last = std::min(first + fit, columns.size());
       text += block(study, quantity,
