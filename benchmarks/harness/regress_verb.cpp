@@ -184,16 +184,23 @@ void regress(const RegressRequest& request) {
   };
   std::vector<RegressRow> rows;
   if (request.cases.empty() && request.bless.empty()) rows = orphans();
+  // cases have nothing in common: those to come take what those that are over took in the mean
+  Schedule schedule(std::vector<PlannedRun>(names.size(), {"", "case", 0, 3}));
   for (size_t i = 0; i < names.size(); ++i) {
     const double before = seconds();
     const auto more = rows_of_case(names[i], request);
     if (interrupt_requested()) break;
     rows.insert(rows.end(), more.begin(), more.end());
+    schedule.finish(seconds() - before);
     if (!request.quiet) {
-      std::fputs(fmt::format("  {} of {}: {}, {:.1f} s\n", i + 1, names.size(), names[i],
-                             seconds() - before)
-                     .c_str(),
-                 stderr);
+      const auto left = schedule.seconds_left();
+      const bool is_last = i + 1 == names.size();
+      std::fputs(
+          fmt::format("  {} of {}: {}, {:.1f} s{}\n", i + 1, names.size(), names[i],
+                      seconds() - before,
+                      left && !is_last ? fmt::format("; about {} left", duration_text(*left)) : "")
+              .c_str(),
+          stderr);
     }
   }
   const std::string table = regress_table(rows) + fmt::format("{}\n", duration_text(seconds()));

@@ -3,6 +3,7 @@
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/energy_record.hpp"
 #include "benchmarks/harness/exact_record.hpp"
+#include "benchmarks/harness/frame_fields.hpp"
 #include "benchmarks/harness/memory.hpp"
 #include "benchmarks/harness/progress.hpp"
 #include "benchmarks/harness/provenance.hpp"
@@ -155,41 +156,11 @@ class Recorder {
   }
 
   void write_fields(const run::Snapshot& s) {
-    const auto& order = result_.order;
-    const auto vectors = [&](const std::string& name, const std::vector<algebra::Vec3>& field) {
-      io::NodeField f{name, 3, std::vector<double>(3 * field.size())};
-      for (size_t a = 0; a < field.size(); ++a) {
-        for (int i = 0; i < 3; ++i)
-          f.values[3 * order[a] + i] = field[a][i];
-      }
-      return f;
-    };
-    const auto tensors = [&](const std::string& name, const std::vector<run::Mat3>& field) {
-      io::NodeField f{name, 9, std::vector<double>(9 * field.size())};
-      for (size_t a = 0; a < field.size(); ++a) {
-        for (int k = 0; k < 9; ++k)
-          f.values[9 * order[a] + k] = field[a](k / 3, k % 3);
-      }
-      return f;
-    };
-    io::NodeField J{"jacobian [-]", 1, std::vector<double>(s.J.size())};
-    io::NodeField pressure{"pressure [Pa]", 1, std::vector<double>(s.J.size())};
-    for (size_t a = 0; a < s.J.size(); ++a) {
-      J.values[order[a]] = s.J[a];
-      // p = -1/3 tr sigma, sigma = P F^T / J
-      pressure.values[order[a]] = -(s.P[a] * s.F[a].transpose()).trace() / (3 * s.J[a]);
-    }
-    const std::vector<io::NodeField> fields{vectors("displacement [m]", s.u),
-                                            vectors("velocity [m/s]", s.v),
-                                            tensors("deformation_gradient [-]", s.F),
-                                            tensors("first_piola_stress [Pa]", s.P),
-                                            std::move(J),
-                                            std::move(pressure)};
     std::vector<io::NamedValue> values;
     const std::vector<double>& probes = result_.history.back().probes;
     for (size_t k = 0; k < probes.size(); ++k)
       values.push_back({setup_.probes[k].column(), probes[k]});
-    writer_->write(s.time, fields, values);
+    writer_->write(s.time, frame_fields(s, result_.order), values);
   }
 
   const run::Case& setup_;
@@ -239,7 +210,7 @@ void advance(const run::Case& setup,
              Recorder& recorder,
              io::RunSummary& s) {
   Progress progress(fmt::format("{} level {}", options.method, options.level), setup.time.end,
-                    options.quiet);
+                    options.quiet, options.schedule);
   run::StepReport report;
   report.step = 0;
   recorder.record(report);

@@ -3,6 +3,7 @@
 
 #include "benchmarks/harness/case_mesh.hpp"
 #include "benchmarks/harness/node_measures.hpp"
+#include "benchmarks/harness/schedule.hpp"
 #include "common/io/run_record.hpp"
 #include "common/run/case.hpp"
 #include "common/run/solver.hpp"
@@ -23,7 +24,8 @@ struct RunOptions {
   bool quiet = false;     ///< no progress
   bool shapes = false;    ///< keep deformed surfaces for a report
   bool scales = false;    ///< find the largest norms of the fields over the output times
-  std::vector<NodeMeasure> measures;  ///< of the final state, for summary.json
+  std::vector<NodeMeasure> measures;   ///< of the final state, for summary.json
+  const Schedule* schedule = nullptr;  ///< of the command that makes this run among others
 };
 
 struct RunResult {

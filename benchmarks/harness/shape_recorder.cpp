@@ -1,18 +1,12 @@
 #include "benchmarks/harness/shape_recorder.hpp"
 
+#include "common/run/stress_measures.hpp"
+
 #include <algorithm>
-#include <cmath>
 
 namespace diptych::harness {
 
 namespace {
-
-/// sqrt(3/2 s:s), s the deviator of the Cauchy stress P F^T / J.
-double von_mises(const run::Mat3& P, const run::Mat3& F, double J) {
-  const run::Mat3 sigma = P * F.transpose() / J;
-  const run::Mat3 deviator = sigma - sigma.trace() / 3 * run::Mat3::Identity();
-  return std::sqrt(1.5) * deviator.norm();
-}
 
 /// A face of the mesh's nodes; a triangle repeats its last one.
 std::array<std::int32_t, 4> face_of(std::span<const std::int32_t> nodes) {
@@ -75,9 +69,9 @@ void ShapeRecorder::take(const run::Snapshot& state, double time) {
     for (int i = 0; i < record_.surface.dimension; ++i)
       frame.x.push_back(x[i]);
     frame.values[0].push_back(state.v[a].norm());
-    frame.values[1].push_back(von_mises(state.P[a], state.F[a], state.J[a]));
-    // p = -1/3 tr sigma, sigma = P F^T / J
-    frame.values[2].push_back(-(state.P[a] * state.F[a].transpose()).trace() / (3 * state.J[a]));
+    const run::Mat3 sigma = run::cauchy_stress(state.P[a], state.F[a], state.J[a]);
+    frame.values[1].push_back(run::von_mises(sigma));
+    frame.values[2].push_back(run::pressure(sigma));
     frame.values[3].push_back(state.J[a]);
   }
   record_.frames.push_back(std::move(frame));

@@ -2,6 +2,7 @@
 
 #include "benchmarks/harness/resumption.hpp"
 #include "common/base/text.hpp"
+#include "common/run/case_reader.hpp"
 #include "common/run/field_norms.hpp"
 
 #include <algorithm>
@@ -25,6 +26,15 @@ std::map<std::string, double> differences_of(const RunResult& a, const RunResult
   return differences;
 }
 
+Schedule schedule_of(const run::Case& setup, const StudyOptions& options) {
+  std::vector<PlannedRun> runs;
+  for (const int level : options.levels) {
+    for (const std::string& method : options.methods)
+      runs.push_back({method, method, level, run::dimension_of(setup.mesh)});
+  }
+  return Schedule(std::move(runs));
+}
+
 std::string run_directory(const StudyOptions& options, int level, const std::string& method) {
   if (options.directory.empty()) return {};
   std::filesystem::path path = options.directory;
@@ -36,12 +46,14 @@ std::string run_directory(const StudyOptions& options, int level, const std::str
 
 Study run_study(const run::Case& setup, const StudyOptions& options) {
   Study study;
+  Schedule schedule = schedule_of(setup, options);
   for (const int level : options.levels) {
     std::vector<RunResult> results;
     for (const std::string& method : options.methods) {
       RunOptions run_options;
       run_options.method = method;
       run_options.level = level;
+      run_options.schedule = &schedule;
       run_options.threads = options.threads;
       run_options.directory = run_directory(options, level, method);
       run_options.fields = options.fields;
@@ -55,10 +67,12 @@ Study run_study(const run::Case& setup, const StudyOptions& options) {
         study.histories[method] = finished->history;
         study.exact[method] = finished->exact;
         study.taken_over.push_back(run_options.directory);
+        schedule.finish(finished->summary.wall_seconds);
         continue;
       }
       results.push_back(run_case(setup, run_options));
       study.runs.push_back(results.back().summary);
+      schedule.finish(results.back().summary.wall_seconds);
       study.histories[method] = results.back().history;
       study.exact[method] = results.back().exact;
       if (run_options.shapes) study.shapes[method] = std::move(results.back().shapes);

@@ -2,10 +2,10 @@
 
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_mesh.hpp"
-#include "benchmarks/harness/provenance.hpp"
-#include "benchmarks/harness/resumption.hpp"
 #include "benchmarks/harness/run_case.hpp"
 #include "benchmarks/harness/status_line.hpp"
+#include "benchmarks/harness/study_runs.hpp"
+#include "benchmarks/harness/variant_quantities.hpp"
 #include "benchmarks/harness/variants.hpp"
 #include "benchmarks/harness/work_precision.hpp"
 #include "common/base/error.hpp"
@@ -13,13 +13,10 @@
 #include "common/io/run_record.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/time/integrator.hpp"
-#include "postprocess/report/orders.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
-#include <optional>
 
 namespace diptych::harness {
 
@@ -73,6 +70,10 @@ void study_stability(const StudyRequest& asked) {
     throw base::InputError(
         "--fresh has no effect with --stability, which keeps no runs; remove it");
   }
+  if (!request.quantities.empty()) {
+    throw base::InputError(
+        "--quantity has no effect with --stability, which shows limits; remove it");
+  }
   if (request.integrators.empty()) request.integrators = time::integrator_menu().names();
   for (const std::string& integrator : request.integrators)
     time::integrator_menu().at(integrator);
@@ -99,121 +100,64 @@ void study_stability(const StudyRequest& asked) {
 
 namespace {
 
-/// A run that was finished before, whose times are those of this machine.
-std::optional<io::RunSummary> timed_before(const run::Case& setup, const RunOptions& options) {
-  const auto finished = finished_run(setup, options);
-  if (!finished) return std::nullopt;
-  const io::RunSummary& run = finished->summary;
-  const bool same =
-      run.threads == parallel::n_threads() && run.provenance.cpu == provenance(setup.hash).cpu;
-  return same ? std::optional(run) : std::nullopt;
+/// What holds for a study whatever the case has. @return with its defaults
+StudyRequest checked(StudyRequest request, const run::Case& setup) {
+  if (request.n_levels < 1) throw base::InputError("--levels must be 1 or more");
+  if (request.repeats == StudyRequest::by_default) request.repeats = has_exact(setup) ? 3 : 1;
+  if (request.repeats < 1) throw base::InputError("--repeats must be 1 or more");
+  if (!has_exact(setup) && !request.field.empty()) {
+    throw base::InputError(setup.name +
+                           " has no exact solution to measure errors against: --field has no "
+                           "effect; --quantity chooses what is shown");
+  }
+  return request;
 }
 
-/// Adds a repetition of one level to a curve. @return false after an interrupt
-bool add_run(const run::Case& setup,
-             const RunOptions& options,
-             bool first,
-             bool fresh,
-             int& n_taken_over,
-             WorkCurve& curve) {
-  const auto before = fresh ? std::nullopt : timed_before(setup, options);
-  if (before) ++n_taken_over;
-  const io::RunSummary run = before ? *before : run_case(setup, options).summary;
-  if (interrupt_requested()) return false;
-  if (first) {
-    curve.points.push_back({run, run.loop_seconds, run.loop_seconds, setup.scheme.face_correction});
-    return true;
-  }
-  WorkPoint& point = curve.points.back();
-  point.most = std::max(point.most, run.loop_seconds);
-  if (run.loop_seconds < point.least) {
-    point.least = run.loop_seconds;
-    point.run = run;
-  }
-  return true;
+void show_errors(const StudyRequest& request, const run::Case& setup, const StudyRuns& runs) {
+  const auto machine = probes::measure_machine(request.threads);
+  const std::string title =
+      fmt::format("Work and precision: {}", setup.title.empty() ? setup.name : setup.title);
+  print(setup.name + "\n" + work_precision_table(runs.curves, runs.field, machine));
+  write(request, "work_precision.csv", work_precision_csv(runs.curves));
+  write(request, "work_precision.html",
+        work_precision_html(title, runs.curves, runs.field, machine));
 }
 
-/// The field to show: the one asked for, or the first of the case.
-std::string field_of(const StudyRequest& request, const io::RunSummary& run) {
-  const std::vector<std::string> fields = report::fields_of({run});
-  if (fields.empty()) {
-    throw base::InputError(run.case_name +
-                           " has no exact solution to measure errors against; study a case with "
-                           "[exact] or [manufactured]");
-  }
-  if (request.field.empty()) return fields.front();
-  if (std::find(fields.begin(), fields.end(), request.field) == fields.end()) {
-    throw base::InputError("--field " + request.field + " is not measured" +
-                           base::suggestion(request.field, fields));
-  }
-  return request.field;
-}
-
-/// All levels of all curves. The first run, the shortest, sets the field and makes the folder.
-void measure(const StudyRequest& request,
-             const std::vector<run::Case>& cases,
-             std::string& field,
-             std::vector<WorkCurve>& curves) {
-  StatusLine status(request.quiet);
-  RunOptions options;
-  options.threads = request.threads;
-  options.fields = false;
-  options.quiet = request.quiet;
-  const std::filesystem::path runs = std::filesystem::path(request.directory) / "runs";
-  int n_taken_over = 0;
-  for (options.level = request.level; options.level < request.level + request.n_levels;
-       ++options.level) {
-    for (int repetition = 0; repetition < request.repeats; ++repetition) {
-      for (size_t i = 0; i < curves.size(); ++i) {
-        options.method = curves[i].method;
-        const run::Case& setup = cases[i / request.methods.size()];
-        status.show(fmt::format("{} level {}, repetition {} of {}", curves[i].name(), options.level,
-                                repetition + 1, request.repeats));
-        // the very first run tells whether what was asked makes sense: nothing is written before
-        if (!field.empty()) {
-          options.directory = (runs / fmt::format("{}_{}_level_{}_{}", input_hash(setup, {}),
-                                                  options.method, options.level, repetition + 1))
-                                  .string();
-        }
-        if (!add_run(setup, options, repetition == 0, request.fresh, n_taken_over, curves[i])) {
-          return;
-        }
-        if (!field.empty()) continue;
-        field = field_of(request, curves[i].points.back().run);
-        io::make_directory(request.directory);  // now that nothing is wrong with what was asked
-      }
-    }
-    status.keep(fmt::format("level {} done: {} runs, {} of them taken over", options.level,
-                            request.repeats * static_cast<int>(curves.size()), n_taken_over));
-    n_taken_over = 0;
-  }
+void show_quantities(const StudyRequest& request,
+                     const run::Case& setup,
+                     const std::vector<Variant>& variants,
+                     const StudyRuns& runs) {
+  const VariantStudy study{runs.curves, variants,
+                           chosen_quantities(setup, request.quantities, runs)};
+  const std::string title =
+      fmt::format("Quantities: {}", setup.title.empty() ? setup.name : setup.title);
+  print(fmt::format("{}{}: quantities of each variant, method and level\n",
+                    has_exact(setup) ? "\n" : "", setup.name));
+  print(quantities_table(study));
+  write(request, "quantities.csv", quantities_csv(study));
+  write(request, "quantities.html", quantities_html(title, study));
 }
 
 }  // namespace
 
-void study_work_precision(const StudyRequest& request) {
-  if (request.n_levels < 1) throw base::InputError("--levels must be 1 or more");
-  if (request.repeats < 1) throw base::InputError("--repeats must be 1 or more");
-  std::vector<run::Case> cases;
-  std::vector<WorkCurve> curves;
-  for (const Variant& variant : variants_of(request.variations)) {
-    cases.push_back(case_of_variant(request.case_file, request.overrides, variant));
-    for (const std::string& method : request.methods)
-      curves.push_back({variant.label, method, {}});
+void study_variants(const StudyRequest& asked) {
+  const auto variants = variants_of(asked.variations);
+  std::vector<run::Case> cases;  // all are read before the first runs
+  for (const Variant& variant : variants)
+    cases.push_back(case_of_variant(asked.case_file, asked.overrides, variant));
+  const run::Case& setup = cases.front();
+  const StudyRequest request = checked(asked, setup);
+  check_quantities(setup, request.quantities);
+  const StudyRuns runs = runs_of_study(request, variants, cases);
+  if (!runs.curves.empty()) {  // else interrupted in the first run
+    if (has_exact(setup)) show_errors(request, setup, runs);
+    if (!has_exact(setup) || !request.quantities.empty())
+      show_quantities(request, setup, variants, runs);
   }
-  std::string field;
-  measure(request, cases, field, curves);
-  curves.erase(std::remove_if(curves.begin(), curves.end(),
-                              [](const WorkCurve& curve) { return curve.points.empty(); }),
-               curves.end());
-  if (curves.empty()) return;  // interrupted in the first run
-  const auto machine = probes::measure_machine(request.threads);
-  const std::string title =
-      fmt::format("Work and precision: {}",
-                  cases.front().title.empty() ? cases.front().name : cases.front().title);
-  print(cases.front().name + "\n" + work_precision_table(curves, field, machine));
-  write(request, "work_precision.csv", work_precision_csv(curves));
-  write(request, "work_precision.html", work_precision_html(title, curves, field, machine));
+  if (!runs.breakdowns.empty()) {
+    throw base::BreakdownError(fmt::format("{} of the runs broke down: {}", runs.breakdowns.size(),
+                                           fmt::join(runs.breakdowns, "; ")));
+  }
 }
 
 }  // namespace diptych::harness

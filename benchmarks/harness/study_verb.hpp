@@ -1,8 +1,10 @@
 #pragma once
-/// What `diptych study` does: stability limits, or error against cost, of a case and its variants.
+/// What `diptych study` does with a case and its variants: stability limits; error against cost;
+/// quantities where there is no exact solution, or where they are asked for.
 
 #include "benchmarks/harness/stability.hpp"
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,8 +16,11 @@ struct StudyRequest {
   std::vector<std::string> methods;
   std::vector<std::string> integrators;  ///< stability only; empty: all
   int level = 0;                         ///< the first
-  int n_levels = 3, repeats = 3;         ///< work-precision only
-  std::string field;  ///< whose error is shown; empty: the first that the case measures
+  static constexpr int by_default = std::numeric_limits<int>::min();
+  int n_levels = 3;
+  int repeats = by_default;  ///< timings of every run; by default 3, without an exact solution 1
+  std::string field;         ///< whose error is shown; empty: the first that the case measures
+  std::vector<std::string> quantities;  ///< to show; empty: only without an exact solution
   int threads = 0;
   std::string directory;
   bool quiet = false, fresh = false;
@@ -25,11 +30,12 @@ struct StudyRequest {
 /// Prints the table, writes DIR/stability.csv. Rows found before an interrupt are kept.
 void study_stability(const StudyRequest& request);
 
-/// Prints the table, writes DIR/work_precision.csv and DIR/work_precision.html. Repetitions go
-/// round the curves, so that a slow minute of the machine hits all of them. Runs are kept in
-/// DIR/runs, and taken over where the same program has finished them with as many threads on the
-/// same kind of processor.
-/// @throws base::InputError where the case has no exact solution
-void study_work_precision(const StudyRequest& request);
+/// Runs all variants, methods and levels. Where the case has an exact solution, prints the table of
+/// errors against cost and writes DIR/work_precision.csv and .html; else, and where quantities are
+/// asked for, those with DIR/quantities.csv and .html. Runs are kept in DIR/runs, and taken over
+/// where the same program has finished them with as many threads on the same kind of processor.
+/// @throws base::InputError before the first run; base::BreakdownError at the end, when all other
+///         runs are made and shown
+void study_variants(const StudyRequest& request);
 
 }  // namespace diptych::harness

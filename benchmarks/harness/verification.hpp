@@ -16,6 +16,7 @@
 ///   [[bound]]                 columns, runs, and one of least_order, most, least, most_spread
 
 #include "benchmarks/harness/node_measures.hpp"
+#include "benchmarks/harness/schedule.hpp"
 #include "common/io/run_record.hpp"
 
 #include <map>
@@ -111,7 +112,12 @@ struct VerificationOptions {
   bool fresh = false;  ///< runs that the same program has finished are run again too
   bool quick = false;  ///< without the last row of each sequence of levels
   bool quiet = false;
+  Schedule* schedule = nullptr;  ///< of all tables of the command; verify() goes on in it
 };
+
+/// The runs of a table in the order in which verify() makes them.
+std::vector<PlannedRun> planned_runs(const VerificationTable& table,
+                                     const VerificationOptions& options);
 
 /// Runs what is not there yet; nothing where it was interrupted.
 std::optional<VerificationResult> verify(const VerificationTable& table,

@@ -16,8 +16,16 @@ int verify_tables(const VerifyRequest& request) {
     tables.push_back(read_verification_table(find_verification_table(name)));
   std::vector<VerificationResult> results;
   bool all_met = true;
+  std::vector<PlannedRun> runs;
   for (const auto& table : tables) {
-    const auto result = verify(table, request.run);
+    const auto more = planned_runs(table, request.run);
+    runs.insert(runs.end(), more.begin(), more.end());
+  }
+  Schedule schedule(std::move(runs));
+  VerificationOptions options = request.run;
+  options.schedule = &schedule;
+  for (const auto& table : tables) {
+    const auto result = verify(table, options);
     if (!result) {
       std::fputs("diptych: interrupted; the same command goes on from here\n", stderr);
       return static_cast<int>(base::ExitCode::interrupted);

@@ -1,4 +1,5 @@
-/// diptych study: error against cost of a case and its variants, or stability limits.
+/// diptych study: error against cost, or quantities, of a case and its variants; or stability
+/// limits.
 
 #include "benchmarks/harness/case_list.hpp"
 #include "benchmarks/harness/interruption.hpp"
@@ -32,7 +33,7 @@ int study(const StudyArguments& arguments) {
     return harness::exit_code_of_study(
         "the limits above are in stability.csv; the same command begins again");
   }
-  harness::study_work_precision(request);
+  harness::study_variants(request);
   return harness::exit_code_of_study(harness::go_on_from(request.directory));
 }
 
@@ -45,9 +46,13 @@ Action declare_study(CommandLine& line) {
   line.repeated("--vary", request.variations,
                 "KEY=VALUE,VALUE: a run for every value, all combinations; repeatable");
   line.option("--levels", request.n_levels, "number of levels, from --level on");
-  line.option("--repeats", request.repeats, "timings of every run (default 3)");
+  line.option("--repeats", request.repeats,
+              "timings of every run (default 3; without an exact solution 1)");
   line.flag("--fresh", request.fresh, "run finished runs again too");
   line.option("--field", request.field, "whose error is shown, such as stress");
+  line.repeated("--quantity", request.quantities,
+                "what is shown of each variant: a probe ('tip'), a part of it ('tip, greatest'), "
+                "'kinetic energy', 'least J', 'seconds', ..., or 'all'; repeatable");
   line.flag("--stability", arguments->stability, "find the largest stable time step by bisection");
   line.list("--integrators", request.integrators,
             "with --stability: leapfrog,ssp-rk2,ssp-rk3,ssp-rk43 (default all)");

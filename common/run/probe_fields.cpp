@@ -1,9 +1,9 @@
 #include "common/run/probe_fields.hpp"
 
 #include "common/base/error.hpp"
+#include "common/run/stress_measures.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace diptych::run {
@@ -36,14 +36,12 @@ std::vector<double> ProbeFields::values(double) const {
     for (int k = 0; k < 9; ++k)
       values.push_back((*tensor)(k / 3, k % 3));
   }
-  const Mat3 sigma = node_.P * node_.F.transpose() / node_.J;
-  const double p = -sigma.trace() / 3;
-  const Mat3 deviator = sigma + p * Mat3::Identity();
+  const Mat3 sigma = cauchy_stress(node_.P, node_.F, node_.J);
   for (const double s :
        {sigma(0, 0), sigma(1, 1), sigma(2, 2), sigma(0, 1), sigma(1, 2), sigma(0, 2)})
     values.push_back(s);
-  values.push_back(std::sqrt(1.5) * deviator.norm());
-  values.push_back(p);
+  values.push_back(von_mises(sigma));
+  values.push_back(pressure(sigma));
   values.push_back(node_.J);
   return values;
 }

@@ -45,7 +45,8 @@ void describe(CLI::App& app, Request& request) {
       ->required()
       ->expected(1, 2);
   app.add_option("-o,--output", request.output, "the PNG to write")->required();
-  app.add_option("--field", request.picture.field, "nodal field that gives the colours")
+  app.add_option("--field", request.picture.field,
+                 "nodal field that gives the colours, such as 'von_mises_stress [Pa]'")
       ->capture_default_str();
   app.add_option("--component", request.picture.component,
                  "magnitude, x y z, xx ... zz, or a number")

@@ -31,7 +31,8 @@ def columns_of_probes(folder):
 
 
 def last_frame(folder):
-    """Time, points [n, 3] and displacements [n, 3] of the last frame; None where no field was written."""
+    """Time, points [n, 3], displacements [n, 3] and von Mises stresses [n] of the last frame; None where no
+    field was written."""
     series = folder / "run.hdf.series"
     if not series.exists():
         return None
@@ -39,7 +40,8 @@ def last_frame(folder):
     with h5py.File(folder / last["name"], "r") as file:
         points = file["VTKHDF/Points"][...]
         displacement = file["VTKHDF/PointData/displacement [m]"][...]
-    return last["time"], points, displacement
+        von_mises = file["VTKHDF/PointData/von_mises_stress [Pa]"][...]
+    return last["time"], points, displacement, von_mises
 
 
 def chosen(folders, asked):
@@ -73,10 +75,11 @@ def main():
         print(f"{title}: {column} is {history[column].iloc[-1]:.6g} at t = {history['time [s]'].iloc[-1]:.6g} s")
         frame = last_frame(folder)
         if frame is not None:
-            time, points, displacement = frame
+            time, points, displacement, von_mises = frame
             far = np.linalg.norm(displacement, axis=1).argmax()
             print(f"  frame at {time:.6g} s: {len(points)} nodes, largest displacement "
-                  f"{np.linalg.norm(displacement[far]):.6g} m, at X = {np.round(points[far], 6).tolist()}")
+                  f"{np.linalg.norm(displacement[far]):.6g} m, at X = {np.round(points[far], 6).tolist()}; "
+                  f"largest von Mises stress {von_mises.max():.6g} Pa")
     exact_file = folders[-1] / "exact.csv"
     if exact_file.exists():
         exact = pd.read_csv(exact_file)

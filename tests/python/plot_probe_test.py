@@ -38,8 +38,11 @@ def main():
         assert len(re.findall(r"625 nodes, largest displacement", text)) == 2, text
         with h5py.File(run / "sph" / "frame_0020.hdf", "r") as file:
             largest = abs(file["VTKHDF/PointData/displacement [m]"][...]).max()
+            von_mises = file["VTKHDF/PointData/von_mises_stress [Pa]"][...].max()
         told = float(re.search(r"largest displacement (\S+) m", text)[1])  # of SPH, which comes first
         assert abs(told - largest) <= 1e-5 * largest, (largest, text)
+        told = float(re.search(r"largest von Mises stress (\S+) Pa", text)[1])
+        assert von_mises > 0 and abs(told - von_mises) <= 1e-5 * von_mises, (von_mises, text)
         wrong = subprocess.run([*example, "--probe", "tip"], capture_output=True, text=True)
         assert wrong.returncode == 1 and "there are: end displacement [m]" in wrong.stderr, wrong.stderr
 
