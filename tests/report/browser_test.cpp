@@ -179,7 +179,7 @@ TEST(Browser, ZoomsEveryPlotAndHidesItsSeries) {
   expect_zooms(report_html(test::full_study(), script),
                9);  // kinetic, 2 probes, 3 errors, 3 energy
   const Curve a{"SPH", {0.1, 1, 10}, {1e-2, 1e-3, 1e-4}}, b{"FVM", {0.2, 2, 0}, {1e-2, 1e-3, 1}};
-  expect_zooms(curve_page("Work", "", {{"p", "s", "e", {a, b}}}, "table", script), 1);
+  expect_zooms(curve_page("Work", "", "", {{"p", "s", "e", {a, b}}}, "table", script), 1);
 }
 
 }  // namespace
