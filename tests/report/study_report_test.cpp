@@ -71,9 +71,13 @@ TEST(StudyReport, HasBalancedTags) {
 }
 
 TEST(StudyReport, LoadsNothingFromAnywhere) {
-  const std::string html = page(sample_study());
+  std::string html = page(sample_study());
+  const std::string name_of_svg = "http://www.w3.org/2000/svg";  // a name, which nothing loads
+  for (size_t at = html.find(name_of_svg); at != std::string::npos; at = html.find(name_of_svg))
+    html.erase(at, name_of_svg.size());
   EXPECT_FALSE(std::regex_search(html, std::regex("(https?:)?//[a-z0-9.-]+\\.[a-z]{2,}")));
-  EXPECT_FALSE(std::regex_search(html, std::regex("\\bsrc=|@import|url\\(|fetch\\(|XMLHttp")));
+  // url(#...) is a part of the same file
+  EXPECT_FALSE(std::regex_search(html, std::regex("\\bsrc=|@import|url\\((?!#)|fetch\\(|XMLHttp")));
   EXPECT_THAT(html, HasSubstr("default-src 'none'"));
 }
 
