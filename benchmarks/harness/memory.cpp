@@ -1,5 +1,6 @@
 #include "benchmarks/harness/memory.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <malloc.h>
 #include <string>
@@ -7,12 +8,33 @@
 
 namespace diptych::harness {
 
-std::int64_t peak_rss_bytes() {
+namespace {
+
+/// A line of /proc/self/status in bytes.
+std::int64_t status_bytes(const std::string& key) {
   std::ifstream file("/proc/self/status");
   for (std::string line; std::getline(file, line);) {
-    if (line.rfind("VmHWM:", 0) == 0) return std::stoll(line.substr(6)) * 1024;
+    if (line.rfind(key, 0) == 0) return std::stoll(line.substr(key.size())) * 1024;
   }
   return 0;
+}
+
+/// What the program itself has allocated; its code, which a first run brings in, is not among it.
+std::int64_t allocated_memory() {
+  malloc_trim(0);
+  return status_bytes("RssAnon:");
+}
+
+}  // namespace
+
+std::int64_t peak_rss_bytes() {
+  return status_bytes("VmHWM:");
+}
+
+RunMemory::RunMemory() {
+  static const std::int64_t before_the_first = allocated_memory();
+  held_ = std::max<std::int64_t>(0, allocated_memory() - before_the_first);
+  reset_peak_rss();
 }
 
 void reset_peak_rss() {

@@ -302,7 +302,7 @@ void claim_directory(const std::string& directory) {
 
 RunResult run_case(const run::Case& setup, const RunOptions& options) {
   const auto start = Clock::now();
-  reset_peak_rss();
+  const RunMemory memory;
   parallel::set_threads(options.threads);
   RunResult result;
   io::RunSummary& s = result.summary;
@@ -327,15 +327,15 @@ RunResult run_case(const run::Case& setup, const RunOptions& options) {
   result.order = std::move(mesh.order);
   release_pairs(result.graph);
   s.solver_bytes = solver->bytes();
-  s.building_rss_bytes = peak_rss_bytes();
-  s.running_rss_bytes = settled_memory();
+  s.building_rss_bytes = memory.peak();
+  s.running_rss_bytes = memory.settled();
   announce(options, s);
   s.setup_seconds = seconds_since(start);
   const auto finish = [&] {
     s.stages = s.steps * solver->evaluations_per_step();
     s.end_time = solver->time();
     s.wall_seconds = seconds_since(start);
-    s.peak_rss_bytes = peak_rss_bytes();
+    s.peak_rss_bytes = memory.peak();
     if (s.stages > 0) {
       s.nanoseconds_per_node_stage =
           1e9 * s.loop_seconds / (static_cast<double>(s.stages) * static_cast<double>(s.nodes));

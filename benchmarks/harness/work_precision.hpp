@@ -58,6 +58,9 @@ std::string work_precision_table(const std::vector<WorkCurve>& curves,
                                  const probes::MachineProbes& machine);
 std::string work_precision_csv(const std::vector<WorkCurve>& curves);
 
+/// What the curves say, in plain words and HTML.
+std::string work_precision_verdict(const std::vector<WorkCurve>& curves, const std::string& field);
+
 /// One page with the plots and the tables, nothing beside it.
 std::string work_precision_html(const std::string& title,
                                 const std::vector<WorkCurve>& curves,

@@ -27,7 +27,8 @@ std::string panels_json(const std::vector<Panel>& panels) {
       }
       curves.push_back({{"name", curve.name}, {"points", points}});
     }
-    all.push_back({{"x", panel.x_label}, {"y", panel.y_label}, {"curves", curves}});
+    all.push_back(
+        {{"title", panel.title}, {"x", panel.x_label}, {"y", panel.y_label}, {"curves", curves}});
   }
   return Json{{"panels", all}}.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -36,20 +37,24 @@ std::string panels_json(const std::vector<Panel>& panels) {
 
 std::string curve_page(const std::string& title,
                        const std::string& lead,
+                       const std::string& verdict,
                        const std::vector<Panel>& panels,
                        const std::string& table,
                        const std::string& chart_script) {
   std::string html = page_head(title);
   html += fmt::format(
       "<header>\n<p class=\"kicker\">Diptych</p>\n<h1>{}</h1>\n<p class=\"lead\">{}</p>\n{}"
-      "</header>\n<main>\n<section>\n",
+      "</header>\n<main>\n",
       escaped(title), escaped(lead), plot_hint());
+  if (!verdict.empty())
+    html += section("verdict", "Verdict", "<p class=\"verdict\">" + verdict + "</p>\n");
+  html += "<section>\n";
   for (size_t k = 0; k < panels.size(); ++k) {
     html += fmt::format("<h2>{}</h2>\n{}", escaped(panels[k].title),
                         chart(fmt::format("panel-{}", k), escaped(panels[k].title), ""));
   }
   html += fmt::format(
-      "</section>\n<section>\n<div class=\"scroll\" "
+      "</section>\n<section>\n<h2>The numbers</h2>\n<div class=\"scroll\" "
       "tabindex=\"0\"><pre>{}</pre></div>\n</section>\n"
       "</main>\n",
       escaped(table));

@@ -10,10 +10,12 @@
 
 namespace diptych::report {
 
+/// @param verdict       what the curves say, HTML; may be empty
 /// @param panels        values that are not positive are left out
 /// @param chart_script  text of Chart.js, see study_report.hpp
 std::string curve_page(const std::string& title,
                        const std::string& lead,
+                       const std::string& verdict,
                        const std::vector<Panel>& panels,
                        const std::string& table,
                        const std::string& chart_script);

@@ -46,7 +46,8 @@ std::string panels_json(const std::vector<Panel>& panels) {
         points.push_back({{"x", x}, {"y", y}});
       curves.push_back({{"name", curve.name}, {"points", points}});
     }
-    all.push_back({{"x", panel.x_label},
+    all.push_back({{"title", panel.title},
+                   {"x", panel.x_label},
                    {"y", panel.y_label},
                    {"logarithmic", spans_decades(panel)},
                    {"curves", curves}});

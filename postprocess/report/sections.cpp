@@ -14,19 +14,8 @@ namespace {
 
 using io::RunSummary;
 
-/// The symbol of a field, or its name where it has none.
-std::string field_heading(const std::string& field) {
-  const std::string symbol = field_symbol(field);
-  return symbol.empty() ? escaped(field_title(field)) : "<i>" + symbol + "</i>";
-}
-
 std::string order_html(double order) {
   return std::isfinite(order) ? fmt::format("{:.2f}", order) : "";
-}
-
-const io::ErrorNorms* norms_of(const RunSummary& run, const std::string& field) {
-  const auto found = run.errors.find(field);
-  return found == run.errors.end() ? nullptr : &found->second;
 }
 
 /// The different values among the runs, one text.
@@ -40,6 +29,17 @@ std::string distinct(const std::vector<RunSummary>& runs,
     }
   }
   return fmt::format("{}", fmt::join(values, " · "));
+}
+
+/// The first and the last day and time of the runs, which sort as text.
+std::string dates(const std::vector<RunSummary>& runs) {
+  std::string first, last;
+  for (const RunSummary& run : runs) {
+    const std::string& date = run.provenance.date;
+    if (first.empty() || (!date.empty() && date < first)) first = date;
+    last = std::max(last, date);
+  }
+  return escaped(first == last ? first : first + " to " + last);
 }
 
 std::string entry(std::string_view name, const std::string& value) {
@@ -100,8 +100,7 @@ std::string order_rows(const std::vector<RunSummary>& runs,
                        const std::vector<std::string>& fields) {
   std::string rows;
   for (size_t i = 0; i < runs.size(); ++i) {
-    rows += "<tr><th scope=\"row\">" + method_mark(runs[i].method) + "</th>" +
-            cell(std::to_string(runs[i].level)) + cell(number_html(runs[i].spacing));
+    rows += "<tr>" + run_head(runs[i]) + cell(number_html(runs[i].spacing));
     for (const std::string& field : fields) {
       const io::ErrorNorms* fine = norms_of(runs[i], field);
       const io::ErrorNorms* coarse = i > 0 ? norms_of(runs[i - 1], field) : nullptr;
@@ -130,32 +129,6 @@ std::string header_section(const StudyReport& study) {
       "<ul class=\"methods\">\n{}</ul>\n{}</header>\n",
       escaped(distinct(study.runs, [](const RunSummary& run) { return run.case_name; })),
       escaped(study.title), escaped(study.description), methods, plot_hint());
-}
-
-std::string verdict_section(const StudyReport& study) {
-  const auto n_passed = std::count_if(study.acceptance.begin(), study.acceptance.end(),
-                                      [](const AcceptanceLine& line) { return line.passed; });
-  const auto n_all = static_cast<std::ptrdiff_t>(study.acceptance.size());
-  if (n_all == 0) return "";
-  const std::string sentence =
-      n_passed == n_all
-          ? (n_all == 1 ? "The bound is met" : fmt::format("All {} bounds are met", n_all))
-          : fmt::format("{} of {} bounds not met", n_all - n_passed, n_all);
-  std::string rows;
-  for (const AcceptanceLine& line : study.acceptance) {
-    rows += fmt::format(
-        "<tr class=\"{}\"><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td "
-        "class=\"outcome\">{}</td></tr>\n",
-        line.passed ? "met" : "missed", escaped(line.name), escaped(line.asked),
-        escaped(line.measured), line.passed ? "✓ met" : "✗ not met");
-  }
-  return section(
-      "verdict", "Verdict",
-      fmt::format("<p class=\"verdict {}\">{} {}</p>\n", n_passed == n_all ? "met" : "missed",
-                  n_passed == n_all ? "✓" : "✗", sentence) +
-          table(heading_cell("bound") + heading_cell("asked") + heading_cell("measured") +
-                    heading_cell("outcome"),
-                rows));
 }
 
 std::string panels_section(const StudyReport& study) {
@@ -190,7 +163,7 @@ std::string convergence_section(const StudyReport& study) {
       methods.begin(), methods.end(),
       [&](const std::string& method) { return runs_of(study.runs, method).size() > 1; });
   if (fields.empty() || !has_levels) return "";
-  std::string head = heading_cell("method") + heading_cell("level") + heading_cell("spacing [m]");
+  std::string head = heading_cell("run") + heading_cell("spacing [m]");
   for (const std::string& field : fields) {
     head += heading_cell(field_heading(field)) + heading_cell("order");
   }
@@ -212,7 +185,8 @@ std::string energy_section(const StudyReport& study) {
   for (const std::string& method : methods_of(study.runs)) {
     if (study.histories.count(method) == 0) continue;
     charts += fmt::format("<div>\n<h3>{}</h3>\n{}</div>\n", method_mark(method),
-                          chart("energy-" + escaped(method), "Energies over time", ""));
+                          chart("energy-" + escaped(method),
+                                "Energies over time, " + escaped(method_title(method)), ""));
   }
   if (charts.empty()) return "";
   return section(
@@ -227,44 +201,6 @@ std::string energy_section(const StudyReport& study) {
                 "Relative residual of the energy budget. It should fall with the time step at the "
                 "order of the integrator.",
                 true));
-}
-
-std::string runs_section(const StudyReport& study) {
-  const std::vector<std::string> fields = fields_of(study.runs);
-  std::string head;
-  for (const char* name : {"method", "level", "nodes", "pairs", "steps", "time step [s]",
-                           "loop [s]", "wall [s]", "ns / node / stage", "memory [MB]"}) {
-    head += heading_cell(name);
-  }
-  for (const std::string& field : fields) {
-    head += heading_cell("error " + field_heading(field));
-  }
-  head += heading_cell("energy residual") + heading_cell("min <i>J</i>") +
-          heading_cell("min <i>J</i> of cells");
-  std::string rows;
-  for (const std::string& method : methods_of(study.runs)) {
-    for (const RunSummary& run : runs_of(study.runs, method)) {
-      rows += "<tr><th scope=\"row\">" + method_mark(run.method) + "</th>" +
-              cell(std::to_string(run.level)) + cell(count_html(run.nodes)) +
-              cell(count_html(run.pairs)) + cell(count_html(run.steps)) +
-              cell(scientific_html(run.dt_min)) + cell(number_html(run.loop_seconds)) +
-              cell(number_html(run.wall_seconds)) +
-              cell(number_html(run.nanoseconds_per_node_stage)) +
-              cell(number_html(static_cast<double>(run.peak_rss_bytes) / 1e6));
-      for (const std::string& field : fields) {
-        const io::ErrorNorms* norms = norms_of(run, field);
-        rows += cell(norms == nullptr ? "" : scientific_html(norms->l2));
-      }
-      rows +=
-          cell(scientific_html(run.energy.relative_residual)) +
-          cell(number_html(run.min_jacobian)) +
-          cell(run.inverted_from ? fmt::format("<strong>{}</strong> (inside out from {:.3g} s)",
-                                               number_html(run.least_cell_J), *run.inverted_from)
-                                 : number_html(run.least_cell_J)) +
-          "</tr>\n";
-    }
-  }
-  return section("runs", "Every run", table(head, rows));
 }
 
 std::string provenance_section(const StudyReport& study) {
@@ -294,7 +230,7 @@ std::string provenance_section(const StudyReport& study) {
   rows += entry("processor", of([](const RunSummary& run) {
                   return run.provenance.cpu + " " + run.provenance.instruction_set;
                 }));
-  rows += entry("date", of([](const RunSummary& run) { return run.provenance.date; }));
+  rows += entry("date", dates(study.runs));
   rows += entry("case hash", of([](const RunSummary& run) { return run.provenance.case_hash; }));
   return section("provenance", "What was run", "<dl class=\"facts\">\n" + rows + "</dl>\n");
 }

@@ -4,6 +4,7 @@
 #include "postprocess/report/assets.hpp"
 #include "postprocess/report/html.hpp"
 #include "postprocess/report/orders.hpp"
+#include "postprocess/report/price.hpp"
 #include "postprocess/report/sections.hpp"
 #include "postprocess/report/sections/parts.hpp"
 
@@ -131,6 +132,21 @@ Json quantities_json(const StudyReport& study) {
   return quantities;
 }
 
+/// What the same error costs by either method; an entry for each field in which both reach one.
+Json prices_json(const StudyReport& study) {
+  Json prices = Json::object();
+  const auto methods = methods_of(study.runs);
+  if (methods.size() != 2) return prices;
+  for (const std::string& field : fields_of(study.runs)) {
+    const auto price =
+        price_of_error(runs_of(study.runs, methods[0]), runs_of(study.runs, methods[1]), field);
+    if (!price) continue;
+    prices[field] = {{"error", price->error},
+                     {"seconds", {{methods[0], price->first}, {methods[1], price->second}}}};
+  }
+  return prices;
+}
+
 std::string data_json(const StudyReport& study) {
   Json methods = Json::array();
   for (const std::string& method : methods_of(study.runs)) {
@@ -147,8 +163,10 @@ std::string data_json(const StudyReport& study) {
   Json fields = Json::object();
   for (const std::string& field : fields_of(study.runs))
     fields[field] = field_title(field);
-  const Json study_json = {{"methods", methods},
+  const Json study_json = {{"case", study.runs.empty() ? "" : study.runs.front().case_name},
+                           {"methods", methods},
                            {"fields", fields},
+                           {"prices", prices_json(study)},
                            {"probes", probes_json(study)},
                            {"exact", exact_json(study)},
                            {"references", references_json(study)},

@@ -69,6 +69,31 @@ TEST(WorkPrecision, SaysWhereThereIsNoCrossover) {
   const std::string page = work_precision_html("title", {a, b}, "velocity", machine);
   EXPECT_THAT(page, HasSubstr("id=\"panel-2\""));
   EXPECT_THAT(page, HasSubstr("</html>"));
+  EXPECT_THAT(page, HasSubstr("<p class=\"verdict\">For the same error SPH takes 3.00 times the "
+                              "seconds of finite volume, from 100 % down to 1.56 %.</p>"));
+}
+
+TEST(WorkPrecision, SaysInPlainWordsWhichMethodCostsLess) {
+  const auto verdict = [](const std::vector<WorkCurve>& curves) {
+    return work_precision_verdict(curves, "velocity");
+  };
+  // the costs of the last test but one
+  EXPECT_THAT(verdict({curve("sph", 1, 2, 0.1), curve("fvm", 2, 3, 0.4)}),
+              testing::MatchesRegex("Below an error of 3.1[23] % \\(102 s\\) finite volume costs "
+                                    "less, above it SPH."));
+  // 4 h^2 against h^2 at equal seconds: 16 times the seconds at every error
+  EXPECT_EQ(
+      verdict({curve("sph", 0.1, 2, 1), curve("fvm", 0.4, 2, 1)}),
+      "For the same error finite volume takes 16.0 times the seconds of SPH, from 10.0 % down "
+      "to 0.625 %.");
+  EXPECT_EQ(verdict({curve("sph", 0.1, 2, 1), curve("fvm", 1e-4, 2, 1)}),
+            "The two methods reach no error in common: add levels.");
+  EXPECT_THAT(verdict({curve("sph", 600, 2, 1), curve("fvm", 900, 2, 1)}),
+              HasSubstr("Too coarse to say: every run misses more than half of the velocity"));
+  WorkCurve cheap = curve("sph", 0.1, 2, 0.5);
+  cheap.variant = "cfl=1";
+  EXPECT_THAT(verdict({curve("sph", 0.1, 2, 1), cheap, curve("sph", 0.1, 2, 2)}),
+              HasSubstr("SPH cfl=1 is the cheapest"));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // Pages of log-log curves: one chart for each panel of the study.
 (() => {
-  const { study, colour, number, logAxis, options } = plots;
+  const { study, colour, number, logAxis, options, room } = plots;
   const ink = (i) => colour(`curve-${i % 8}`);
   const shape = (name) => (name.startsWith('FVM') ? 'rectRot' : 'circle');
   const dash = (name) => (name.startsWith('FVM') ? [7, 3] : []);
@@ -10,10 +10,11 @@
     if (!points.length) return null;
     return {
       type: 'line',
+      title: panel.title,
       data: {
         datasets: panel.curves.map((curve, i) => ({
           label: curve.name, data: curve.points, borderColor: ink(i), backgroundColor: ink(i), borderWidth: 2,
-          borderDash: dash(curve.name), pointStyle: shape(curve.name), pointRadius: 5, pointHoverRadius: 7, pointHitRadius: 10,
+          borderDash: dash(curve.name), pointStyle: shape(curve.name), pointRadius: 5, pointHoverRadius: 7, pointHitRadius: 10, clip: room,
         })),
       },
       options: options({

@@ -1,46 +1,31 @@
 // Errors against cost and against spacing, and scalars with their error bars.
 (() => {
-  const { study, canvas, colour, colourOf, usable, number, logAxis, linearAxis, options, inPlot, pointMarks, curveOf } = plots;
+  const { study, canvas, colour, colourOf, usable, number, logAxis, linearAxis, options, painting, curveOf } = plots;
 
   // Points {x, y} of a method for a field, coarse to fine.
   const pointsOf = (method, field, x) => method.runs
     .map((run) => ({ x: run[x], y: run.errors[field], run }))
     .filter((point) => usable(point.x) && usable(point.y));
 
-  const methodLine = (method, field, x, markSide) => {
+  const methodLine = (method, field, x, namesAt) => {
     const points = pointsOf(method, field, x);
     return curveOf(method, points, {
       pointRadius: 5.5, pointHoverRadius: 8, pointHitRadius: 10,
-      marks: points.map((point) => String(point.run.level)), markColor: colourOf(method.name), markSide,
+      names: points.map((point) => String(point.run.level)), namesInk: colourOf(method.name), namesAt,
     });
-  };
-
-  // Seconds at which a method reaches an error: straight lines between its points in log-log.
-  const secondsAt = (points, error) => {
-    for (let i = 1; i < points.length; i += 1) {
-      const [a, b] = [points[i - 1], points[i]];
-      if (Math.max(a.y, b.y) >= error * (1 - 1e-12) && Math.min(a.y, b.y) <= error * (1 + 1e-12) && a.y !== b.y) {
-        const part = Math.log(error / a.y) / Math.log(b.y / a.y);
-        return a.x * (b.x / a.x) ** part;
-      }
-    }
-    return NaN;
   };
 
   // What the same error costs by either method, at the smallest error that both reach: the caption
   // as pieces of text, the second in bold.
   const priceSentence = (field) => {
-    const methods = study.methods.map((m) => ({ title: m.title, points: pointsOf(m, field, 'seconds') }))
-      .filter((m) => m.points.length > 1);
-    if (methods.length !== 2) return [];
-    const error = Math.max(...methods.map((m) => Math.min(...m.points.map((p) => p.y))));
-    const [a, b] = methods.map((m) => ({ title: m.title, seconds: secondsAt(m.points, error) }));
-    if (!usable(a.seconds) || !usable(b.seconds)) return [];
-    const [slow, fast] = a.seconds > b.seconds ? [a, b] : [b, a];
-    const inside = (title) => (title === 'Finite volume' ? 'finite volume' : title);
-    return [`At the same ${study.fields[field]} error, ${number(error)}, `,
-      `${inside(slow.title)} takes ${number(slow.seconds / fast.seconds)} times the seconds`,
-      ` of ${inside(fast.title)} (${number(slow.seconds)} s against ${number(fast.seconds)} s, `
+    const price = study.prices[field];
+    if (!price) return [];
+    const [slow, fast] = study.methods.filter(({ name }) => price.seconds[name])
+      .map(({ name, title }) => ({ title: title === 'Finite volume' ? 'finite volume' : title, seconds: price.seconds[name] }))
+      .sort((a, b) => b.seconds - a.seconds);
+    return [`At the same ${study.fields[field]} error, ${number(price.error)}, `,
+      `${slow.title} takes ${number(slow.seconds / fast.seconds)} times the seconds`,
+      ` of ${fast.title} (${number(slow.seconds)} s against ${number(fast.seconds)} s, `
       + 'between the points along straight lines).'];
   };
   const writePrice = (caption, field) => {
@@ -59,7 +44,7 @@
       label: `order ${order}`, inLegend: false, type: 'line', pointRadius: 0, pointHitRadius: 0, pointStyle: 'line',
       data: [{ x: h1, y: foot }, { x: h0, y: foot * (h0 / h1) ** order }],
       borderColor: colour('soft'), borderDash: [2, 4], borderWidth: 1,
-      marks: ['', `order ${order}`], markColor: colour('soft'), markSide: 'right',
+      names: ['', `order ${order}`], namesInk: colour('soft'), namesAt: 'right',
     })) : [];
   };
 
@@ -71,6 +56,7 @@
     const points = all.flatMap((line) => line.data);
     return {
       type: 'line',
+      title: `Error of ${study.fields[field]} against ${x}`,
       data: { datasets: all },
       options: options({
         x: logAxis(xText, points.map((p) => p.x)),
@@ -80,29 +66,8 @@
         label: ({ raw }) => [`error ${number(raw.y)}`, `${number(raw.run.seconds)} s`,
           `spacing ${number(raw.run.spacing)} m`, `${raw.run.nodes.toLocaleString('en')} nodes`],
       }),
-      plugins: [pointMarks],
+      plugins: [painting],
     };
-  };
-
-  // Bars from y - bar to y + bar at each point of a dataset that has one.
-  const errorBars = {
-    id: 'errorBars',
-    beforeDatasetsDraw(chart) {
-      const { ctx, scales: { y } } = chart;
-      inPlot(chart, () => chart.data.datasets.forEach((set, index) => set.data.forEach((point, i) => {
-        if (!point.bar || !chart.isDatasetVisible(index)) return;
-        const { x } = chart.getDatasetMeta(index).data[i];
-        const [top, foot] = [y.getPixelForValue(point.y + point.bar), y.getPixelForValue(point.y - point.bar)];
-        ctx.strokeStyle = set.borderColor;
-        ctx.beginPath();
-        [[x, top, x, foot], [x - 5, top, x + 5, top], [x - 5, foot, x + 5, foot]].forEach(([x0, y0, x1, y1]) => {
-          ctx.moveTo(x0, y0);
-          ctx.lineTo(x1, y1);
-        });
-        ctx.lineWidth = 1.5;
-        ctx.stroke();
-      })));
-    },
   };
 
   const quantityLines = (quantity) => quantity.series.map((series) => {
@@ -122,6 +87,7 @@
     const title = quantity.name + (quantity.unit === '-' ? '' : ` [${quantity.unit}]`);
     return {
       type: 'line',
+      title: `${quantity.name} against spacing`,
       data: { datasets: lines },
       options: options({
         x: linearAxis('spacing [m]', { min: 0 }),
@@ -134,7 +100,7 @@
         title: ([item]) => `${item.dataset.label}, ${item.raw.x === 0 ? 'extrapolated' : `level ${item.raw.level}`}`,
         label: ({ raw }) => [`${raw.y.toPrecision(6)}${raw.bar ? ` ± ${number(raw.bar)}` : ''}`, `spacing ${number(raw.x)} m`],
       }),
-      plugins: [errorBars],
+      plugins: [painting],
     };
   };
 

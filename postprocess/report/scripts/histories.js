@@ -1,6 +1,6 @@
 // Energies and probes over time.
 (() => {
-  const { study, colour, withAlpha, number, linearAxis, timeAxis, options, curveOf } = plots;
+  const { study, colour, withAlpha, number, linearAxis, timeAxis, options, room, curveOf } = plots;
   const layers = {
     strain: 'strain energy', kinetic: 'kinetic energy',
     viscous: 'viscous dissipation', numerical: 'numerical dissipation',
@@ -30,13 +30,16 @@
     if (!fromRest && history.work.some((y) => y !== 0)) lines.push(line(method, 'work', 'external work', 'soft', [1, 3]));
     return {
       type: 'line',
+      title: `Energies over time, ${method.title}`,
       data: {
         datasets: [
           ...Object.keys(layers).filter((name) => history[name].some((y) => y !== 0)).map((name) => area(method, name)),
           ...lines,
         ],
       },
-      options: options({ x: timeAxis([method]), y: linearAxis('energy [J]', { stacked: true, suggestedMax: highest }) }, {
+      options: options({
+        x: timeAxis([method]), y: linearAxis('energy [J]', { stacked: true, suggestedMax: highest }),
+      }, {
         title: timeTitle,
         label: (item) => `${item.dataset.label}: ${number(item.raw.y)} J`,
         footer: ([item]) => `residual: ${number(history.residual[item.dataIndex])} J`,
@@ -48,21 +51,22 @@
   const exactCurve = (values) => (values ? [{
     label: 'exact', data: study.exact.time.map((t, i) => ({ x: t, y: values[i] })), type: 'line',
     borderColor: colour('ink'), backgroundColor: colour('ink'), borderDash: [2, 4], borderWidth: 1.75,
-    pointRadius: 0, pointStyle: 'line', order: -9,
+    pointRadius: 0, pointStyle: 'line', order: -9, clip: room,
   }] : []);
   const referencePoints = (probe) => study.references.filter((one) => one.probe === probe)
     .map(({ points }, i, all) => ({
       label: all.length > 1 ? `reference ${i + 1}` : 'reference', type: 'line', showLine: false,
       data: points.map(([x, y]) => ({ x, y })),
       borderColor: colour('ink'), backgroundColor: colour('ink'), borderWidth: 2,
-      pointRadius: 6, pointHoverRadius: 8, pointHitRadius: 10, pointStyle: ['crossRot', 'star', 'triangle'][i % 3], order: -10,
+      pointRadius: 6, pointHoverRadius: 8, pointHitRadius: 10, pointStyle: ['crossRot', 'star', 'triangle'][i % 3], order: -10, clip: room,
     }));
 
   // Both methods in one picture; pointing tells all values at the nearest instant that has any.
-  const overlaid = (values, yText, label, references = []) => {
+  const overlaid = (values, title, yText, label, references = []) => {
     const methods = histories.filter((method) => values(method.history));
     return {
       type: 'line',
+      title: `${title} over time`,
       data: {
         // dashes over the solid line: both are seen where they coincide
         datasets: [...methods.map((method, i) => curveOf(method, asPoints(method.history, values(method.history)), {
@@ -75,11 +79,11 @@
   };
 
   histories.forEach((method) => plots.add(`energy-${method.name}`, () => energyChart(method)));
-  plots.add('residual-chart', () => overlaid((history) => history.relative, 'relative residual',
+  plots.add('residual-chart', () => overlaid((history) => history.relative, 'Relative energy residual', 'relative residual',
     (item) => `${item.dataset.label}: ${number(item.raw.y)}`));
   const seriesChart = (id, { name, unit }, values, references) => {
     const [suffix, brackets] = unit === '-' ? ['', ''] : [` ${unit}`, ` [${unit}]`];
-    plots.add(id, () => overlaid(values, name + brackets,
+    plots.add(id, () => overlaid(values, name, name + brackets,
       (item) => `${item.dataset.label}: ${item.raw.y.toPrecision(5)}${suffix}`, references()));
   };
   study.probes.forEach((probe, k) => seriesChart(`probe-${k}`, probe, (history) => history.probes[k],

@@ -1,6 +1,6 @@
 // Pages of quantities against a parameter: one chart for each panel of the study.
 (() => {
-  const { study, colour, number, logAxis, linearAxis, options } = plots;
+  const { study, colour, number, logAxis, linearAxis, options, room } = plots;
   const ink = (i) => colour(`curve-${i % 8}`);
   const isFvm = (name) => name.startsWith('FVM');
 
@@ -10,11 +10,12 @@
     const x = panel.logarithmic ? logAxis(panel.x, points.map((p) => p.x)) : linearAxis(panel.x);
     return {
       type: 'line',
+      title: panel.title,
       data: {
         datasets: panel.curves.map((curve, i) => ({
           label: curve.name, data: curve.points, borderColor: ink(i), backgroundColor: ink(i), borderWidth: 2,
           borderDash: isFvm(curve.name) ? [7, 3] : [], pointStyle: isFvm(curve.name) ? 'rectRot' : 'circle',
-          pointRadius: 5, pointHoverRadius: 7, pointHitRadius: 10,
+          pointRadius: 5, pointHoverRadius: 7, pointHitRadius: 10, clip: room,
         })),
       },
       options: options({ x, y: linearAxis(panel.y, { grace: '5%' }) }, {

@@ -5,7 +5,7 @@ const plots = (() => {
   const study = JSON.parse(document.getElementById('study').textContent);
   const shapes = { sph: 'circle', fvm: 'rectRot' };
   const dashes = { sph: [], fvm: [7, 3] };
-  const builders = [];  // one per chart: makes its configuration with the colours of the moment
+  const builders = [];  // one per chart: [id, what makes its configuration with the colours of the moment]
   const painters = [];  // called whenever the page is drawn anew
   const dressers = [];  // called with every new chart
   let charts = [];
@@ -21,12 +21,14 @@ const plots = (() => {
     const n = Math.round(Math.log10(x));
     return n === 0 ? '1' : n === 1 ? '10' : '10' + raised(n);
   };
-  const number = (x, digits = 3) => {
-    if (!Number.isFinite(x)) return 'n/a';
-    if (x === 0) return '0';
-    if (Math.abs(x) >= 1e-3 && Math.abs(x) < 1e4) return String(+x.toPrecision(digits)).replace('-', '−');
+  const withPower = (x, digits) => {
     const [mantissa, exponent] = x.toExponential(digits - 1).split('e');
     return `${+mantissa} × 10${raised(+exponent)}`.replace('-', '−');
+  };
+  const isPlain = (x) => x === 0 || (Math.abs(x) >= 1e-3 && Math.abs(x) < 1e4);
+  const number = (x, digits = 3) => {
+    if (!Number.isFinite(x)) return 'n/a';
+    return isPlain(x) ? String(+x.toPrecision(digits)).replace('-', '−') : withPower(x, digits);
   };
 
   // Round values from `least` to `most`, about five: steps of 1, 2 or 5 times a power of ten.
@@ -39,8 +41,8 @@ const plots = (() => {
     return values;
   };
 
-  // Axes that end at powers of ten and name only those; where less than two of them are in sight, as
-  // after zooming, 1, 2 and 5 times powers of ten or, in a narrow range, round values.
+  // Axes that name powers of ten only; where less than two of them are in sight, 1, 2 and 5 times powers
+  // of ten or, in a narrow range as after zooming, round values.
   const isShort = ({ min, max }) => Math.floor(Math.log10(max) + 1e-9) - Math.ceil(Math.log10(min) - 1e-9) < 1;
   const shortValues = ({ min, max }) => {
     if (max / min < 5) return roundValues(min, max);
@@ -48,10 +50,20 @@ const plots = (() => {
     return [0, 1, 2].flatMap((k) => [1, 2, 5].map((m) => ({ value: m * 10 ** (first + k) })))
       .filter(({ value }) => value >= min && value <= max);
   };
+  // 1, 2 or 5 times powers of ten around the values, with room so that none of them lies on the edge.
+  const logEnds = (values) => {
+    const [low, high] = [Math.log10(Math.min(...values)), Math.log10(Math.max(...values))];
+    const margin = 0.04 * Math.max(high - low, 0.5);
+    const steps = [0, Math.log10(2), Math.log10(5), 1];
+    const [first, last] = [Math.floor(low - margin), Math.floor(high + margin)];
+    return {
+      min: 10 ** (first + steps.findLast((step) => step <= low - margin - first)),
+      max: 10 ** (last + steps.find((step) => step >= high + margin - last)),
+    };
+  };
   const logAxis = (text, values) => ({
     type: 'logarithmic',
-    min: 10 ** Math.floor(Math.log10(Math.min(...values)) + 1e-9),
-    max: 10 ** Math.ceil(Math.log10(Math.max(...values)) - 1e-9 + (isDecade(Math.max(...values)) ? 1 : 0)),
+    ...logEnds(values),
     title: { display: true, text, color: colour('soft') },
     afterBuildTicks: (axis) => { if (isShort(axis)) axis.ticks = shortValues(axis); },
     ticks: {
@@ -67,12 +79,14 @@ const plots = (() => {
     },
   });
 
-  // With as many digits as it takes to tell neighbouring ticks apart.
+  // With as many digits as it takes to tell neighbouring ticks apart; all with a power where one has it.
   const tickText = (x, index, ticks) => {
     const step = ticks.length > 1 ? Math.abs(ticks[1].value - ticks[0].value) : 0;
     const size = Math.max(...ticks.map((tick) => Math.abs(tick.value)));
     const digits = step > 0 ? Math.ceil(Math.log10(size / step) - 1e-9) + 1 : 3;
-    return number(Math.abs(x) < 1e-9 * step ? 0 : x, Math.max(3, Math.min(digits, 12)));
+    const value = Math.abs(x) < 1e-9 * step ? 0 : x;
+    const isOne = value === 0 || ticks.every((tick) => isPlain(tick.value) || Math.abs(tick.value) < 1e-9 * step);
+    return (isOne ? number : withPower)(value, Math.max(3, Math.min(digits, 12)));
   };
   const linearAxis = (text, more = {}) => ({
     type: 'linear',
@@ -101,45 +115,51 @@ const plots = (() => {
     },
   });
 
-  // Paints what belongs between the axes and nothing beyond them.
-  const inPlot = (chart, paint) => {
-    const { ctx, chartArea: { left, top, width, height } } = chart;
-    ctx.save();
-    ctx.beginPath();
-    ctx.rect(left - 12, top - 12, width + 24, height + 24);
-    ctx.clip();
-    paint();
-    ctx.restore();
-  };
-
-  // Writes dataset.marks[i] beside point i.
-  const pointMarks = {
-    id: 'pointMarks',
-    afterDatasetsDraw(chart) {
-      inPlot(chart, () => chart.data.datasets.forEach((set, index) => {
-        (set.marks || []).forEach((mark, i) => {
-          const point = chart.getDatasetMeta(index).data[i];
-          if (!point || !mark || !chart.isDatasetVisible(index)) return;
-          const { ctx } = chart;
-          ctx.fillStyle = set.markColor;
-          ctx.font = `600 11px ${Chart.defaults.font.family}`;
-          ctx.textAlign = set.markSide === 'left' ? 'right' : 'left';
-          ctx.fillText(mark, point.x + (set.markSide === 'left' ? -8 : 8), point.y - 7);
-        });
-      }));
-    },
-  };
+  // Marks on the edge of a plot are seen whole: pixels beyond the axes that a curve may use.
+  const room = 8;
 
   // A curve of a method, with its colour, dashes and marks.
   const curveOf = (method, data, more = {}) => ({
     label: method.title, data, type: 'line',
     borderColor: colourOf(method.name), backgroundColor: colourOf(method.name),
     borderDash: dashes[method.name] || [2, 2], borderWidth: 2, pointStyle: shapes[method.name] || 'rect',
-    ...more,
+    clip: room, ...more,
   });
+
+  // Of a plot where it stands alone, as a file: what its configuration says, or else what is read out.
+  const titles = new Map();
+  const titleOf = ({ canvas: { id } }) => titles.get(id);
 
   const canvas = (id) => document.getElementById(id);
   const add = (id, build) => { if (canvas(id)) builders.push([id, build]); };
+
+  const withPaperColours = (use) => {
+    const { classList } = document.documentElement;
+    classList.add('printing');
+    try {
+      return use();
+    } finally {
+      classList.remove('printing');
+    }
+  };
+  // Gives `use` a copy of a chart in the colours of paper that shows the same ranges and curves.
+  const onPaper = (shown, { width, height, font }, use) => withPaperColours(() => {
+    const { title, ...configuration } = builders.find(([id]) => id === shown.canvas.id)[1]();
+    const layout = { padding: { top: 6, right: 22, bottom: 8, left: 6 } };
+    Object.assign(configuration.options, { responsive: false, devicePixelRatio: 1, font, layout });
+    ['x', 'y'].forEach((name) => {
+      const { min, max } = shown.scales[name];
+      Object.assign(configuration.options.scales[name], { min, max });
+    });
+    const copy = new Chart(Object.assign(document.createElement('canvas'), { width, height }), configuration);
+    shown.data.datasets.forEach((_, i) => copy.setDatasetVisibility(i, shown.isDatasetVisible(i)));
+    copy.update('none');
+    try {
+      return use(copy);
+    } finally {
+      copy.destroy();
+    }
+  });
 
   const draw = () => {
     Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
@@ -147,7 +167,10 @@ const plots = (() => {
     charts.forEach((chart) => chart.destroy());
     charts = builders.map(([id, build]) => [canvas(id), build()])
       .filter(([, configuration]) => configuration)
-      .map(([place, configuration]) => new Chart(place, configuration));
+      .map(([place, { title, ...configuration }]) => {
+        titles.set(place.id, title || place.getAttribute('aria-label'));
+        return new Chart(place, configuration);
+      });
     charts.forEach((chart) => dressers.forEach((dress) => dress(chart)));
     painters.forEach((paint) => paint());
   };
@@ -165,6 +188,6 @@ const plots = (() => {
   });
   return {
     study, canvas, add, painters, dressers, colour, colourOf, withAlpha, usable, number,
-    logAxis, linearAxis, timeAxis, options, inPlot, pointMarks, curveOf,
+    logAxis, linearAxis, timeAxis, options, room, curveOf, titleOf, withPaperColours, onPaper,
   };
 })();

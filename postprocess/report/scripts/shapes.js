@@ -26,10 +26,13 @@
 
   // One picture of each method, then that of the difference, on the shape of the first.
   const pictures = methods.map((method) => ({
-    name: method.name, method, field: () => shapes.fields[chosen()], values: () => method.values[chosen()],
+    name: method.name, title: method.title, method, field: () => shapes.fields[chosen()], values: () => method.values[chosen()],
   }));
   if (difference) {
-    pictures.push({ name: 'difference', method: methods[0], field: () => shapes.difference, values: () => difference });
+    pictures.push({
+      name: 'difference', title: `${methods[0].title} − ${methods[1].title}`, method: methods[0],
+      field: () => shapes.difference, values: () => difference,
+    });
   }
   const part = (name, kind) => document.querySelector(`.${kind}[data-shape="${CSS.escape(name)}"]`);
 
@@ -98,25 +101,18 @@
     return 0.55 + 0.45 * Math.abs(n[2]) / (Math.hypot(...n) || 1);
   };
 
-  const paint = (picture) => {
-    const place = canvas(`shape-${picture.name}`);
-    const [width, height] = [place.clientWidth, place.clientHeight];
-    const ratio = Math.min(devicePixelRatio || 1, 2);
-    place.width = width * ratio;
-    place.height = height * ratio;
-    const ctx = place.getContext('2d');
-    ctx.scale(ratio, ratio);
+  // @return places of the points, and the faces from back to front
+  const paintOn = (ctx, picture, width, height) => {
     const screen = projected(picture.method, width, height);
     const scale = scaleFor(width, height);
     const depth = Float32Array.from({ length: n_faces }, (_, f) => mean(f, (p) => screen[3 * p + 2]));
-    picture.order = Uint32Array.from(depth.keys());
-    if (solid) picture.order.sort((f, g) => depth[g] - depth[f]);
-    picture.screen = screen;
+    const order = Uint32Array.from(depth.keys());
+    if (solid) order.sort((f, g) => depth[g] - depth[f]);
     const values = picture.values();
     const start = view.frame * points;
     ctx.lineJoin = 'round';
     ctx.lineWidth = 0.6;
-    picture.order.forEach((f) => {
+    order.forEach((f) => {
       const nodes = corners(f);
       ctx.beginPath();
       nodes.forEach((p, i) => ctx[i ? 'lineTo' : 'moveTo'](screen[3 * p], screen[3 * p + 1]));
@@ -126,6 +122,18 @@
       ctx.fill();
       ctx.stroke();
     });
+    return { screen, order };
+  };
+
+  const paint = (picture) => {
+    const place = canvas(`shape-${picture.name}`);
+    const [width, height] = [place.clientWidth, place.clientHeight];
+    const ratio = Math.min(devicePixelRatio || 1, 2);
+    place.width = width * ratio;
+    place.height = height * ratio;
+    const ctx = place.getContext('2d');
+    ctx.scale(ratio, ratio);
+    Object.assign(picture, paintOn(ctx, picture, width, height));
   };
 
   const writeScale = (picture) => {
@@ -230,4 +238,12 @@
   addEventListener('resize', repaint);
   show(shapes.times.length - 1);
   plots.painters.push(paintAll);
+
+  // What scripts/save_body.js draws with.
+  const gradient = (ctx, from, to) => {
+    const paint = ctx.createLinearGradient(from, 0, to, 0);
+    stops.forEach((c, i) => paint.addColorStop(i / (stops.length - 1), `rgb(${c.join()})`));
+    return paint;
+  };
+  plots.bodies = { pictures, paintOn, gradient, instant: () => shapes.times[view.frame] };
 })();

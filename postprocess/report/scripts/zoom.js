@@ -3,7 +3,7 @@
 // or the button in the corner shows everything again. What is seen stays when a chart is drawn anew with
 // the same axes.
 (() => {
-  const { dressers } = plots;
+  const { dressers, room } = plots;
   const names = ['x', 'y'];
   const views = new Map();  // canvas id: { axes, whole, shown } of a zoomed chart
   const deepest = 1e-6;  // of the whole range
@@ -13,9 +13,10 @@
   const axesOf = (chart) => names.map((name) => chart.options.scales[name].title.text).join();
 
   const show = (chart, shown) => {
-    names.forEach((name) => Object.assign(chart.options.scales[name], shown[name]));
-    chart.update('none');
     const view = views.get(chart.canvas.id);
+    names.forEach((name) => Object.assign(chart.options.scales[name], shown[name]));
+    chart.data.datasets.forEach((set) => { if (set.clip !== undefined) set.clip = view ? 1 : room; });
+    chart.update('none');
     chart.canvas.parentNode.querySelector('.whole').hidden = !view;
   };
   const showWhole = (chart) => {

@@ -32,7 +32,9 @@ std::string page_scripts(const std::string& json,
 std::string plot_hint() {
   return "<p class=\"hint\" id=\"plot-hint\">Plots of curves: drag over a part to enlarge it, or "
          "spread two fingers, or click the plot and turn the wheel or press + − and the arrows. A "
-         "double click, 0 or “Show all” goes back. A name in a legend hides its curve.</p>\n";
+         "double click, 0 or “Show all” goes back. A name in a legend hides its curve. “Save as "
+         "SVG” "
+         "gives what is seen as a file for a paper.</p>\n";
 }
 
 std::string section(std::string_view id, std::string_view heading, const std::string& body) {
@@ -54,9 +56,24 @@ std::string table(const std::string& head, const std::string& rows) {
       head, rows);
 }
 
+std::string field_heading(const std::string& field) {
+  const std::string symbol = field_symbol(field);
+  return symbol.empty() ? escaped(field_title(field)) : "<i>" + symbol + "</i>";
+}
+
+const io::ErrorNorms* norms_of(const io::RunSummary& run, const std::string& field) {
+  const auto found = run.errors.find(field);
+  return found == run.errors.end() ? nullptr : &found->second;
+}
+
 std::string method_mark(const std::string& method) {
   return fmt::format("<span class=\"mark {0}\"></span>{1}", escaped(method),
                      escaped(method_title(method)));
+}
+
+std::string run_head(const io::RunSummary& run) {
+  return fmt::format("<th scope=\"row\">{}<span class=\"level\">level {}</span></th>",
+                     method_mark(run.method), run.level);
 }
 
 std::string chart(std::string_view id,

@@ -1,6 +1,8 @@
 #pragma once
 /// What the sections of the page are made of.
 
+#include "common/io/run_record.hpp"
+
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,8 +28,17 @@ std::string heading_cell(const std::string& content);
 /// @param head  cells, @param rows  whole rows
 std::string table(const std::string& head, const std::string& rows);
 
+/// The symbol of a field, or its name where it has none.
+std::string field_heading(const std::string& field);
+
+/// Null where the run has no error of the field.
+const io::ErrorNorms* norms_of(const io::RunSummary& run, const std::string& field);
+
 /// Name of a method with its mark, which has the colour and the shape of its points.
 std::string method_mark(const std::string& method);
+
+/// Method and level in one cell, which stays in sight while the rest of its row scrolls.
+std::string run_head(const io::RunSummary& run);
 
 /// A canvas with a height of its own, a title for those who hear the page, and a caption.
 std::string chart(std::string_view id,

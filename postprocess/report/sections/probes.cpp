@@ -99,7 +99,8 @@ std::string probes_section(const StudyReport& study) {
   const std::vector<io::RunSummary> runs = probed_runs(study);
   const std::string others = other_charts(study);
   if (runs.empty() && others.empty()) return "";
-  std::string html = "<p>Both methods on the finest level.";
+  std::string html = methods_of(study.runs).size() > 1 ? "<p>Both methods on the finest level."
+                                                       : "<p>On the finest level.";
   if (!runs.empty()) {
     html +=
         " Extremes, period and logarithmic decrement are of the recorded values; a probe that the "

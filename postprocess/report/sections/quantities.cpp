@@ -4,6 +4,7 @@
 #include "postprocess/report/orders.hpp"
 #include "postprocess/report/sections.hpp"
 #include "postprocess/report/sections/parts.hpp"
+#include "postprocess/report/verdict.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -21,8 +22,7 @@ std::string agreement(const std::vector<GridSeries>& series) {
   if (series.size() != 2) return "";
   const GridPoint &a = series[0].points.back(), &b = series[1].points.back();
   if (a.error_bar == 0 || b.error_bar == 0) return "";
-  const bool agree = std::abs(a.value - b.value) <= a.error_bar + b.error_bar;
-  return agree ? "agree" : "do not agree";
+  return agree(a, b) ? "agree" : "do not agree";
 }
 
 std::string rows_of(const std::pair<std::string, std::string>& quantity,

@@ -63,10 +63,10 @@ std::string shapes_section(const StudyReport& study) {
   }
   const bool is_solid = first.surface.dimension == 3;
   std::string html = fmt::format(
-      "<p>{} on the finest level at its true size, both methods on one scale of colours for all "
+      "<p>{} on the finest level at its true size, {}on one scale of colours for all "
       "times.{}{}</p>\n",
-      is_solid ? "Surface of the body" : "The body", is_solid ? " Drag to turn it." : "",
-      extent(first, n_frames));
+      is_solid ? "Surface of the body" : "The body", study.shapes.size() > 1 ? "both methods " : "",
+      is_solid ? " Drag to turn it." : "", extent(first, n_frames));
   html += controls(first) + "<div class=\"pair\">\n" + pictures + "</div>\n";
   if (study.shapes.size() == 2) {
     html += fmt::format(

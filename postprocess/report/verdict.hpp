@@ -1,0 +1,33 @@
+#pragma once
+/// What a study says, in a few sentences of plain words for the top of its page: what broke down,
+/// which method errs less and at what cost, whether the methods agree. Where they are further apart
+/// than half of the scale the study is too coarse to say.
+/// Test: tests/report/verdict_test.cpp
+
+#include "postprocess/report/study_report.hpp"
+
+#include <string>
+#include <vector>
+
+namespace diptych::report {
+
+/// Part of the scale from which on two values are too far apart for a verdict.
+constexpr double too_far_apart = 0.5;
+
+/// Sentences in HTML, the most important first; at least one.
+std::vector<std::string> verdict(const StudyReport& study);
+
+/// Whether two values are no further apart than the sum of their error bars, or equal in the six
+/// digits that a page shows.
+bool agree(const GridPoint& a, const GridPoint& b);
+
+/// "0.35 %"
+std::string percent_html(double part);
+
+/// "finite volume", as it stands within a sentence.
+std::string method_in_sentence(const std::string& method);
+
+/// With a capital letter.
+std::string at_the_start(std::string sentence);
+
+}  // namespace diptych::report

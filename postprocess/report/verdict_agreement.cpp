@@ -1,0 +1,122 @@
+/// What refinement says of the quantities of two methods, in sentences.
+
+#include "postprocess/report/html.hpp"
+#include "postprocess/report/verdict.hpp"
+#include "postprocess/report/verdict_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace diptych::report {
+
+double scale_of(const StudyReport& study,
+                const std::string& name,
+                const std::string& unit,
+                const std::vector<GridSeries>& series) {
+  double scale = 0;
+  for (const GridSeries& one : series) {
+    for (const GridPoint& point : one.points)
+      scale = std::max(scale, std::abs(point.value));
+  }
+  for (const io::RunSummary& run : study.runs) {
+    for (const io::QuantitySummary& q : run.quantities) {
+      if (q.name == name) scale = std::max({scale, std::abs(q.least), std::abs(q.greatest)});
+    }
+  }
+  if (unit != "J") return scale;
+  for (const auto& [method, rows] : study.histories) {
+    for (const io::HistoryRow& row : rows) {
+      scale =
+          std::max(scale, row.energy.kinetic + row.energy.strain + row.energy.viscous_dissipation +
+                              row.energy.numerical_dissipation);
+    }
+  }
+  return scale;
+}
+
+bool agree(const GridPoint& a, const GridPoint& b) {
+  constexpr double shown = 1e-6;  // six digits, those of the table
+  const double apart = std::abs(a.value - b.value);
+  return apart <= a.error_bar + b.error_bar ||
+         apart <= shown * std::max(std::abs(a.value), std::abs(b.value));
+}
+
+namespace {
+
+/// Quantities by what refinement says of them.
+struct Agreement {
+  std::vector<std::string> within, beyond, too_coarse;  ///< names
+  size_t n_first = 0, n_second = 0;  ///< of those judged: where that method has the narrower bar
+  size_t n_judged() const { return within.size() + beyond.size(); }
+};
+
+Agreement agreement_of(const StudyReport& study, const Pair& pair) {
+  Agreement agreement;
+  for (const auto& [quantity, series] : study.quantities) {
+    if (series.size() != 2) continue;
+    const bool same_order = series[0].method == pair.a().method;
+    const GridPoint& a = series[same_order ? 0 : 1].points.back();
+    const GridPoint& b = series[same_order ? 1 : 0].points.back();
+    if (a.level != b.level || a.error_bar == 0 || b.error_bar == 0) continue;
+    const double scale = scale_of(study, quantity.first, quantity.second, series);
+    const double apart = std::abs(a.value - b.value), bars = a.error_bar + b.error_bar;
+    if (apart > too_far_apart * scale || bars > too_far_apart * scale) {
+      agreement.too_coarse.push_back(quantity.first);
+      continue;
+    }
+    (agree(a, b) ? agreement.within : agreement.beyond).push_back(quantity.first);
+    if (a.error_bar < b.error_bar) ++agreement.n_first;
+    if (b.error_bar < a.error_bar) ++agreement.n_second;
+  }
+  return agreement;
+}
+
+/// Without an exact solution the widths of the error bars are what there is to say of errors.
+std::string nearer_sentence(const Agreement& agreement, const Pair& pair) {
+  const size_t n = agreement.n_judged();
+  if (agreement.n_first == agreement.n_second) {
+    return fmt::format(
+        "Neither method is nearer to convergence: on level {} each has the narrower error bar on "
+        "{} of {} quantities (there is no exact solution to measure errors by).",
+        pair.a().level, agreement.n_first, n);
+  }
+  const bool first = agreement.n_first > agreement.n_second;
+  return fmt::format(
+      "{} is nearer to convergence: on level {} it has the narrower error bar on {} of {} "
+      "quantities (there is "
+      "no exact solution to measure errors by).",
+      at_the_start(method_in_sentence(first ? pair.a().method : pair.b().method)), pair.a().level,
+      std::max(agreement.n_first, agreement.n_second), n);
+}
+
+}  // namespace
+
+std::vector<std::string> agreement_sentences(const StudyReport& study,
+                                             const Pair& pair,
+                                             bool has_errors) {
+  const Agreement agreement = agreement_of(study, pair);
+  std::vector<std::string> sentences;
+  const size_t n = agreement.n_judged(), n_within = agreement.within.size();
+  if (n > 0 && n == n_within) {
+    sentences.push_back(
+        n == 1
+            ? fmt::format("On {} they agree within their error bars.", names_html(agreement.within))
+            : fmt::format("They agree within their error bars on all {} quantities.", n));
+  } else if (n > 0) {
+    sentences.push_back(
+        fmt::format("They agree within their error bars on {} of {} quantities, but not on {}.",
+                    n_within, n, names_html(agreement.beyond)));
+  }
+  if (n > 0 && !has_errors) sentences.insert(sentences.begin(), nearer_sentence(agreement, pair));
+  if (!agreement.too_coarse.empty()) {
+    const std::string sentence = fmt::format(
+        "Too coarse to say of {}: the values are further apart, or their error bars wider, than "
+        "half of the scale.",
+        names_html(agreement.too_coarse));
+    sentences.insert(n > 0 ? sentences.end() : sentences.begin(), sentence);
+  }
+  return sentences;
+}
+
+}  // namespace diptych::report
