@@ -177,9 +177,10 @@ RegressBaseline baseline_from_json(const std::string& text, const std::string& p
   return baseline_from(Reader(json, path));
 }
 
-std::string baselines_folder() {
+std::string baselines_folder(const std::string& asked) {
+  if (!asked.empty()) return asked;
   const char* folder = std::getenv("DIPTYCH_BASELINES");
-  return folder != nullptr ? folder : DIPTYCH_BASELINES;
+  return folder != nullptr && *folder != '\0' ? folder : DIPTYCH_BASELINES;
 }
 
 }  // namespace diptych::harness
