@@ -1,5 +1,6 @@
 #pragma once
-/// The shipped cases: folders of benchmarks/cases with a case.toml.
+/// The cases that a name stands for: folders NAME/case.toml of one folder, the shipped ones or
+/// those of the user (--cases). Test: tests/command_line/case_folder_test.cpp
 
 #include <string>
 #include <utility>
@@ -7,14 +8,26 @@
 
 namespace diptych::harness {
 
-/// Folder of the shipped cases: the environment variable DIPTYCH_CASES, or the program's data.
-std::string cases_folder();
+/// Folder in which names of cases are looked up.
+/// @param asked  of --cases; empty: the environment variable DIPTYCH_CASES, else the shipped cases
+std::string cases_folder(const std::string& asked = {});
 
-/// (name, title), by name.
+struct ListedCase {
+  std::string name, file;
+};
+
+/// The cases of a folder by name, unread.
+/// @param asked  as of cases_folder
+/// @throws base::InputError where there is none: the folder, and what it should hold
+std::vector<ListedCase> listed_cases(const std::string& asked = {});
+
+/// (name, title) of the shipped cases, by name.
 std::vector<std::pair<std::string, std::string>> shipped_cases();
 
-/// Path of a case file: the argument where it is a file or a folder with a case.toml, else the
-/// shipped case of that name. @throws base::InputError with the nearest name
-std::string find_case(const std::string& name);
+/// Path of a case file: the word where it is a file or a folder with a case.toml, else the case of
+/// that name. With `asked` a word without '/' that does not end in .toml is a name.
+/// @param asked  as of cases_folder
+/// @throws base::InputError with the nearest name
+std::string find_case(const std::string& word, const std::string& asked = {});
 
 }  // namespace diptych::harness

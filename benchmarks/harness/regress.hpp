@@ -1,6 +1,7 @@
 #pragma once
-/// Regression: every shipped case with both methods at a small size, against what was recorded of
-/// it in benchmarks/baselines and against what must hold anywhere. Per method:
+/// Regression: every case of a folder with both methods at a small size, against what was recorded
+/// of it (the shipped ones in benchmarks/baselines) and against what must hold anywhere. Per
+/// method:
 ///
 ///   canary        five steps with a stated time.cfl: norm and projection of every field
 ///   errors        norms of the errors, where the case has an exact solution
@@ -11,6 +12,7 @@
 /// bars from levels 0 and 1 (Roache's factor 3 with the formal order). No bound is an option.
 /// Tests: tests/harness/regress_test.cpp, tests/command_line/regress_test.cpp
 
+#include "common/base/error.hpp"
 #include "common/run/case.hpp"
 
 #include <map>
@@ -68,7 +70,13 @@ struct RegressCheck {
   Verdict verdict = Verdict::failed;
   double measured = 0, bound = 0;
   std::string note;  ///< why skipped, or what is wrong besides numbers
+  base::ExitCode code = base::ExitCode::bound_not_met;  ///< what it means where it failed
 };
+/// A failure that no number shows.
+RegressCheck failure(const std::string& name,
+                     const std::string& figure,
+                     const std::string& note,
+                     base::ExitCode code = base::ExitCode::bound_not_met);
 /// True only for finite numbers within the bound.
 RegressCheck checked(const std::string& name,
                      const std::string& figure,
@@ -80,6 +88,7 @@ struct MethodMeasurement {
   MethodFigures figures;
   std::vector<RegressCheck> conservation;
   std::string failure;  ///< of a run that broke down
+  double seconds = 0;
 };
 
 struct RegressMeasurement {
@@ -110,18 +119,9 @@ std::vector<RegressCheck> checks_of(const MethodFigures& recorded,
 std::vector<RegressCheck> agreement_checks(const RegressBaseline& recorded,
                                            const RegressMeasurement& now);
 
-struct RegressRequest {
-  std::vector<std::string> cases;  ///< empty: all that are shipped
-  std::string bless, why;          ///< a case or "all"; the reason
-  std::string directory;           ///< of regress.txt and what was measured
-  int threads = 0;
-  bool quiet = false;
-};
-
-/// Folder of the baselines: the environment variable DIPTYCH_BASELINES, or the program's data.
-std::string baselines_folder();
-
-/// Prints the table; writes it and what was measured. @throws base::BoundError after the table
-void regress(const RegressRequest& request);
+/// Folder of the baselines.
+/// @param asked  of --baselines; empty: the environment variable DIPTYCH_BASELINES, else the
+///               program's data
+std::string baselines_folder(const std::string& asked = {});
 
 }  // namespace diptych::harness

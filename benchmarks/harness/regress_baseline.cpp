@@ -178,9 +178,10 @@ RegressBaseline baseline_from_json(const std::string& text, const std::string& p
   return baseline_from(Reader(json, path));
 }
 
-std::string baselines_folder() {
+std::string baselines_folder(const std::string& asked) {
+  if (!asked.empty()) return asked;
   const char* folder = std::getenv("DIPTYCH_BASELINES");
-  return folder != nullptr ? folder : data_folder("baselines");
+  return folder != nullptr && *folder != '\0' ? folder : data_folder("baselines");
 }
 
 }  // namespace diptych::harness

@@ -20,11 +20,6 @@ constexpr double canary_elsewhere = 1e-9, canary_here = 1e-13;
 /// Growth of a known disagreement that is only rounding.
 constexpr double known_growth = 1e-6;
 
-RegressCheck failure(const std::string& name, const std::string& figure, const std::string& note) {
-  const double nothing = std::numeric_limits<double>::quiet_NaN();
-  return {name, figure, Verdict::failed, nothing, nothing, note};
-}
-
 void append(std::vector<RegressCheck>& to, const std::vector<RegressCheck>& checks) {
   to.insert(to.end(), checks.begin(), checks.end());
 }
@@ -45,6 +40,14 @@ bool RegressPlatform::operator==(const RegressPlatform& other) const {
 RegressPlatform this_platform() {
   const io::Provenance p = provenance("");
   return {p.instruction_set, p.compiler, p.flags};
+}
+
+RegressCheck failure(const std::string& name,
+                     const std::string& figure,
+                     const std::string& note,
+                     base::ExitCode code) {
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  return {name, figure, Verdict::failed, nothing, nothing, note, code};
 }
 
 RegressCheck checked(const std::string& name,
@@ -83,7 +86,9 @@ std::vector<RegressCheck> compare_figures(const std::string& check,
 std::vector<RegressCheck> checks_of(const MethodFigures& recorded,
                                     const MethodMeasurement& now,
                                     bool same_platform) {
-  if (!now.failure.empty()) return {failure("run", "breakdown", now.failure)};
+  if (!now.failure.empty()) {
+    return {failure("run", "breakdown", now.failure, base::ExitCode::breakdown)};
+  }
   std::vector<RegressCheck> checks;
   if (recorded.canary.empty() || recorded.quantities.empty())
     checks.push_back(failure("canary", "record", "the baseline is empty"));

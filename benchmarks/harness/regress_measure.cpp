@@ -11,6 +11,7 @@
 #include "common/run/case_reader.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -332,6 +333,7 @@ RegressMeasurement measure_regress(const std::string& case_file,
     options.threads = threads;
     options.fields = false;
     options.quiet = true;
+    const auto start = std::chrono::steady_clock::now();
     try {
       natural = measure_canary(canary, method, now.figures);
       for (options.level = 0; options.level < size.levels; ++options.level) {
@@ -347,6 +349,7 @@ RegressMeasurement measure_regress(const std::string& case_file,
     } catch (const base::BreakdownError& error) {
       now.failure = error.what();
     }
+    now.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   if (size.levels < 2) {
     measurement.no_agreement = "one level only: " + size.one_level_because;

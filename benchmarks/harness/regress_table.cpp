@@ -25,7 +25,7 @@ double load(const RegressCheck& check) {
 }
 
 std::string figure_text(const RegressCheck& check) {
-  if (!std::isfinite(check.measured)) return check.figure + ", " + check.note;
+  if (!std::isfinite(check.measured)) return check.figure + ": " + check.note;
   return fmt::format("{} {:.2g} of {:.2g}", check.figure, check.measured, check.bound);
 }
 
@@ -57,7 +57,9 @@ std::string line_of(const RegressRow& row) {
   }
   std::string worst;
   if (!judged.empty()) {
-    worst = figure_text(sorted(judged).front());
+    const RegressCheck first = sorted(judged).front();
+    // what no number shows stands in full below
+    worst = std::isfinite(first.measured) ? figure_text(first) : first.figure;
   } else if (!row.checks.empty()) {
     worst = row.checks.front().note;
   }
@@ -97,6 +99,27 @@ std::string skips_of(const std::vector<RegressRow>& rows) {
   return text;
 }
 
+size_t count_failed(const std::vector<RegressRow>& rows, base::ExitCode code) {
+  size_t n = 0;
+  for (const RegressRow& row : rows) {
+    n += std::count_if(row.checks.begin(), row.checks.end(), [&](const RegressCheck& check) {
+      return check.verdict == Verdict::failed && check.code == code;
+    });
+  }
+  return n;
+}
+
+/// Kinds of failure: the code of each, the first that applies is that of the whole.
+struct FailureKind {
+  base::ExitCode code;
+  const char *one, *several;
+};
+constexpr std::array<FailureKind, 4> failure_kinds{
+    {{base::ExitCode::environment, "failure of the environment", "failures of the environment"},
+     {base::ExitCode::wrong_input, "file that cannot be used", "files that cannot be used"},
+     {base::ExitCode::breakdown, "breakdown", "breakdowns"},
+     {base::ExitCode::bound_not_met, "check failed", "checks failed"}}};
+
 struct Change {
   std::string name;
   double old, now, relative;
@@ -124,6 +147,15 @@ void add_changes(std::vector<Change>& changes,
   }
 }
 
+/// What is run from now on.
+std::string size_text(const RegressBaseline& now) {
+  std::string set;
+  for (const std::string& entry : now.set)
+    set += " --set " + entry;
+  return fmt::format("  size:{}, {}\n", set.empty() ? " the case as it stands" : set,
+                     now.levels == 1 ? "level 0 only: " + now.one_level_because : "levels 0 and 1");
+}
+
 std::string value_text(double value) {
   return std::isfinite(value) ? fmt::format("{:.9g}", value) : "none";
 }
@@ -145,8 +177,24 @@ std::string regress_table(const std::vector<RegressRow>& rows) {
 }
 
 bool has_failed(const std::vector<RegressRow>& rows) {
-  return std::any_of(rows.begin(), rows.end(),
-                     [](const RegressRow& row) { return count(row.checks, Verdict::failed) > 0; });
+  return exit_code_of(rows) != base::ExitCode::done;
+}
+
+base::ExitCode exit_code_of(const std::vector<RegressRow>& rows) {
+  for (const FailureKind& kind : failure_kinds) {
+    if (count_failed(rows, kind.code) > 0) return kind.code;
+  }
+  return base::ExitCode::done;
+}
+
+std::string failures_in_words(const std::vector<RegressRow>& rows) {
+  std::string text;
+  for (const FailureKind& kind : failure_kinds) {
+    const size_t n = count_failed(rows, kind.code);
+    if (n == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, n == 1 ? kind.one : kind.several);
+  }
+  return text;
 }
 
 std::string difference_text(const RegressBaseline& old, const RegressBaseline& now) {
@@ -157,6 +205,7 @@ std::string difference_text(const RegressBaseline& old, const RegressBaseline& n
     text += fmt::format("{} of {} ({}) -> {} of {} ({})\n", old.commit, old.date, old.reason,
                         now.commit, now.date, now.reason);
   }
+  text += size_text(now);
   std::vector<Change> changes;
   if (!old.methods.empty()) {
     for (const auto& [method, figures] : now.methods) {

@@ -1,25 +1,26 @@
-/// The verb: runs the cases, prints the table, records baselines.
+/// The verb: runs the cases, prints the table, writes what was asked for.
+
+#include "benchmarks/harness/regress_verb.hpp"
 
 #include "benchmarks/harness/backends.hpp"
-#include "benchmarks/harness/case_list.hpp"
 #include "benchmarks/harness/progress.hpp"
 #include "benchmarks/harness/provenance.hpp"
-#include "benchmarks/harness/regress.hpp"
-#include "benchmarks/harness/regress_table.hpp"
+#include "benchmarks/harness/regress_bless.hpp"
+#include "benchmarks/harness/regress_cases.hpp"
+#include "benchmarks/harness/regress_report.hpp"
 #include "benchmarks/harness/run_case.hpp"
+#include "benchmarks/harness/schedule.hpp"
 #include "common/base/error.hpp"
-#include "common/base/text.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/io/run_record.hpp"
 #include "common/run/case_reader.hpp"
 #include "meshes/gmsh.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
-#include <set>
+#include <new>
 
 namespace diptych::harness {
 
@@ -27,76 +28,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void print(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  std::fflush(stdout);
-}
-
-std::vector<std::string> shipped_names() {
-  std::vector<std::string> names;
-  for (const auto& [name, title] : shipped_cases())
-    names.push_back(name);
-  return names;
-}
-
-void check_request(const RegressRequest& request) {
-  if (request.bless.empty() && !request.why.empty())
-    throw base::InputError("--why goes with --bless CASE");
-  if (request.bless.empty()) return;
-  if (!request.cases.empty())
-    throw base::InputError("--bless names the case itself: give no other case");
-  if (request.why.find_first_not_of(" \t\n") == std::string::npos)
-    throw base::InputError("--bless needs --why \"...\": the reason is kept with the baseline");
-}
-
-std::vector<std::string> cases_of(const RegressRequest& request) {
-  const std::vector<std::string> known = shipped_names();
-  std::vector<std::string> wanted = request.cases;
-  if (!request.bless.empty() && request.bless != "all") wanted = {request.bless};
-  for (const std::string& name : wanted) {
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw base::InputError("no shipped case '" + name + "'" + base::suggestion(name, known));
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
-  return wanted.empty() ? known : wanted;
-}
 
-fs::path baseline_path(const std::string& name) {
-  return fs::path(baselines_folder()) / (name + ".json");
-}
-
-/// What was recorded, or a case as it stands on two levels.
-RegressBaseline baseline_of(const std::string& name) {
-  const fs::path path = baseline_path(name);
-  if (fs::exists(path)) {
-    RegressBaseline baseline = baseline_from_json(io::read_file(path.string()), path.string());
-    if (baseline.case_name != name)
-      throw base::InputError(fmt::format("{}: is of case '{}'", path.string(), baseline.case_name));
-    return baseline;
-  }
-  RegressBaseline baseline;
-  baseline.case_name = name;
-  baseline.levels = 2;
-  return baseline;
-}
-
-/// The baseline that a measurement would make.
-RegressBaseline record_of(RegressBaseline size,
-                          const RegressMeasurement& now,
-                          const std::string& why) {
-  const io::Provenance p = provenance("");
-  size.reason = why;
-  size.commit = p.commit;
-  size.date = p.date;
-  size.platform = this_platform();
-  size.methods.clear();
-  for (const auto& [method, measurement] : now.methods)
-    size.methods[method] = measurement.figures;
-  size.disagreement.clear();
-  for (const auto& [name, figure] : now.agreement) {
-    if (figure.excess() > 1) size.disagreement[name] = figure.excess();
-  }
-  return size;
-}
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 std::vector<RegressRow> rows_of(const std::string& name,
                                 const RegressBaseline& baseline,
@@ -107,109 +47,148 @@ std::vector<RegressRow> rows_of(const std::string& name,
     const auto recorded = baseline.methods.find(method);
     const MethodFigures nothing{};
     const MethodFigures& old = recorded == baseline.methods.end() ? nothing : recorded->second;
-    rows.push_back({name, method, checks_of(old, now.methods.at(method), same_platform)});
+    const MethodMeasurement& measured = now.methods.at(method);
+    rows.push_back({name, method, checks_of(old, measured, same_platform), measured.seconds});
   }
   rows.push_back({name, "both", agreement_checks(baseline, now)});
   return rows;
 }
 
-/// Records a baseline. @return rows of what must hold whatever was recorded
-std::vector<RegressRow> bless(const RegressBaseline& old,
-                              const RegressMeasurement& now,
-                              const std::string& why) {
-  for (const auto& [method, measurement] : now.methods) {
-    if (!measurement.failure.empty()) {
-      throw base::BreakdownError(fmt::format("{} {}: {}; nothing is recorded", old.case_name,
-                                             method, measurement.failure));
-    }
+void write_measured(const RegressRequest& request,
+                    const RegressBaseline& baseline,
+                    const RegressMeasurement& now) {
+  const std::string path = (fs::path(request.directory) / (baseline.case_name + ".json")).string();
+  std::string text;
+  try {
+    text = to_json(record_of(baseline, now, "measured"));
+  } catch (const base::InputError& error) {  // its figures have failed in the table
+    std::fputs(fmt::format("diptych: {} is not written: {}\n", path, error.what()).c_str(), stderr);
+    return;
   }
-  const RegressBaseline record = record_of(old, now, why);
-  const std::string text = to_json(record);  // before anything is said of it
-  print(difference_text(old, record));
-  io::make_directory(baselines_folder());
-  io::write_file_atomically(baseline_path(old.case_name).string(), text);
-  return rows_of(old.case_name, record, now);
+  io::write_file_atomically(path, text);
 }
 
-/// Baselines of cases that are gone.
-std::vector<RegressRow> orphans() {
-  const std::vector<std::string> known = shipped_names();
-  const std::set<std::string> names(known.begin(), known.end());
-  std::vector<RegressRow> rows;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(baselines_folder(), error)) {
-    const std::string name = entry.path().stem().string();
-    if (entry.path().extension() != ".json" || names.count(name) > 0) continue;
-    RegressCheck check{"record", entry.path().filename().string(), Verdict::failed, 0,
-                       0,        "no case of this name is shipped"};
-    rows.push_back({name, "-", {check}});
-  }
-  return rows;
-}
-
-std::vector<RegressRow> rows_of_case(const std::string& name, const RegressRequest& request) {
-  const RegressBaseline baseline = baseline_of(name);
-  const std::string file = find_case(name);
-  const std::string mesh = run::read_case(file, baseline.set).mesh.file;
+/// Checks a case or records its baseline. @return empty after an interrupt
+/// @throws base::Error where it cannot be judged
+std::vector<RegressRow> judged(const ListedCase& entry, const RegressRequest& request) {
+  const std::string path = baseline_path(request, entry.name);
+  const bool blesses = !request.bless.empty(), has_baseline = fs::exists(path);
+  const RegressBaseline old = has_baseline ? read_baseline(path, entry.name) : RegressBaseline{};
+  const std::string mesh = run::read_case(entry.file, old.set).mesh.file;
   if (fs::path(mesh).extension() == ".geo" && !meshes::has_gmsh()) {
     RegressCheck check{"run", "", Verdict::skipped, 0, 0, "its mesh needs the gmsh program"};
-    return {{name, "both", {check}}};
+    return {{entry.name, "both", {check}}};
   }
-  const RegressMeasurement now = measure_regress(file, baseline, {}, request.threads);
+  if (!has_baseline && !blesses) {
+    const std::string note = fmt::format(
+        "{} is not there; 'diptych regress --bless {} --why \"...\"', with the same --cases and "
+        "--baselines, records it",
+        path, entry.name);
+    return {{entry.name, "both", {failure("record", "no baseline", note)}}};
+  }
+  const RegressBaseline size = blesses ? blessed_size(request, entry, old) : old;
+  const RegressMeasurement now = measure_regress(entry.file, size, {}, request.threads);
   if (interrupt_requested()) return {};
-  if (!request.bless.empty()) return bless(baseline, now, request.why);
-  const fs::path measured = fs::path(request.directory) / (name + ".json");
-  std::vector<RegressRow> rows = rows_of(name, baseline, now);
+  if (blesses) return rows_of(entry.name, recorded(request, old, size, now), now);
+  write_measured(request, size, now);
+  return rows_of(entry.name, size, now);
+}
+
+/// What a case that cannot be judged looks like among the others.
+RegressRow row_of_error(const std::string& name, base::ExitCode code, const std::string& what) {
+  if (code == base::ExitCode::wrong_input)
+    return {name, "both", {failure("case", "cannot be read", what, code)}};
+  return {name, "both", {failure("run", kind_of(code), what, code)}};
+}
+
+/// The same, where one case does not end the others.
+std::vector<RegressRow> judged_or_failed(const ListedCase& entry, const RegressRequest& request) {
   try {
-    io::write_file_atomically(measured.string(), to_json(record_of(baseline, now, "measured")));
-  } catch (const base::InputError& error) {  // its figures have failed above
-    std::fputs(
-        fmt::format("diptych: {} is not written: {}\n", measured.string(), error.what()).c_str(),
-        stderr);
+    return judged(entry, request);
+  } catch (const base::Error& error) {
+    if (!request.bless.empty() && request.bless != "all") throw;
+    return {row_of_error(entry.name, error.code(), error.what())};
+  } catch (const std::bad_alloc&) {
+    return {row_of_error(entry.name, base::ExitCode::environment,
+                         "out of memory; record a smaller size")};
   }
-  return rows;
+}
+
+void write_files(const RegressRequest& request, const RegressReport& report) {
+  const auto write = [](const std::string& path, const std::string& text) {
+    const fs::path folder = fs::path(path).parent_path();
+    if (!folder.empty()) io::make_directory(folder.string());
+    io::write_file_atomically(path, text);
+  };
+  if (!request.junit.empty()) write(request.junit, junit_xml(report));
+  if (!request.json.empty()) write(request.json, regress_json(report));
+}
+
+void add_orphans(const RegressRequest& request, RegressReport& report) {
+  for (const RegressRow& row : orphans(request)) {
+    RegressedCase entry;
+    entry.name = row.case_name;
+    entry.baseline = baseline_path(request, row.case_name);
+    entry.rows = {row};
+    report.cases.push_back(entry);
+  }
+}
+
+void print_table(const RegressRequest& request, const RegressReport& report) {
+  const std::string table =
+      regress_table(report.rows()) + fmt::format("{}\n", duration_text(report.seconds));
+  const std::string file = (fs::path(request.directory) / "regress.txt").string();
+  std::fputs(table.c_str(), stdout);
+  std::fflush(stdout);
+  io::write_file_atomically(file, table);
+  std::string written = "output: " + file;
+  for (const std::string& path : {request.junit, request.json}) {
+    if (!path.empty()) written += ", " + path;
+  }
+  std::fputs((written + "\n").c_str(), stdout);
+  std::fflush(stdout);
 }
 
 }  // namespace
 
 void regress(const RegressRequest& request) {
-  check_request(request);
-  const std::vector<std::string> names = cases_of(request);
-  for (const std::string& name : names)
-    baseline_of(name);  // all are read before the first is run
+  const std::vector<ListedCase> cases = wanted_cases(request);
   io::make_directory(request.directory);
-  const auto start = std::chrono::steady_clock::now();
-  const auto seconds = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
-  std::vector<RegressRow> rows;
-  if (request.cases.empty() && request.bless.empty()) rows = orphans();
+  const Stopwatch all;
+  RegressReport report;
+  report.provenance = provenance("");
+  report.cases_folder = cases_folder(request.cases_folder);
+  report.baselines_folder = baselines_folder(request.baselines_folder);
+  if (request.cases.empty() && request.bless.empty()) add_orphans(request, report);
+  report.n_wanted = report.cases.size() + cases.size();
+  write_files(request, report);  // a kill leaves no file of an earlier check
   // cases have nothing in common: those to come take what those that are over took in the mean
-  Schedule schedule(std::vector<PlannedRun>(names.size(), {"", "case", 0, 3}));
-  for (size_t i = 0; i < names.size(); ++i) {
-    const double before = seconds();
-    const auto more = rows_of_case(names[i], request);
+  Schedule schedule(std::vector<PlannedRun>(cases.size(), {"", "case", 0, 3}));
+  for (size_t i = 0; i < cases.size(); ++i) {
+    const Stopwatch one;
+    RegressedCase entry{cases[i].name, cases[i].file, baseline_path(request, cases[i].name), 0, {}};
+    entry.rows = judged_or_failed(cases[i], request);
     if (interrupt_requested()) break;
-    rows.insert(rows.end(), more.begin(), more.end());
-    schedule.finish(seconds() - before);
+    entry.seconds = one.seconds();
+    report.cases.push_back(entry);
+    schedule.finish(entry.seconds);
     if (!request.quiet) {
       const auto left = schedule.seconds_left();
-      const bool is_last = i + 1 == names.size();
-      std::fputs(
-          fmt::format("  {} of {}: {}, {:.1f} s{}\n", i + 1, names.size(), names[i],
-                      seconds() - before,
-                      left && !is_last ? fmt::format("; about {} left", duration_text(*left)) : "")
-              .c_str(),
-          stderr);
+      const bool is_last = i + 1 == cases.size();
+      std::fputs(fmt::format(
+                     "  {} of {}: {}, {:.1f} s{}\n", i + 1, cases.size(), entry.name, entry.seconds,
+                     left && !is_last ? fmt::format("; about {} left", duration_text(*left)) : "")
+                     .c_str(),
+                 stderr);
     }
   }
-  const std::string table = regress_table(rows) + fmt::format("{}\n", duration_text(seconds()));
-  print(table);
-  const std::string file = (fs::path(request.directory) / "regress.txt").string();
-  io::write_file_atomically(file, table);
-  print("output: " + file + "\n");
-  if (interrupt_requested()) return;
-  if (has_failed(rows)) throw base::BoundError("a bound was not met; see above");
+  report.seconds = all.seconds();
+  report.state = interrupt_requested() ? RegressState::interrupted : RegressState::done;
+  write_files(request, report);
+  print_table(request, report);
+  const std::vector<RegressRow> rows = report.rows();
+  if (interrupt_requested() || !has_failed(rows)) return;
+  throw base::Error(exit_code_of(rows), failures_in_words(rows) + "; see above");
 }
 
 }  // namespace diptych::harness

@@ -1,9 +1,9 @@
 # Debian packages of Diptych and how to get them. Sourced by build.sh; defines need_packages.
 
 packages_build="g++ cmake ninja-build pkg-config libeigen3-dev libhdf5-dev libtomlplusplus-dev
-  libmuparser-dev libcli11-dev libfmt-dev nlohmann-json3-dev libxxhash-dev"
+  libmuparser-dev libcli11-dev libfmt-dev nlohmann-json3-dev libxxhash-dev libpugixml-dev"
 packages_report="libjs-chart.js"
-packages_tests="libgtest-dev libgmock-dev gmsh"
+packages_tests="libgtest-dev libgmock-dev libyaml-cpp-dev gmsh"
 packages_pictures="libvtk9-dev libx11-dev xvfb xauth libgl1-mesa-dri"
 packages_python="python3-h5py python3-pandas python3-matplotlib"
 packages_browser="chromium"

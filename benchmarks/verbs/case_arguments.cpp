@@ -9,8 +9,13 @@
 
 namespace diptych::verbs {
 
+void CaseArguments::declare_case(CommandLine& line) {
+  line.word("case", case_name, "path of a case file or its folder, or a name of 'list'");
+  line.option("--cases", cases_folder, cases_help);
+}
+
 void CaseArguments::declare(CommandLine& line) {
-  line.word("case", case_name, "path of a case file, or a name of 'list'");
+  declare_case(line);
   line.option("--level", level, "the mesh spacing is divided by 2^level");
   line.option("--threads", threads, "0: all processors");
   line.repeated("--set", overrides, "key=value, overrides the case file; repeatable");
@@ -24,8 +29,12 @@ void CaseArguments::declare_with_method(CommandLine& line) {
   line.option("--method", method, "sph, fvm or both");
 }
 
+std::string CaseArguments::file() const {
+  return harness::find_case(case_name, cases_folder);
+}
+
 run::Case CaseArguments::read() const {
-  return run::read_case(harness::find_case(case_name), overrides);
+  return run::read_case(file(), overrides);
 }
 
 std::vector<std::string> CaseArguments::methods() const {

@@ -11,17 +11,26 @@
 
 namespace diptych::verbs {
 
+/// Of the option --cases.
+constexpr const char* cases_help =
+    "folder of cases, DIR/NAME/case.toml, in which names are looked up in place of the shipped "
+    "ones";
+
 struct CaseArguments {
-  std::string case_name, method = "both", directory;
+  std::string case_name, cases_folder, method = "both", directory;
   std::vector<std::string> overrides;
   int level = 0, threads = 0;
   bool quiet = false, no_fields = false;
 
-  /// Adds `case`, --level, --threads, --set, --out, --quiet, --no-fields.
+  /// Adds `case` and --cases.
+  void declare_case(CommandLine& line);
+  /// Adds these, --level, --threads, --set, --out, --quiet, --no-fields.
   void declare(CommandLine& line);
   /// Adds --method too.
   void declare_with_method(CommandLine& line);
 
+  /// Path of the case file. @throws base::InputError
+  std::string file() const;
   /// The case with its overrides. @throws base::InputError
   run::Case read() const;
   /// Both methods, or the one named. @throws base::InputError for an unknown name

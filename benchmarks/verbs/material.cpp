@@ -1,6 +1,5 @@
 /// diptych material: strain paths on the material of a case alone.
 
-#include "benchmarks/harness/case_list.hpp"
 #include "benchmarks/harness/material_report.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
@@ -50,7 +49,7 @@ int strain_material(const MaterialArguments& arguments) {
 Action declare_material(CommandLine& line) {
   const auto arguments = std::make_shared<MaterialArguments>();
   harness::MaterialPath& path = arguments->material;
-  line.word("case", arguments->case_name, "path of a case file, or a name of 'list'");
+  arguments->declare_case(line);
   line.option("--path", arguments->path,
               "{shear, confined, uniaxial, creep}-{step, ramp, oscillation}: F12, F11, F11 with "
               "free sides, or P11 with free sides");

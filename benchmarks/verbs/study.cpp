@@ -1,7 +1,6 @@
 /// diptych study: error against cost, or quantities, of a case and its variants; or stability
 /// limits.
 
-#include "benchmarks/harness/case_list.hpp"
 #include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/study_verb.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
@@ -21,7 +20,7 @@ struct StudyArguments : CaseArguments {
 
 int study(const StudyArguments& arguments) {
   harness::StudyRequest request = arguments.request;
-  request.case_file = harness::find_case(arguments.case_name);
+  request.case_file = arguments.file();
   request.overrides = arguments.overrides;
   request.methods = arguments.methods();
   request.level = arguments.level;

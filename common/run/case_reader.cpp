@@ -307,13 +307,6 @@ ExactCase read_exact(const SectionValues& section) {
   return exact;
 }
 
-/// Folder of a .../NAME/case.toml, else the file without its ending.
-std::string case_name(const fs::path& path) {
-  const std::string folder =
-      fs::absolute(path).lexically_normal().parent_path().filename().string();
-  return path.filename() == "case.toml" && !folder.empty() ? folder : path.stem().string();
-}
-
 void read_sections(Sections& sections, const fs::path& folder, Case& c) {
   read_parameters(sections);
   read_functions(sections);
@@ -348,6 +341,13 @@ void read_sections(Sections& sections, const fs::path& folder, Case& c) {
 }
 
 }  // namespace
+
+std::string case_name(const std::string& path) {
+  const fs::path file = path;
+  const std::string folder =
+      fs::absolute(file).lexically_normal().parent_path().filename().string();
+  return file.filename() == "case.toml" && !folder.empty() ? folder : file.stem().string();
+}
 
 int dimension_of(const MeshCase& mesh) {
   return mesh.element == "triangle" || mesh.element == "quadrilateral" ? 2 : 3;

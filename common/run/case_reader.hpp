@@ -21,6 +21,10 @@ Case case_from_text(const std::string& text,
                     const std::string& name,
                     const std::vector<std::string>& overrides = {});
 
+/// Name of the case in this file: the folder of a .../NAME/case.toml, else the file without its
+/// ending.
+std::string case_name(const std::string& path);
+
 /// Dimension that the cell type implies: 2 (triangle, quadrilateral) or 3.
 int dimension_of(const MeshCase& mesh);
 

@@ -75,7 +75,8 @@ inline bool is_code(const std::string& path) {
 /// @throws std::runtime_error where there is nothing to read: a wrong path would pass every check
 inline std::vector<SourceFile> read_source_tree(const std::string& top_level) {
   namespace fs = std::filesystem;
-  static const std::set<std::string> texts = {".toml", ".geo", ".cmake", ".in", ".js", ".css"};
+  static const std::set<std::string> texts = {".toml", ".geo", ".cmake", ".in",
+                                              ".js",   ".css", ".def"};
   std::vector<SourceFile> files;
   for (const char* folder :
        {"common", "sph", "fvm", "meshes", "benchmarks", "postprocess", "tests"}) {
@@ -163,6 +164,8 @@ inline const std::vector<Library>& libraries() {
       {R"((omp|mpi)\.h)", "common/parallel/.*"},
       {R"((metis|gmsh)\.h)", "meshes/.*"},
       {R"(nlohmann/.*)", "(common/io|postprocess|tests|benchmarks)/.*"},
+      {R"(pugixml\.hpp)", "(tests|benchmarks/harness)/.*\\.cpp"},
+      {R"(yaml-cpp/.*)", "tests/.*"},
       {R"((vtk\w+|X11/Xlib)\.h)", "postprocess/pictures/.*"},
       {R"(CLI/.*)", R"((benchmarks|postprocess/pictures)/.*\.cpp)"},
       {R"(benchmark/.*)", "benchmarks/micro/.*"},
