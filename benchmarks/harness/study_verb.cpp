@@ -2,6 +2,7 @@
 
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_mesh.hpp"
+#include "benchmarks/harness/memory_estimate.hpp"
 #include "benchmarks/harness/provenance.hpp"
 #include "benchmarks/harness/resumption.hpp"
 #include "benchmarks/harness/run_case.hpp"
@@ -19,6 +20,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
+#include <numeric>
 #include <optional>
 
 namespace diptych::harness {
@@ -43,8 +45,7 @@ void add_limits(const StudyRequest& request,
                 const std::string& method,
                 StatusLine& status,
                 std::vector<StabilityLimit>& limits) {
-  const CaseMesh mesh =
-      mesh_of(setup, request.level, std::filesystem::temp_directory_path().string());
+  const CaseMesh mesh = mesh_of(setup, request.level);
   const scheme::PairGraph graph = method_menu().at(method)(mesh.mesh, setup);
   for (const std::string& integrator : request.integrators) {
     const std::string name =
@@ -81,6 +82,8 @@ void study_stability(const StudyRequest& asked) {
   std::vector<run::Case> cases;  // all are read before the first runs
   for (const Variant& variant : variants)
     cases.push_back(case_of_variant(request.case_file, request.overrides, variant));
+  for (const run::Case& setup : cases)
+    require_memory(setup, request.methods, {request.level});
   io::make_directory(request.directory);
   parallel::set_threads(request.threads);
   std::vector<StabilityLimit> limits;
@@ -194,10 +197,14 @@ void measure(const StudyRequest& request,
 void study_work_precision(const StudyRequest& request) {
   if (request.n_levels < 1) throw base::InputError("--levels must be 1 or more");
   if (request.repeats < 1) throw base::InputError("--repeats must be 1 or more");
+  check_levels(request.level, request.n_levels);
+  std::vector<int> levels(static_cast<size_t>(request.n_levels));
+  std::iota(levels.begin(), levels.end(), request.level);
   std::vector<run::Case> cases;
   std::vector<WorkCurve> curves;
   for (const Variant& variant : variants_of(request.variations)) {
     cases.push_back(case_of_variant(request.case_file, request.overrides, variant));
+    require_memory(cases.back(), request.methods, levels);
     for (const std::string& method : request.methods)
       curves.push_back({variant.label, method, {}});
   }

@@ -2,6 +2,7 @@
 
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_list.hpp"
+#include "benchmarks/harness/case_mesh.hpp"
 #include "common/run/case_reader.hpp"
 
 #include <cstdio>
@@ -25,6 +26,7 @@ void CaseArguments::declare_with_method(CommandLine& line) {
 }
 
 run::Case CaseArguments::read() const {
+  harness::check_level(level);
   return run::read_case(harness::find_case(case_name), overrides);
 }
 

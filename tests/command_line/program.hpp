@@ -37,10 +37,10 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// `diptych ARGUMENTS`, from inside the folder. ARGUMENTS go through a shell.
-inline Outcome diptych(const Folder& folder, const std::string& arguments) {
-  const std::string command = "cd " + folder.path().string() +
-                              " && " DIPTYCH_BUILD_DIR "/diptych " + arguments + " 2>&1 </dev/null";
+/// A command of the shell, from inside the folder, with empty standard input.
+inline Outcome shell(const Folder& folder, const std::string& line) {
+  const std::string command =
+      "cd " + folder.path().string() + " && { " + line + "\n} 2>&1 </dev/null";
   Outcome outcome;
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return outcome;
@@ -50,6 +50,11 @@ inline Outcome diptych(const Folder& folder, const std::string& arguments) {
   const int status = pclose(pipe);
   outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return outcome;
+}
+
+/// `diptych ARGUMENTS`, from inside the folder. ARGUMENTS go through a shell.
+inline Outcome diptych(const Folder& folder, const std::string& arguments) {
+  return shell(folder, DIPTYCH_BUILD_DIR "/diptych " + arguments);
 }
 
 inline std::string text_of(const std::filesystem::path& path) {
