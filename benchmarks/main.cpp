@@ -10,12 +10,24 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <exception>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <new>
+#include <unistd.h>
 
 namespace {
 
 using namespace diptych;
+
+/// A standard stream that is closed gives its number to the next file opened, which would then
+/// take what is printed: such numbers are taken here, by what can be neither read nor written.
+void hold_standard_streams() {
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+    if (fcntl(stream, F_GETFD) >= 0) continue;
+    if (open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
+  }
+}
 
 /// What was printed has arrived. @throws base::EnvironmentError where it has not
 void check_output() {
@@ -29,6 +41,7 @@ void check_output() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  hold_standard_streams();
   harness::limit_spinning(argv);
   harness::catch_interrupts();
   std::signal(SIGPIPE, SIG_IGN);
@@ -41,6 +54,10 @@ int main(int argc, char** argv) {
     return static_cast<int>(error.code());
   } catch (const std::bad_alloc&) {
     std::fputs("diptych: out of memory; use a smaller --level\n", stderr);
+    return static_cast<int>(base::ExitCode::environment);
+  } catch (const std::exception& error) {
+    // of a library: what it met outside, for what the user wrote has been checked
+    std::fputs(fmt::format("diptych: {}\n", error.what()).c_str(), stderr);
     return static_cast<int>(base::ExitCode::environment);
   }
 }

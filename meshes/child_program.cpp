@@ -1,6 +1,7 @@
 #include "meshes/child_program.hpp"
 
 #include "common/base/error.hpp"
+#include "meshes/jail.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,10 +10,10 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
 
 extern char** environ;
 
@@ -29,9 +30,12 @@ constexpr size_t most_output = 65536;
 /// A file descriptor, closed at the end.
 class Descriptor {
  public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+  explicit Descriptor(int number = -1) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
   ~Descriptor() { close(); }
   int number() const { return number_; }
   void close() {
@@ -43,22 +47,15 @@ class Descriptor {
   int number_;
 };
 
-/// Where the child's standard streams go.
-class StreamPlan {
- public:
-  explicit StreamPlan(int output) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions_, output, STDERR_FILENO);
+/// Both ends are closed in a program that is started.
+struct Pipe {
+  explicit Pipe(const std::string& program) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) fail(program, "no pipe for its output", errno);
+    reading = Descriptor(ends[0]);
+    writing = Descriptor(ends[1]);
   }
-  StreamPlan(const StreamPlan&) = delete;
-  StreamPlan& operator=(const StreamPlan&) = delete;
-  ~StreamPlan() { posix_spawn_file_actions_destroy(&actions_); }
-  const posix_spawn_file_actions_t* get() const { return &actions_; }
-
- private:
-  posix_spawn_file_actions_t actions_{};
+  Descriptor reading, writing;
 };
 
 std::vector<char*> pointers_to(std::vector<std::string>& texts) {
@@ -82,6 +79,23 @@ std::vector<std::string> environment_with(const std::vector<std::string>& first)
     if (!is_replaced) result.push_back(text);
   }
   return result;
+}
+
+/// In the child: becomes the program, or tells through `report` why it could not. Nothing is
+/// allocated here, as another thread may have held the allocator when the process was forked.
+[[noreturn]] void become(
+    char* const* words, char* const* variables, int output, int report, const Jail* jail) noexcept {
+  const int input = ::open("/dev/null", O_RDONLY);
+  const bool has_streams = input >= 0 && dup2(input, STDIN_FILENO) >= 0 &&
+                           dup2(output, STDOUT_FILENO) >= 0 && dup2(output, STDERR_FILENO) >= 0;
+  int error = has_streams ? 0 : errno;
+  if (error == 0 && jail != nullptr) error = jail->enter();
+  if (error == 0) {
+    execve(words[0], words, variables);
+    error = errno;
+  }
+  [[maybe_unused]] const auto told = ::write(report, &error, sizeof error);
+  _exit(127);
 }
 
 std::string read_to_end(const std::string& program, int descriptor) {
@@ -130,23 +144,36 @@ std::string program_in_path(const std::string& name) {
   return {};
 }
 
+bool is_script(const std::string& program) {
+  const Descriptor file(::open(program.c_str(), O_RDONLY | O_CLOEXEC));
+  std::array<char, 2> begin{};
+  return file.number() >= 0 && ::read(file.number(), begin.data(), 2) == 2 && begin[0] == '#' &&
+         begin[1] == '!';
+}
+
 ChildResult run_child(const std::string& program,
                       const std::vector<std::string>& arguments,
-                      const std::vector<std::string>& environment) {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) fail(program, "no pipe for its output", errno);
-  Descriptor reading(ends[0]), writing(ends[1]);
-  const StreamPlan streams(writing.number());
-  std::vector<std::string> words = arguments, variables = environment_with(environment);
+                      const Surroundings& surroundings) {
+  Pipe output(program), report(program);
+  std::vector<std::string> words = arguments, variables = surroundings.environment;
+  if (surroundings.inherits) variables = environment_with(variables);
   words.insert(words.begin(), program);
-  pid_t child = 0;
-  const int error = posix_spawn(&child, program.c_str(), streams.get(), nullptr,
-                                pointers_to(words).data(), pointers_to(variables).data());
-  if (error != 0) fail(program, "cannot be started", error);
-  writing.close();
+  const std::vector<char*> word_pointers = pointers_to(words);
+  const std::vector<char*> variable_pointers = pointers_to(variables);
+  const pid_t child = fork();
+  if (child < 0) fail(program, "cannot be started", errno);
+  if (child == 0) {
+    become(word_pointers.data(), variable_pointers.data(), output.writing.number(),
+           report.writing.number(), surroundings.jail);
+  }
+  output.writing.close();
+  report.writing.close();
   ChildResult result;
-  result.output = read_to_end(program, reading.number());
+  result.output = read_to_end(program, output.reading.number());
+  int error = 0;
+  const bool failed = ::read(report.reading.number(), &error, sizeof error) == sizeof error;
   result.exit_status = wait_for(program, child);
+  if (failed) fail(program, "cannot be started", error);
   return result;
 }
 

@@ -6,6 +6,8 @@
 
 namespace diptych::meshes {
 
+class Jail;
+
 struct ChildResult {
   int exit_status = 0;  ///< 0: success; 128 + number after a signal
   std::string output;   ///< its standard output and error together, the last 64 KiB
@@ -18,13 +20,22 @@ struct ChildResult {
 /// PATH, which a shell takes for the current folder, are passed over.
 std::string program_in_path(const std::string& name);
 
+/// Whether a program is a script, which another program reads.
+bool is_script(const std::string& program);
+
+/// What a program finds around it.
+struct Surroundings {
+  std::vector<std::string> environment;  ///< "NAME=value"
+  bool inherits = true;                  ///< the rest of the environment of this process too
+  const Jail* jail = nullptr;            ///< what it may do, or null for all
+};
+
 /// Runs a program to its end, with empty standard input.
-/// @param program      full path
-/// @param arguments    without the program's name
-/// @param environment  "NAME=value", in front of those of this process
+/// @param program    full path
+/// @param arguments  without the program's name
 /// @throws base::EnvironmentError where it cannot be started
 ChildResult run_child(const std::string& program,
                       const std::vector<std::string>& arguments,
-                      const std::vector<std::string>& environment);
+                      const Surroundings& surroundings);
 
 }  // namespace diptych::meshes

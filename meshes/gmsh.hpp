@@ -22,7 +22,8 @@ Mesh read_msh(const std::string& path);
 /// Meshes a .geo file with the gmsh program (Delaunay, one thread, repeatable) into
 /// `work_directory` and reads the result. `size` is passed as the parameter h: a .geo file takes it
 /// up with `DefineConstant[ h = 0.1 ];`.
-/// @throws base::InputError where the file is missing, starts other programs, or gives a bad mesh
+/// @throws base::InputError where the file is missing, runs, writes or reads what it may not
+///         (geo_scan.hpp), has a mistake of syntax, or gives a bad mesh
 /// @throws base::EnvironmentError where gmsh is not installed (names the Debian package) or fails
 Mesh mesh_geo(const std::string& geo_path,
               int dimension,

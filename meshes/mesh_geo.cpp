@@ -1,15 +1,19 @@
 /// Meshing of .geo files by the gmsh program: started directly (no shell), one thread, Delaunay
 /// (HXT is not repeatable), without the user's own Gmsh settings, so that a mesh can be made again.
-/// A .geo file is a program: those that start other programs are refused, and a file from elsewhere
-/// deserves a look before it is meshed. Test: tests/meshes/mesh_geo_test.cpp.
+/// A .geo file is a program: those that run, write or read what a mesh has no need of are refused
+/// (geo_scan.hpp), and gmsh itself can neither start a program nor write outside its own folder
+/// (jail.hpp). Test: tests/meshes/mesh_geo_test.cpp.
 
 #include "common/base/error.hpp"
 #include "meshes/child_program.hpp"
+#include "meshes/geo_scan.hpp"
 #include "meshes/gmsh.hpp"
+#include "meshes/jail.hpp"
 #include "meshes/msh_source.hpp"
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -34,14 +38,7 @@ void check_arguments(const std::string& geo_path, int dimension, double size) {
     throw base::InputError(
         fmt::format("{}: element size {} must be positive and finite", geo_path, size));
   }
-  const std::string text = msh::file_bytes(geo_path);
-  for (const char* command : {"SystemCall", "OnelabRun"}) {
-    if (text.find(command) == std::string::npos) continue;
-    throw base::InputError(fmt::format(
-        "{}: {} starts another program, which a mesh may not: mesh it yourself and give the .msh "
-        "file",
-        geo_path, command));
-  }
+  check_geo(geo_path);
 }
 
 std::string gmsh_program() {
@@ -100,6 +97,48 @@ void write_options(const fs::path& path) {
   }
 }
 
+/// "'x.geo', line 3: syntax error" as "x.geo:3: syntax error", where gmsh says so: a mistake of the
+/// file. Else empty.
+std::string mistake_of(const std::string& errors) {
+  const size_t line = errors.find("', line ");
+  if (errors.empty() || errors[0] != '\'' || line == std::string::npos) return {};
+  const size_t number = line + 8, colon = errors.find(':', number);
+  if (colon == std::string::npos) return {};
+  return fmt::format("{}:{}: gmsh: {}", errors.substr(1, line - 1),
+                     errors.substr(number, colon - number), errors.substr(colon + 2));
+}
+
+/// The program in its jail. A script, as some installations of gmsh are, starts its interpreter
+/// with what the user's environment says, and other programs.
+ChildResult run_gmsh(const std::string& program,
+                     const std::vector<std::string>& arguments,
+                     const std::string& folder) {
+  const bool script = is_script(program);
+  const Jail jail(folder, !script);
+  Surroundings surroundings{{"GMSH_HOME=" + folder, "LC_ALL=C"}, script, &jail};
+  if (!script) {
+    for (const char* name : {"HOME=", "TMPDIR="})
+      surroundings.environment.push_back(name + folder);
+    const char* libraries = std::getenv("LD_LIBRARY_PATH");  // of a gmsh that the user built
+    if (libraries != nullptr)
+      surroundings.environment.push_back(std::string("LD_LIBRARY_PATH=") + libraries);
+  }
+  return run_child(program, arguments, surroundings);
+}
+
+[[noreturn]] void refuse(const std::string& geo_path, const ChildResult& result) {
+  const std::string errors = errors_of(result.output), mistake = mistake_of(errors);
+  if (!mistake.empty()) throw base::InputError(mistake);
+  if (result.exit_status == 128 + SIGXCPU) {
+    throw base::EnvironmentError(
+        fmt::format("{}: gmsh was ended after {} s; use a larger mesh.size, or mesh it yourself "
+                    "and give the .msh file",
+                    geo_path, Jail::most_seconds));
+  }
+  throw base::EnvironmentError(
+      fmt::format("{}: gmsh failed ({}): {}", geo_path, result.ending(), errors));
+}
+
 }  // namespace
 
 bool has_gmsh() {
@@ -123,15 +162,12 @@ Mesh mesh_geo(const std::string& geo_path,
     throw base::EnvironmentError(msh.string() + ": the old mesh cannot be removed");
   }
   write_options(options);
-  const ChildResult result = run_child(
-      program,
-      {geo.string(), options.string(), fmt::format("-{}", dimension), "-nt", "1", "-format",
-       "msh41", "-setnumber", "h", fmt::format("{}", size), "-o", msh.string()},
-      {"GMSH_HOME=" + folder.string(), "LC_ALL=C"});
-  if (result.exit_status != 0) {
-    throw base::EnvironmentError(fmt::format("{}: gmsh failed ({}): {}", geo_path, result.ending(),
-                                             errors_of(result.output)));
-  }
+  const ChildResult result =
+      run_gmsh(program,
+               {geo.string(), options.string(), fmt::format("-{}", dimension), "-nt", "1",
+                "-format", "msh41", "-setnumber", "h", fmt::format("{}", size), "-o", msh.string()},
+               folder.string());
+  if (result.exit_status != 0) refuse(geo_path, result);
   if (!fs::exists(msh, ignored)) {
     throw base::EnvironmentError(
         fmt::format("{}: gmsh wrote no mesh: {}", geo_path, errors_of(result.output)));

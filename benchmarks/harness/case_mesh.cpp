@@ -6,11 +6,13 @@
 #include "meshes/gmsh.hpp"
 #include "meshes/renumber.hpp"
 
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>
 #include <numeric>
-#include <unistd.h>
 
 namespace diptych::harness {
 
@@ -24,7 +26,7 @@ meshes::Mesh box_of(const run::MeshCase& box, int level) {
       {"triangle", meshes::CellType::triangle}};
   std::array<int, 3> cells = box.cells;
   for (int& n : cells) {
-    if (level > 20 || (static_cast<std::int64_t>(n) << level) > 1'000'000) {
+    if ((static_cast<std::int64_t>(n) << level) > 1'000'000) {
       throw base::InputError(fmt::format(
           "level {} of {} cells along a side is out of reach; use a smaller --level", level, n));
     }
@@ -42,6 +44,30 @@ struct Removal {
   }
 };
 
+/// A new folder of this process alone: another one may be meshing the same file, and a name that
+/// can be guessed may be somebody else's already.
+std::filesystem::path new_folder(const std::string& work_directory) {
+  std::error_code error;
+  const std::filesystem::path above = work_directory.empty()
+                                          ? std::filesystem::temp_directory_path(error)
+                                          : std::filesystem::path(work_directory);
+  if (error) {
+    const char* named = std::getenv("TMPDIR");
+    throw base::EnvironmentError(
+        fmt::format("the folder for temporary files{} cannot be used: {}; set TMPDIR to one that "
+                    "you may write to",
+                    named != nullptr ? fmt::format(" (TMPDIR = {})", named) : "", error.message()));
+  }
+  std::string name = (above / "diptych-mesh-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) {
+    throw base::EnvironmentError(
+        fmt::format("{}: no folder for the mesh can be made there: {}; set TMPDIR to one that you "
+                    "may write to",
+                    above.string(), std::strerror(errno)));
+  }
+  return name;
+}
+
 meshes::Mesh file_mesh(const run::Case& setup, int level, const std::string& work_directory) {
   const std::filesystem::path path = setup.mesh.file;
   if (!std::filesystem::exists(path)) {
@@ -49,9 +75,7 @@ meshes::Mesh file_mesh(const run::Case& setup, int level, const std::string& wor
         fmt::format("{}: mesh.file '{}' does not exist", setup.file, path.string()));
   }
   if (path.extension() == ".geo") {
-    // a folder of this process: another one may be meshing the same file at another level
-    const std::filesystem::path folder =
-        std::filesystem::path(work_directory) / fmt::format("diptych-mesh-{}", getpid());
+    const std::filesystem::path folder = new_folder(work_directory);
     const Removal removal{folder};
     return meshes::mesh_geo(path.string(), run::dimension_of(setup.mesh),
                             std::ldexp(setup.mesh.size, -level), folder.string());
@@ -66,8 +90,22 @@ meshes::Mesh file_mesh(const run::Case& setup, int level, const std::string& wor
 
 }  // namespace
 
+void check_level(int level) {
+  if (level >= 0 && level <= greatest_level) return;
+  throw base::InputError(fmt::format(
+      "--level {}: levels go from 0 to {}; each divides the spacing by 2", level, greatest_level));
+}
+
+void check_levels(int first, int n) {
+  check_level(first);
+  if (n <= greatest_level + 1 - first) return;
+  throw base::InputError(
+      fmt::format("--levels {} from level {} on: levels go from 0 to {}; use at most --levels {}",
+                  n, first, greatest_level, greatest_level + 1 - first));
+}
+
 CaseMesh mesh_of(const run::Case& setup, int level, const std::string& work_directory) {
-  if (level < 0) throw base::InputError(fmt::format("--level {} must not be negative", level));
+  check_level(level);
   CaseMesh result;
   if (setup.mesh.file.empty()) {
     result.mesh = box_of(setup.mesh, level);

@@ -183,6 +183,7 @@ void check(const MaterialPath& path) {
   };
   need(path.end > 0, "--end", "and must be above 0");
   need(path.n_steps >= 1, "--steps", "and must be 1 or more");
+  need(path.n_steps <= 10'000'000, "--steps", "and must be 10000000 or less");
   if (path.course == Course::ramp) {
     need(path.rate != 0, "--rate", "for a ramp");
   } else {

@@ -46,7 +46,7 @@ std::string path_table(const run::Case& setup,
   for (size_t k = 0; k <= n_rows; ++k) {
     const PathPoint& p = points[last * k / n_rows];
     text += fmt::format(
-        "{:>11.4g}{:>11.5f}{:>11.5f}{:>13.5g}{:>13.5g}{:>13.5g}{:>13.5g}{:>13.5g}\n", p.time,
+        "{:>11.4g}{:>11.5g}{:>11.5g}{:>13.5g}{:>13.5g}{:>13.5g}{:>13.5g}{:>13.5g}\n", p.time,
         p.state.F(0, 0), p.state.F(0, 1), p.P(0, 0), p.P(0, 1), p.P(1, 1), p.energy, p.dissipation);
   }
   const PathPoint& end = points.back();

@@ -132,7 +132,7 @@ std::vector<double> column(const std::string& method,
                            const std::string& name,
                            StatusLine& status) {
   const run::Case bare = run::case_from_text(text, "costs");
-  const CaseMesh mesh = mesh_of(bare, 0, std::filesystem::temp_directory_path().string());
+  const CaseMesh mesh = mesh_of(bare, 0);
   std::map<std::string, scheme::PairGraph> graphs;  // by precision
   const auto all = options();
   std::vector<std::unique_ptr<run::Solver>> solvers;

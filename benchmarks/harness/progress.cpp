@@ -30,12 +30,12 @@ struct Part {
 }  // namespace
 
 std::string duration_text(double seconds) {
-  constexpr double year = 365 * 86400.0;
-  if (!(seconds < year)) return "more than a year";
+  if (!(seconds >= 0)) return "unknown time";  // NaN too
+  if (seconds >= 1e9) return "more than 30 years";
   if (seconds < 100) return fmt::format("{:.0f} s", seconds);
   const auto whole = static_cast<std::int64_t>(seconds + 0.5);
   if (whole < 6000) return fmt::format("{} min {} s", whole / 60, whole % 60);
-  if (whole < 100 * 3600) return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+  if (whole < 360000) return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
   return fmt::format("{} days {} h", whole / 86400, whole % 86400 / 3600);
 }
 

@@ -86,7 +86,7 @@ std::vector<double> flat(const std::vector<double>& field, const std::vector<std
 NaturalScales measure_canary(const run::Case& setup,
                              const std::string& method,
                              MethodFigures& figures) {
-  const CaseMesh mesh = mesh_of(setup, 0, std::filesystem::temp_directory_path().string());
+  const CaseMesh mesh = mesh_of(setup, 0);
   const scheme::PairGraph graph = method_menu().at(method)(mesh.mesh, setup);
   const auto solver = run::make_solver(setup, graph);
   for (int i = 0; i < 5; ++i)

@@ -5,6 +5,7 @@
 #include "benchmarks/harness/exact_record.hpp"
 #include "benchmarks/harness/frame_fields.hpp"
 #include "benchmarks/harness/memory.hpp"
+#include "benchmarks/harness/memory_estimate.hpp"
 #include "benchmarks/harness/progress.hpp"
 #include "benchmarks/harness/provenance.hpp"
 #include "benchmarks/harness/quantities.hpp"
@@ -306,7 +307,9 @@ RunResult run_case(const run::Case& setup, const RunOptions& options) {
   parallel::set_threads(options.threads);
   RunResult result;
   io::RunSummary& s = result.summary;
-  CaseMesh mesh = mesh_of(setup, options.level, std::filesystem::temp_directory_path().string());
+  require_memory(setup, {options.method}, {options.level});
+  CaseMesh mesh = mesh_of(setup, options.level);
+  require_memory(setup, options.method, options.level, mesh.mesh);
   result.graph = method_menu().at(options.method)(mesh.mesh, setup);
   const auto solver = run::make_solver(setup, result.graph);
   if (!options.directory.empty()) claim_directory(options.directory);
@@ -362,11 +365,33 @@ RunResult run_case(const run::Case& setup, const RunOptions& options) {
   return result;
 }
 
+namespace {
+
+constexpr double timing_seconds = 0.5;
+
+/// Mean time of a step, over half a second of them  [s]
+double step_seconds(run::Solver& solver, double end) {
+  const auto start = Clock::now();
+  int n = 0;
+  do {
+    solver.step(end);
+    ++n;
+  } while (seconds_since(start) < timing_seconds && solver.time() < end && !interrupt_requested());
+  return seconds_since(start) / n;
+}
+
+}  // namespace
+
 CaseCheck check_case(const run::Case& setup, const std::string& method, int level) {
   CaseCheck check;
+  const auto start = Clock::now();
+  require_memory(setup, {method}, {level});
   const std::int64_t before = settled_memory();
   reset_peak_rss();
-  CaseMesh mesh = mesh_of(setup, level, std::filesystem::temp_directory_path().string());
+  CaseMesh mesh = mesh_of(setup, level);
+  require_memory(setup, method, level, mesh.mesh);
+  check.estimated_bytes = setup.mesh.file.empty() ? estimate_memory(setup, method, level).bytes
+                                                  : estimate_memory(setup, method, mesh.mesh).bytes;
   scheme::PairGraph graph = method_menu().at(method)(mesh.mesh, setup);
   check.quality = scheme::quality(graph);
   check.nodes = graph.n_nodes();
@@ -378,9 +403,15 @@ CaseCheck check_case(const run::Case& setup, const std::string& method, int leve
   release_pairs(graph);
   mesh.mesh = {};
   check.running_bytes = settled_memory() - before;
+  check.setup_seconds = seconds_since(start);
   const run::StepReport report = solver->step(setup.time.end);
   check.dt = report.dt;
-  check.steps = static_cast<std::int64_t>(std::ceil(setup.time.end / report.dt - 1e-9));
+  check.steps =
+      static_cast<std::int64_t>(std::min(9e18, std::ceil(setup.time.end / report.dt - 1e-9)));
+  if (setup.time.max_steps > 0) check.steps = std::min(check.steps, setup.time.max_steps);
+  if (solver->time() < setup.time.end) {
+    check.seconds = static_cast<double>(check.steps) * step_seconds(*solver, setup.time.end);
+  }
   return check;
 }
 

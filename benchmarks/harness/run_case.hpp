@@ -50,6 +50,9 @@ struct CaseCheck {
   std::int64_t bytes = 0;           ///< arrays of the solver
   std::int64_t running_bytes = 0;   ///< resident set once the solver stands
   std::int64_t building_bytes = 0;  ///< largest resident set until then
+  double estimated_bytes = 0;       ///< of that, from the case alone
+  double setup_seconds = 0;         ///< until the solver stood
+  double seconds = 0;               ///< of all steps, as the first ones went; without output
   double dt = 0;                    ///< s, of the first step
   scheme::GraphQuality quality;
 };

@@ -6,6 +6,15 @@
 
 namespace diptych::harness {
 
+namespace {
+
+/// Six digits; the least of no values is 1e300.
+std::string least_text(double J) {
+  return J < 1e299 ? fmt::format("{:.6g}", J) : "not measured";
+}
+
+}  // namespace
+
 std::string inverted_cells_warning(const io::RunSummary& s) {
   if (!s.inverted_from) return "";
   return fmt::format(
@@ -16,10 +25,10 @@ std::string inverted_cells_warning(const io::RunSummary& s) {
 
 std::string run_table(const io::RunSummary& s) {
   std::string text =
-      fmt::format("{} level {}: {} nodes, {} pairs ({:.1f} a node), {} unknowns a node\n", s.method,
+      fmt::format("{} level {}: {} nodes, {} pairs ({:.3g} a node), {} unknowns a node\n", s.method,
                   s.level, s.nodes, s.pairs, s.mean_neighbours, s.unknowns_per_node);
   text += fmt::format(
-      "  {} steps of {}, dt {:.3g} to {:.3g} s; {:.2f} s in the loop, {:.0f} ns per node and stage "
+      "  {} steps of {}, dt {:.3g} to {:.3g} s; {:.3g} s in the loop, {:.3g} ns per node and stage "
       "({} {})\n",
       s.steps, s.integrator, s.dt_min, s.dt_max, s.loop_seconds, s.nanoseconds_per_node_stage,
       s.threads, s.threads == 1 ? "thread" : "threads");
@@ -36,8 +45,8 @@ std::string run_table(const io::RunSummary& s) {
       s.energy.numerical_dissipation, s.energy.relative_residual);
   for (const io::QuantitySummary& quantity : s.quantities)
     text += "  " + quantity_line(quantity) + "\n";
-  text += fmt::format("  status {}, least J {:.6f} (cells {:.6f}), state {}\n", s.status,
-                      s.min_jacobian, s.least_cell_J, s.state_hash);
+  text += fmt::format("  status {}, least J {} (cells {}), state {}\n", s.status,
+                      least_text(s.min_jacobian), least_text(s.least_cell_J), s.state_hash);
   return text + inverted_cells_warning(s);
 }
 

@@ -3,6 +3,7 @@
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_mesh.hpp"
 #include "benchmarks/harness/memory.hpp"
+#include "benchmarks/harness/memory_estimate.hpp"
 #include "benchmarks/harness/run_case.hpp"
 #include "benchmarks/harness/status_line.hpp"
 #include "common/base/error.hpp"
@@ -66,6 +67,7 @@ constexpr int least_steps = 12;
 SizeRow measured(const Graph& kind, int side, const std::vector<std::string>& overrides) {
   const std::string text = fmt::format(scene_text, kind.element, side - 1, side - 1, side - 1);
   const run::Case setup = run::case_from_text(text, "sizes", overrides);
+  require_memory(setup, {kind.method}, {0});
   SizeRow row;
   row.graph = kind.name;
   const std::int64_t before = settled_memory();
@@ -76,7 +78,7 @@ SizeRow measured(const Graph& kind, int side, const std::vector<std::string>& ov
     start = now;
     return taken;
   };
-  CaseMesh mesh = mesh_of(setup, 0, std::filesystem::temp_directory_path().string());
+  CaseMesh mesh = mesh_of(setup, 0);
   row.mesh_seconds = lap();
   scheme::PairGraph graph = method_menu().at(kind.method)(mesh.mesh, setup);
   row.graph_seconds = lap();

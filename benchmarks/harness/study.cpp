@@ -1,5 +1,6 @@
 #include "benchmarks/harness/study.hpp"
 
+#include "benchmarks/harness/memory_estimate.hpp"
 #include "benchmarks/harness/resumption.hpp"
 #include "common/base/text.hpp"
 #include "common/run/case_reader.hpp"
@@ -45,6 +46,7 @@ std::string run_directory(const StudyOptions& options, int level, const std::str
 }  // namespace
 
 Study run_study(const run::Case& setup, const StudyOptions& options) {
+  require_memory(setup, options.methods, options.levels);
   Study study;
   Schedule schedule = schedule_of(setup, options);
   for (const int level : options.levels) {

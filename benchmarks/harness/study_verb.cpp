@@ -2,6 +2,7 @@
 
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_mesh.hpp"
+#include "benchmarks/harness/memory_estimate.hpp"
 #include "benchmarks/harness/run_case.hpp"
 #include "benchmarks/harness/status_line.hpp"
 #include "benchmarks/harness/study_runs.hpp"
@@ -17,6 +18,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace diptych::harness {
 
@@ -40,8 +42,7 @@ void add_limits(const StudyRequest& request,
                 const std::string& method,
                 StatusLine& status,
                 std::vector<StabilityLimit>& limits) {
-  const CaseMesh mesh =
-      mesh_of(setup, request.level, std::filesystem::temp_directory_path().string());
+  const CaseMesh mesh = mesh_of(setup, request.level);
   const scheme::PairGraph graph = method_menu().at(method)(mesh.mesh, setup);
   for (const std::string& integrator : request.integrators) {
     const std::string name =
@@ -82,6 +83,8 @@ void study_stability(const StudyRequest& asked) {
   std::vector<run::Case> cases;  // all are read before the first runs
   for (const Variant& variant : variants)
     cases.push_back(case_of_variant(request.case_file, request.overrides, variant));
+  for (const run::Case& setup : cases)
+    require_memory(setup, request.methods, {request.level});
   io::make_directory(request.directory);
   parallel::set_threads(request.threads);
   std::vector<StabilityLimit> limits;
@@ -105,6 +108,7 @@ StudyRequest checked(StudyRequest request, const run::Case& setup) {
   if (request.n_levels < 1) throw base::InputError("--levels must be 1 or more");
   if (request.repeats == StudyRequest::by_default) request.repeats = has_exact(setup) ? 3 : 1;
   if (request.repeats < 1) throw base::InputError("--repeats must be 1 or more");
+  check_levels(request.level, request.n_levels);
   if (!has_exact(setup) && !request.field.empty()) {
     throw base::InputError(setup.name +
                            " has no exact solution to measure errors against: --field has no "
@@ -148,6 +152,10 @@ void study_variants(const StudyRequest& asked) {
   const run::Case& setup = cases.front();
   const StudyRequest request = checked(asked, setup);
   check_quantities(setup, request.quantities);
+  std::vector<int> levels(static_cast<size_t>(request.n_levels));
+  std::iota(levels.begin(), levels.end(), request.level);
+  for (const run::Case& one : cases)
+    require_memory(one, request.methods, levels);
   const StudyRuns runs = runs_of_study(request, variants, cases);
   if (!runs.curves.empty()) {  // else interrupted in the first run
     if (has_exact(setup)) show_errors(request, setup, runs);

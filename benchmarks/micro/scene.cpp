@@ -57,7 +57,7 @@ const scheme::PairGraph& graph_of(const std::string& graph) {
   const auto found = graphs.find(graph);
   if (found != graphs.end()) return found->second;
   const run::Case setup = case_of({graph});
-  const auto mesh = harness::mesh_of(setup, 0, std::filesystem::temp_directory_path().string());
+  const auto mesh = harness::mesh_of(setup, 0);
   const std::string method = graph.starts_with("sph") ? "sph" : "fvm";
   return graphs.emplace(graph, harness::method_menu().at(method)(mesh.mesh, setup)).first->second;
 }

@@ -2,6 +2,7 @@
 
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_list.hpp"
+#include "benchmarks/harness/case_mesh.hpp"
 #include "common/run/case_reader.hpp"
 
 #include <cstdio>
@@ -34,6 +35,7 @@ std::string CaseArguments::file() const {
 }
 
 run::Case CaseArguments::read() const {
+  harness::check_level(level);
   return run::read_case(file(), overrides);
 }
 

@@ -1,8 +1,11 @@
 /// diptych check: reads a case, builds its graphs and makes one step.
 
+#include "benchmarks/harness/memory_estimate.hpp"
+#include "benchmarks/harness/progress.hpp"
 #include "benchmarks/harness/run_case.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
+#include "common/parallel/for_chunks.hpp"
 
 #include <fmt/format.h>
 #include <memory>
@@ -13,6 +16,7 @@ namespace {
 
 int check(const CaseArguments& arguments) {
   const run::Case setup = arguments.read();
+  parallel::set_threads(arguments.threads);
   for (const std::string& method : arguments.methods()) {
     const auto check = harness::check_case(setup, method, arguments.level);
     const auto kilobytes = [&](std::int64_t bytes) {
@@ -22,11 +26,18 @@ int check(const CaseArguments& arguments) {
         "{:4} {} nodes, {} cells, {} pairs ({:.1f} a node, least {}), linear exactness {:.1e}, "
         "closure {:.1e}\n     first dt {:.4g} s, about {} steps\n"
         "     memory a node: {:.2f} kB in arrays of the solver; process {:.2f} kB while running, "
-        "{:.2f} kB while building\n",
+        "{:.2f} kB while building\n"
+        "     in all: {} of memory at most (estimated beforehand: {}); {} for the steps of the "
+        "whole "
+        "run with {} {}, as the first ones went, after {} of set-up\n",
         method, check.nodes, check.cells, check.pairs, check.quality.mean_neighbours,
         check.quality.least_neighbours, check.quality.linear_exactness, check.quality.closure,
         check.dt, check.steps, kilobytes(check.bytes), kilobytes(check.running_bytes),
-        kilobytes(check.building_bytes)));
+        kilobytes(check.building_bytes),
+        harness::bytes_text(static_cast<double>(check.building_bytes)),
+        harness::bytes_text(check.estimated_bytes), harness::duration_text(check.seconds),
+        parallel::n_threads(), parallel::n_threads() == 1 ? "thread" : "threads",
+        harness::duration_text(check.setup_seconds)));
   }
   print(setup.name + ": the case is sound\n");
   return 0;

@@ -1,5 +1,6 @@
 /// diptych converge: levels of refinement, errors with observed orders, extrapolated quantities.
 
+#include "benchmarks/harness/case_mesh.hpp"
 #include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/run_table.hpp"
 #include "benchmarks/harness/tables.hpp"
@@ -72,6 +73,7 @@ void show_convergence(const run::Case& setup,
 int converge(const ConvergeArguments& arguments) {
   if (arguments.levels < 2) throw base::InputError("--levels must be 2 or more");
   const run::Case setup = arguments.read();
+  harness::check_levels(arguments.level, arguments.levels);
   auto options = arguments.study_options(setup);
   options.fields = false;
   options.shapes = true;

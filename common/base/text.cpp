@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
+#include <cstdlib>
 
 namespace diptych::base {
 
@@ -34,6 +36,10 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
   std::string nearest;
   int least = static_cast<int>(word.size()) / 2 + 1;
   for (const auto& name : names) {
+    // The distance is at least the difference of the lengths: a long word is not compared at all.
+    const auto apart =
+        static_cast<std::ptrdiff_t>(word.size()) - static_cast<std::ptrdiff_t>(name.size());
+    if (std::abs(apart) >= least) continue;
     const int distance = edit_distance(word, name);
     if (distance < least) {
       least = distance;

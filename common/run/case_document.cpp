@@ -4,6 +4,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
+#include "common/run/toml_depth.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,14 +22,21 @@ SourcePlace place_of(const toml::source_region& region, const std::string& file)
   return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
+/// Where each line of a text begins: looked for once, not for every value.
+std::vector<size_t> line_begins(const std::string& source) {
+  std::vector<size_t> begins{source.rfind("\xEF\xBB\xBF", 0) == 0 ? size_t{3} : size_t{0}};
+  for (size_t at = source.find('\n'); at != std::string::npos; at = source.find('\n', at + 1))
+    begins.push_back(at + 1);
+  return begins;
+}
+
 /// Byte of a place (columns count code points), or npos where the text ends before.
-size_t byte_of(const std::string& source, const SourcePlace& where) {
-  size_t at = source.rfind("\xEF\xBB\xBF", 0) == 0 ? 3 : 0;
-  for (int line = 1; line < where.line; ++line) {
-    at = source.find('\n', at);
-    if (at == std::string::npos) return at;
-    ++at;
-  }
+size_t byte_of(const std::string& source,
+               const std::vector<size_t>& lines,
+               const SourcePlace& where) {
+  const auto line = static_cast<size_t>(where.line);
+  if (line < 1 || line > lines.size()) return std::string::npos;
+  size_t at = lines[line - 1];
   for (int column = 1; column < where.column && at < source.size(); ++column) {
     ++at;
     while (at < source.size() && (static_cast<unsigned char>(source[at]) & 0xC0) == 0x80)
@@ -38,9 +46,12 @@ size_t byte_of(const std::string& source, const SourcePlace& where) {
 }
 
 /// Place of the first character of a string's text; column 0 where escapes hide it.
-SourcePlace place_of_text(const std::string& source, SourcePlace where, const std::string& text) {
+SourcePlace place_of_text(const std::string& source,
+                          const std::vector<size_t>& lines,
+                          SourcePlace where,
+                          const std::string& text) {
   const SourcePlace unknown{where.file, where.line, 0};
-  size_t at = byte_of(source, where);
+  size_t at = byte_of(source, lines, where);
   if (at >= source.size()) return unknown;
   const std::string quotes(3, source[at]);
   if (source.compare(at, 3, quotes) == 0) {
@@ -63,7 +74,7 @@ SourcePlace place_of_text(const std::string& source, SourcePlace where, const st
 class Conversion {
  public:
   Conversion(const std::string& source, std::string file)
-      : source_(source), file_(std::move(file)) {}
+      : source_(source), lines_(line_begins(source)), file_(std::move(file)) {}
 
   Value value(const toml::node& node) const {
     Value v;
@@ -78,7 +89,7 @@ class Conversion {
     } else if (const auto* text = node.as_string()) {
       v.kind = Value::Kind::text;
       v.text = text->get();
-      v.text_where = place_of_text(source_, v.where, v.text);
+      v.text_where = place_of_text(source_, lines_, v.where, v.text);
     } else if (const auto* integer = node.as_integer()) {
       v.kind = Value::Kind::integer;
       v.integer = integer->get();
@@ -110,6 +121,7 @@ class Conversion {
   }
 
   const std::string& source_;
+  std::vector<size_t> lines_;
   std::string file_;
 };
 
@@ -129,6 +141,7 @@ Value assigned_value(const std::string& text, const SourcePlace& where) {
   const bool is_one_line =
       std::all_of(text.begin(), text.end(), [](unsigned char c) { return c >= 0x20 && c != 0x7F; });
   if (!is_one_line) throw base::InputError(prefix(where) + "the value holds control characters");
+  check_depth(line, where.file);
   Value value;
   try {
     const toml::table table = toml::parse(std::string_view(line));
@@ -226,6 +239,7 @@ Value parse_document(const std::string& text, const std::string& file) {
     throw base::InputError(
         fmt::format("{}: {} bytes; a case file has at most {}", file, text.size(), max_bytes));
   }
+  check_depth(text, file);
   try {
     const toml::table table = toml::parse(std::string_view(text));
     Value document = Conversion(text, file).value(table);

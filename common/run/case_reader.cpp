@@ -2,6 +2,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
+#include "common/run/bounded_file.hpp"
 #include "common/run/case_document.hpp"
 #include "common/run/case_functions.hpp"
 #include "common/run/case_keys.hpp"
@@ -11,14 +12,10 @@
 #include "common/run/case_values.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <memory>
 #include <set>
-#include <sstream>
 
 namespace diptych::run {
 
@@ -81,8 +78,14 @@ void read_parameters(Sections& sections) {
   if (table == nullptr) return;
   for (const Member& member : table->members) {
     check_new_name(member.name, {}, member.where);
-    // The vocabulary holds the parameters above only, so none can use itself or a later one.
-    const double value = sections.section("parameters").number(member.name);
+    // The vocabulary holds the parameters above only, so none can use itself or a later one. A
+    // table of one: looking each up among all would take their number squared.
+    Value one;
+    one.where = table->where;
+    one.members = {member};
+    const SectionValues section(sections.document(), &one, "parameters", sections.vocabulary,
+                                sections.dimension);
+    const double value = section.number(member.name);
     sections.vocabulary.parameters[member.name] = value;
   }
 }
@@ -389,17 +392,8 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
   if (fs::is_directory(file, ignored)) file /= "case.toml";
   if (!fs::exists(file, ignored))
     throw base::InputError("no case file '" + shown(path) + "'; give a .toml file or its folder");
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (stream) text << stream.rdbuf();
-  if (!stream || stream.bad() || text.fail()) {
-    // An empty file sets failbit of `text`; it is then an empty case, not a broken disk.
-    if (!fs::is_regular_file(file, ignored) || fs::file_size(file, ignored) != 0) {
-      throw base::EnvironmentError(
-          fmt::format("cannot read the case file {}: {}", file.string(), std::strerror(errno)));
-    }
-  }
-  return case_from_text(text.str(), file.string(), overrides);
+  return case_from_text(bounded_file(file.string(), size_t{1} << 20, "a case file"), file.string(),
+                        overrides);
 }
 
 }  // namespace diptych::run

@@ -2,12 +2,13 @@
 
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
+#include "common/run/bounded_file.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
+#include <sstream>
 #include <string_view>
 
 namespace diptych::run {
@@ -15,6 +16,8 @@ namespace diptych::run {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr size_t most_bytes = size_t{16} << 20;  // 400 000 points
 
 /// The numbers of one line. @return false where it does not hold two finite ones
 bool read_pair(std::string_view line, std::array<double, 2>& pair) {
@@ -34,8 +37,11 @@ bool read_pair(std::string_view line, std::array<double, 2>& pair) {
 
 std::vector<std::array<double, 2>> points_of_file(const fs::path& path,
                                                   const SectionValues& section) {
-  std::ifstream file(path);
-  if (!file) section.fail("file", fmt::format("= '{}' cannot be read", path.string()));
+  std::error_code ignored;  // a file that cannot be seen is not there
+  if (!fs::exists(path, ignored))
+    section.fail("file",
+                 fmt::format("= '{}' cannot be read: there is no such file", path.string()));
+  std::istringstream file(bounded_file(path.string(), most_bytes, "a file of values"));
   std::vector<std::array<double, 2>> points;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
@@ -45,7 +51,7 @@ std::vector<std::array<double, 2>> points_of_file(const fs::path& path,
       throw base::InputError(
           fmt::format("{}:{}: '{}' is not a time (s) and a value; write two "
                       "numbers with a comma between them",
-                      path.string(), number, line));
+                      path.string(), number, shown(line)));
     }
     points.push_back(pair);
   }

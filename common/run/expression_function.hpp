@@ -15,6 +15,7 @@ class ExpressionFunction : public TimeFunction {
       : name_(std::move(name)), expression_(std::move(expression)) {}
   std::vector<std::string> names() const override { return {name_}; }
   std::vector<double> values(double t) const override { return values_at(Vec3::Zero(), t); }
+  const std::string& name() const { return name_; }
   const Expression& expression() const { return expression_; }
   bool depends_on_position() const override { return expression_.depends_on_position(); }
   std::vector<double> values_at(const Vec3& X, double t) const override {

@@ -7,6 +7,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
+#include "common/run/expression_function.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,7 @@ namespace diptych::run {
 namespace {
 
 constexpr size_t max_length = 4096;  // bounds muParser's stack for nested parentheses
+constexpr int max_depth = 1000;      // of functions that name one another: evaluation nests
 constexpr double pi = 3.14159265358979323846;
 
 bool is_letter(char c) {
@@ -205,6 +207,26 @@ bool is_name(const std::string& text) {
          std::all_of(text.begin(), text.end(), [](char c) { return is_letter(c) || is_digit(c); });
 }
 
+namespace {
+
+/// The parameters that the text uses; all where it uses an unknown one, for the nearest name.
+Vocabulary vocabulary_of(const std::string& text,
+                         const std::map<std::string, double>& parameters,
+                         const SourcePlace& where) {
+  Vocabulary used;
+  for (const Name& name : names_in(text, where)) {
+    const auto found = parameters.find(name.text);
+    if (found != parameters.end()) {
+      used.parameters.insert(*found);
+    } else if (!name.is_call && name.text != "pi") {
+      return {parameters, {}};
+    }
+  }
+  return used;
+}
+
+}  // namespace
+
 double constant_value(const std::string& text,
                       const std::map<std::string, double>& parameters,
                       const SourcePlace& where) {
@@ -217,7 +239,7 @@ double constant_value(const std::string& text,
                          name.text));
     }
   }
-  return Expression(text, Vocabulary{parameters, {}}, where)(Vec3::Zero(), 0);
+  return Expression(text, vocabulary_of(text, parameters, where), where)(Vec3::Zero(), 0);
 }
 
 struct Expression::Compiled {
@@ -233,11 +255,17 @@ struct Expression::Compiled {
   double value = 0;  // of the constant, or the last one where position does not matter
   double t = std::numeric_limits<double>::quiet_NaN();  // of the last evaluation: none yet
   double X[3] = {0, 0, 0};
+  bool is_known = false;                 // whether value is that at X and t
+  int depth = 0;                         // of functions that stand on one another below this text
   std::vector<BoundFunction> functions;  // those the text uses
   mu::Parser parser;
 
   void bind(const std::vector<Name>& names, const Vocabulary& vocabulary);
   bool bind_time_function(const std::string& name, const Vocabulary& vocabulary);
+  int depth_of(const ExpressionFunction& function) const {
+    const auto& below = function.expression().compiled_;
+    return below ? below->depth : 0;
+  }
   void compile();
   double evaluate(const Vec3& place, double time);
 };
@@ -245,9 +273,12 @@ struct Expression::Compiled {
 bool Expression::Compiled::bind_time_function(const std::string& name,
                                               const Vocabulary& vocabulary) {
   for (const auto& function : vocabulary.time_functions) {
+    const auto* const named = dynamic_cast<const ExpressionFunction*>(function.get());
+    if (named != nullptr && named->name() != name) continue;  // of most cases all of them
     const std::vector<std::string> names = function->names();
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) continue;
+    if (named != nullptr) depth = std::max(depth, 1 + depth_of(*named));
     auto bound = std::find_if(functions.begin(), functions.end(),
                               [&](const BoundFunction& b) { return b.function == function; });
     if (bound == functions.end()) {
@@ -315,6 +346,9 @@ double Expression::Compiled::evaluate(const Vec3& place, double time) {
   if (!on_time && !on_position) return value;
   const bool later = on_time && time != t;
   if (!later && !on_position) return value;
+  // Functions that name one another ask for the same value many times over.
+  const bool is_same_place = place[0] == X[0] && place[1] == X[1] && place[2] == X[2];
+  if (is_known && !later && is_same_place) return value;
   for (BoundFunction& bound : functions) {
     if (!later && !bound.function->depends_on_position()) continue;
     const std::vector<double> values = bound.function->values_at(place, time);
@@ -323,7 +357,8 @@ double Expression::Compiled::evaluate(const Vec3& place, double time) {
   std::copy(place.data(), place.data() + 3, X);
   t = time;
   value = parser.Eval();
-  if (!std::isfinite(value)) {
+  is_known = std::isfinite(value);
+  if (!is_known) {
     t = std::numeric_limits<double>::quiet_NaN();  // nothing to remember
     refuse(where, text, 0,
            fmt::format("its value is {} at {}; it must be finite at every node and time", value,
@@ -347,6 +382,12 @@ Expression::Expression(const std::string& text,
   compiled_->where = where;
   check_characters(text, where);
   compiled_->bind(names_in(text, where), vocabulary);
+  if (compiled_->depth > max_depth) {
+    refuse(where, text, 0,
+           fmt::format("it stands on more than {} functions, one below the other; write some of "
+                       "them out",
+                       max_depth));
+  }
   compiled_->compile();
 }
 

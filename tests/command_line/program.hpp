@@ -37,12 +37,10 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// `PROGRAM ARGUMENTS`, from inside the folder. ARGUMENTS go through a shell.
-inline Outcome run_program(const Folder& folder,
-                           const std::string& program,
-                           const std::string& arguments) {
+/// A command of the shell, from inside the folder, with empty standard input.
+inline Outcome shell(const Folder& folder, const std::string& line) {
   const std::string command =
-      "cd " + folder.path().string() + " && " + program + " " + arguments + " 2>&1 </dev/null";
+      "cd " + folder.path().string() + " && { " + line + "\n} 2>&1 </dev/null";
   Outcome outcome;
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return outcome;
@@ -52,6 +50,13 @@ inline Outcome run_program(const Folder& folder,
   const int status = pclose(pipe);
   outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return outcome;
+}
+
+/// `PROGRAM ARGUMENTS`, from inside the folder. ARGUMENTS go through a shell.
+inline Outcome run_program(const Folder& folder,
+                           const std::string& program,
+                           const std::string& arguments) {
+  return shell(folder, program + " " + arguments);
 }
 
 /// `diptych ARGUMENTS`, the same.

@@ -59,15 +59,5 @@ TEST(ProgressLine, BeforeEveryKindIsKnownSaysWhichRunItIs) {
   EXPECT_THAT(progress_line(s, 0), Not(HasSubstr("all runs")));
 }
 
-TEST(DurationText, HasTwoUnitsAndNoNonsense) {
-  EXPECT_EQ(duration_text(12.4), "12 s");
-  EXPECT_EQ(duration_text(200), "3 min 20 s");
-  EXPECT_EQ(duration_text(7500), "2 h 5 min");
-  EXPECT_EQ(duration_text(700000), "8 days 2 h");
-  for (const double seconds : {1e9, 1e300, std::numeric_limits<double>::infinity(),
-                               std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_EQ(duration_text(seconds), "more than a year");
-}
-
 }  // namespace
 }  // namespace diptych::harness

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
+#include <set>
 
 namespace diptych::meshes {
 namespace {
@@ -27,10 +28,12 @@ class MeshGeo : public testing::Test {
     ASSERT_NE(mkdtemp(pattern.data()), nullptr);
     folder_ = pattern;
     path_ = std::getenv("PATH") == nullptr ? "" : std::getenv("PATH");
+    home_ = std::getenv("HOME") == nullptr ? "" : std::getenv("HOME");
   }
   void TearDown() override {
     if (folder_.empty()) return;
     setenv("PATH", path_.c_str(), 1);
+    setenv("HOME", home_.c_str(), 1);
     fs::remove_all(folder_);
   }
   void play_gmsh(const std::string& script) {
@@ -54,7 +57,7 @@ class MeshGeo : public testing::Test {
   }
 
   fs::path folder_;
-  std::string path_;
+  std::string path_, home_;
   const std::string block_ = block_path("block.geo");
 };
 
@@ -80,9 +83,11 @@ TEST_F(MeshGeo, FailureShowsWhatGmshSaidWithoutItsSummary) {
       "echo \"Error   : 'x.geo', line 3: syntax error (;)\" >&2\n"
       "echo 'Error   : ------------------------------' >&2\n"
       "echo 'Error   : Mesh generation error summary' >&2\nexit 1\n");
-  const std::string message = environment_error(block_);
-  EXPECT_THAT(message, HasSubstr("gmsh failed (exit status 1): 'x.geo', line 3: syntax error (;)"));
-  EXPECT_THAT(message, testing::Not(HasSubstr("summary")));
+  const std::string message = input_error_of([&] { mesh_geo(block_, 3, 1, work()); });
+  EXPECT_EQ(message, "x.geo:3: gmsh: syntax error (;)");
+  play_gmsh("echo 'Error   : Invalid boundary mesh' >&2\nexit 1\n");
+  EXPECT_THAT(environment_error(block_),
+              HasSubstr("gmsh failed (exit status 1): Invalid boundary"));
 }
 
 TEST_F(MeshGeo, KilledSilentAndMeshlessRunsAreErrors) {
@@ -179,9 +184,20 @@ TEST_F(MeshGeoWithGmsh, PlaneRecombinedMeshHasQuadrilateralsAndAnArcGroup) {
   EXPECT_LT((area_of_group(mesh, "arc") - Vec3(1, 1, 0)).norm(), 1e-12);
 }
 
-TEST_F(MeshGeoWithGmsh, SyntaxErrorIsShown) {
-  EXPECT_THAT(environment_error(write("bad.geo", "Point(1) = {0, 0;\n")),
-              HasSubstr("syntax error"));
+TEST_F(MeshGeoWithGmsh, SyntaxErrorIsWrongInputWithItsLine) {
+  const std::string bad = write("bad.geo", "\nPoint(1) = {0, 0;\n");
+  EXPECT_THAT(input_error_of([&] { mesh_geo(bad, 3, 1, work()); }),
+              testing::StartsWith(bad + ":2: gmsh: syntax error"));
+}
+
+TEST_F(MeshGeoWithGmsh, ItsFolderIsAllThatItWrites) {
+  setenv("HOME", folder_.c_str(), 1);  // where gmsh leaves settings of its windows
+  const std::string geo = write("b.geo", bytes_of_file(block_));
+  mesh_geo(geo, 3, 1, work());
+  std::set<fs::path> after;
+  for (const auto& entry : fs::directory_iterator(folder_))
+    after.insert(entry.path().filename());
+  EXPECT_EQ(after, (std::set<fs::path>{"b.geo", "work"}));
 }
 
 #if DIPTYCH_GMSH_ALLOWED == 0

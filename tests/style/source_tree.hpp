@@ -154,6 +154,7 @@ inline const std::vector<Library>& libraries() {
   static const std::vector<Library> table = {
       {R"([a-z_0-9]+)", ".*"},  // the standard library
       {R"((sys/.*|fcntl|malloc|spawn|unistd|signal|poll|dlfcn)\.h)", ".*"},
+      {R"(linux/.*\.h)", R"(meshes/jail\.cpp)"},
       {R"(fmt/.*)", ".*"},
       {R"(Eigen/.*)", R"(common/algebra/vectors\.hpp|common/scheme/(class|closure)_repair\.cpp|)"
                       R"((sph|fvm|meshes|common/run)/.*\.cpp)"},

@@ -24,7 +24,7 @@ inline Scene scene_of_case(const std::string& method,
   Scene scene;
   scene.setup = run::read_case(harness::find_case(name), overrides);
   const auto mesh =
-      harness::mesh_of(scene.setup, level, std::filesystem::temp_directory_path().string());
+      harness::mesh_of(scene.setup, level);
   scene.graph = harness::method_menu().at(method)(mesh.mesh, scene.setup);
   scene.solver = run::make_solver(scene.setup, scene.graph);
   return scene;

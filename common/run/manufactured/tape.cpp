@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <map>
 #include <utility>
 
 namespace diptych::run {
@@ -30,14 +31,19 @@ constexpr std::array smooth_functions{
     std::pair{"ln", Operator::log},      std::pair{"sqrt", Operator::sqrt},
 };
 
+/// Places on the tape of the functions that were met before: each is parsed once, however many
+/// others name it.
+using Parsed = std::map<const TimeFunction*, int>;
+
 /// Recursive descent; every method leaves `at_` behind what it has read.
 class SmoothParser {
  public:
   SmoothParser(Tape& tape,
                const std::string& text,
                const Vocabulary& vocabulary,
-               const SourcePlace& where)
-      : tape_(tape), text_(text), vocabulary_(vocabulary), where_(where) {}
+               const SourcePlace& where,
+               Parsed& parsed)
+      : tape_(tape), text_(text), vocabulary_(vocabulary), where_(where), parsed_(parsed) {}
 
   int whole() {
     const int result = sum();
@@ -146,13 +152,20 @@ class SmoothParser {
       return tape_.add(Operator::constant, -1, -1, parameter->second);
     for (const auto& function : vocabulary_.time_functions) {
       const auto* const named = dynamic_cast<const ExpressionFunction*>(function.get());
-      if (named != nullptr && named->names()[0] == word)
-        return tape_.append(named->expression().text(), vocabulary_, where_);
+      if (named != nullptr && named->name() == word) return function_place(*named);
     }
     refuse(begin,
            fmt::format("'{}' has no derivatives; a motion may use x, y, z, t, pi, parameters "
                        "and functions of type \"expression\"",
                        word));
+  }
+  int function_place(const ExpressionFunction& function) {
+    const auto before = parsed_.find(&function);
+    if (before != parsed_.end()) return before->second;
+    const std::string text = function.expression().text();
+    const int place = SmoothParser(tape_, text, vocabulary_, where_, parsed_).whole();
+    parsed_[&function] = place;
+    return place;
   }
   int call(const std::string& word, size_t begin) {
     const auto* const found =
@@ -173,6 +186,7 @@ class SmoothParser {
   const std::string& text_;
   const Vocabulary& vocabulary_;
   const SourcePlace& where_;
+  Parsed& parsed_;
   size_t at_ = 0;
 };
 
@@ -301,7 +315,8 @@ int Tape::add(Operator op, int first, int second, double constant) {
 }
 
 int Tape::append(const std::string& text, const Vocabulary& vocabulary, const SourcePlace& where) {
-  return SmoothParser(*this, text, vocabulary, where).whole();
+  Parsed parsed;
+  return SmoothParser(*this, text, vocabulary, where, parsed).whole();
 }
 
 std::vector<Jet<double, 1>> Tape::at_time(double t) const {

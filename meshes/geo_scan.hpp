@@ -1,0 +1,20 @@
+#pragma once
+/// What a .geo file would do besides describing a geometry. It is a program of Gmsh's own language:
+/// it can start others, write anywhere and read other scripts. Test: tests/meshes/geo_scan_test.cpp
+
+#include <string>
+
+namespace diptych::meshes {
+
+/// Refuses commands that run or write, and files that are read from outside the folder of the .geo
+/// file, in it and in all it takes in by Include and Merge. Names that are put together from
+/// strings are refused too: they cannot be known without running the file.
+///
+/// The text is searched as it stands, comments, strings and branches not taken included: Gmsh looks
+/// for the end of a branch inside strings, and comes back from a macro to the next line even inside
+/// a comment, so that what looks quoted can be run.
+/// @throws base::InputError "file:line: ..." on the first offence, a file that is not there or no
+///         regular one
+void check_geo(const std::string& path);
+
+}  // namespace diptych::meshes
