@@ -133,7 +133,9 @@ struct SphCase {
 
 /// [fvm]
 struct FvmCase {
-  std::string stencil = "edge";  ///< edge (nodal quadrature) or integral (2 int N_a grad N_b dV)
+  std::string stencil = "edge";  ///< edge (nodal quadrature), integral (2 int N_a grad N_b dV) or
+                                 ///< sbp (operators that sum by parts, on boxes)
+  int order = 4;                 ///< of sbp, inside: 2, 4 or 6
 };
 
 /// [exact]: solution the run is measured against. Missing fields are derived from displacement.
@@ -146,11 +148,11 @@ struct ExactCase {
 
 struct Case {
   std::string name;  ///< folder or file name of the case
-  std::string file;  ///< path it was read from
-  std::string text;  ///< file as read, for the record
+  std::string file;  ///< absolute path; of a copy that a run left, that of its original
+  std::string text;  ///< file as read; of a copy, that of its original
   std::string hash;  ///< of text and overrides
   std::string title;
-  std::vector<std::string> overrides;  ///< "key=value" of --set
+  std::vector<std::string> overrides;  ///< "key=value" of --set and of a copy
   MeshCase mesh;
   MaterialCase material;
   InitialCase initial;
