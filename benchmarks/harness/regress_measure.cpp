@@ -89,8 +89,15 @@ NaturalScales measure_canary(const run::Case& setup,
   const CaseMesh mesh = mesh_of(setup, 0);
   const scheme::PairGraph graph = method_menu().at(method)(mesh.mesh, setup);
   const auto solver = run::make_solver(setup, graph);
-  for (int i = 0; i < 5; ++i)
+  for (int i = 0; i < 5; ++i) {
+    if (solver->time() >= setup.time.end) {
+      throw base::InputError(
+          fmt::format("{} {}: time.end = {:.6g} s comes after {} steps, the canary makes five; "
+                      "take a longer time for the size, such as time.end={:.2g}",
+                      setup.name, method, setup.time.end, i, 10 * setup.time.end / i));
+    }
     solver->step(setup.time.end);
+  }
   const run::Snapshot s = solver->snapshot();
   const NaturalScales natural = natural_scales(setup, graph);
   figures.state = solver->state_hash(mesh.order);

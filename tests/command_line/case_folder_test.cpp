@@ -47,8 +47,10 @@ TEST_F(CaseFolder, IsListedInPlaceOfTheShippedCases) {
 TEST_F(CaseFolder, IsWhereEveryVerbLooksUpNames) {
   for (const std::string verb :
        {"run strip --quiet --no-fields --out o1", "compare strip --quiet --no-fields --out o2",
-        "converge strip --levels 2 --quiet --out o3", "study strip --levels 1 --quiet --out o4",
-        "check strip", "material strip --end 1e-3 --steps 10 --out o5"}) {
+        "converge strip --levels 2 --quiet --out o3",
+        "study strip --stability --method fvm --integrators leapfrog --steps 40 --quiet --out o4",
+        "check strip",
+        "material strip --path shear-ramp --rate 100 --end 1e-3 --steps 10 --out o5"}) {
     const auto outcome = program(verb + " --cases mine");
     EXPECT_EQ(outcome.exit_code, 0) << verb << '\n' << outcome.text;
     const auto misspelt = program("check sttrip --cases mine");
