@@ -26,7 +26,7 @@ std::string markdown_table(const std::vector<std::vector<std::string>>& lines, s
     text += "|\n";
     if (i > 0) continue;
     for (size_t c = 0; c < lines[0].size(); ++c)
-      text += "|" + std::string(width[c] + 1, '-') + (c < left ? "-" : ":");
+      text += fmt::format("|{:-<{}}{}", "", width[c] + 1, c < left ? '-' : ':');
     text += "|\n";
   }
   return text;

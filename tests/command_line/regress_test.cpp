@@ -43,7 +43,7 @@ TEST_F(Regress, PassesOnWhatItRecordedAndEndsWithFiveWhereAFigureDiffers) {
   std::string text = baseline();
   const size_t at = text.find("\"value\": ", text.find("\"velocity L2\""));
   ASSERT_NE(at, std::string::npos);
-  text.insert(at + 9, "1");
+  text.insert(text.begin() + static_cast<std::ptrdiff_t>(at) + 9, '1');
   std::ofstream(file()) << text;
   const auto changed = program(name_);
   EXPECT_EQ(changed.exit_code, 5) << changed.text;
