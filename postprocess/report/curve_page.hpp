@@ -1,7 +1,7 @@
 #pragma once
 /// A page of log-log plots of the same curves and a table as text, in the style of the reports: one
 /// file, drawn by Chart.js, with their zoom and legends. Tests:
-/// tests/harness/work_precision_test.cpp, tests/report/browser_test.cpp
+/// tests/harness/work_precision_test.cpp, tests/browser/browser_test.cpp
 
 #include "postprocess/report/line_plot.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// A page of plots of quantities against a parameter, and a table as text, in the style of the
 /// reports. Both axes are linear, but for a parameter that spans more than a factor of twenty.
-/// Tests: tests/harness/variant_quantities_test.cpp, tests/report/browser_test.cpp
+/// Tests: tests/harness/variant_quantities_test.cpp, tests/browser/browser_test.cpp
 
 #include "postprocess/report/line_plot.hpp"
 

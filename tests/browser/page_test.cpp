@@ -1,6 +1,5 @@
 /// The page in a browser: nothing is cut at the width of a screen or of a phone, marks on the edge
-/// of a plot are whole, plots and pictures are saved as files. Needs headless Chromium; skipped
-/// where there is none.
+/// of a plot are whole, plots and pictures are saved as files. Built where Chromium was found.
 
 #include "postprocess/report/curve_page.hpp"
 #include "postprocess/report/study_report.hpp"
@@ -9,24 +8,14 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 namespace diptych::report {
 namespace {
 
-using test::chromium;
 using test::seen_in;
 using test::with_witness;
 
-/// Skips the tests where there is nothing to look with.
 class Page : public testing::Test {
  protected:
-  void SetUp() override {
-    if (chromium().empty()) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
-    if (!std::filesystem::exists(chart_script_path()))
-      GTEST_SKIP() << "no Chart.js here: apt-get install libjs-chart.js";
-    script_ = chart_script(chart_script_path());
-  }
   /// With a history that begins and ends on the edges of its plots, and more fields than fit.
   std::string report() const {
     StudyReport study = test::full_study();
@@ -42,7 +31,7 @@ class Page : public testing::Test {
     return curve_page("Work", "", "Too coarse.", {{"Error", "seconds", "error", {a, b}}}, table,
                       script_);
   }
-  std::string script_;
+  const std::string script_ = chart_script(chart_script_path());
 };
 
 /// Every part of the page that is wider than its place, and tables that can not be scrolled to
