@@ -45,6 +45,10 @@ std::string quantities_table(const VariantStudy& study);
 /// are shown.
 std::string quantities_csv(const VariantStudy& study);
 
+/// How far the methods are apart on the finest level that both have, in one or two sentences
+/// (HTML).
+std::string quantities_verdict(const VariantStudy& study);
+
 /// Plots against the first key that varies over numbers, else against the spacing, and the table.
 std::string quantities_html(const std::string& title, const VariantStudy& study);
 

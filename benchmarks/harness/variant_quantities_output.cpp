@@ -245,7 +245,7 @@ std::string quantities_html(const std::string& title, const VariantStudy& study)
                                           ", both methods, every level; the table is below."
                                     : "Each quantity against the spacing, both methods, every "
                                       "variant; the table is below.",
-                                panels, quantities_table(study),
+                                quantities_verdict(study), panels, quantities_table(study),
                                 report::chart_script(report::chart_script_path()));
 }
 

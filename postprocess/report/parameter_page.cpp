@@ -46,11 +46,11 @@ std::string panels_json(const std::vector<Panel>& panels) {
         points.push_back({{"x", x}, {"y", y}});
       curves.push_back({{"name", curve.name}, {"points", points}});
     }
-    all.push_back({{"title", panel.title},
-                   {"x", panel.x_label},
+    all.push_back({{"x", panel.x_label},
                    {"y", panel.y_label},
                    {"logarithmic", spans_decades(panel)},
-                   {"curves", curves}});
+                   {"curves", curves},
+                   {"title", panel.title}});
   }
   return Json{{"panels", all}}.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -59,6 +59,7 @@ std::string panels_json(const std::vector<Panel>& panels) {
 
 std::string parameter_page(const std::string& title,
                            const std::string& lead,
+                           const std::string& verdict,
                            const std::vector<Panel>& panels,
                            const std::string& table,
                            const std::string& chart_script) {
@@ -72,6 +73,7 @@ std::string parameter_page(const std::string& title,
              "<header>\n<p class=\"kicker\">Diptych</p>\n<h1>{}</h1>\n<p class=\"lead\">{}</p>\n{}"
              "</header>\n<main>\n",
              escaped(title), escaped(lead), plot_hint()) +
+         section("verdict", "Verdict", "<p class=\"verdict\">" + verdict + "</p>\n") +
          section("plots", "Plots", plots) +
          section("table", "Table",
                  "<div class=\"scroll\" tabindex=\"0\"><pre>" + escaped(table) + "</pre></div>\n") +

@@ -10,10 +10,12 @@
 
 namespace diptych::report {
 
+/// @param verdict       HTML, what the plots come to
 /// @param panels        values that are not finite are left out; points are put in order of x
 /// @param chart_script  text of Chart.js, see study_report.hpp
 std::string parameter_page(const std::string& title,
                            const std::string& lead,
+                           const std::string& verdict,
                            const std::vector<Panel>& panels,
                            const std::string& table,
                            const std::string& chart_script);

@@ -179,7 +179,7 @@ TEST(Browser, ZoomsEveryPlotAndHidesItsSeries) {
   expect_zooms(curve_page("Work", "", "", {{"p", "s", "e", {a, b}}}, "table", script), 1);
   // a parameter over decades, another on a linear axis; quantities of both signs
   const Curve wide{"SPH 0", {0.01, 1, 100}, {-2, 0.5, 3}}, narrow{"FVM 0", {1, 2, 3}, {-1, 0, 1}};
-  expect_zooms(parameter_page("Q", "", {{"p", "De", "u", {wide}}, {"q", "nu", "u", {narrow}}},
+  expect_zooms(parameter_page("Q", "", "", {{"p", "De", "u", {wide}}, {"q", "nu", "u", {narrow}}},
                               "table", script),
                2);
 }

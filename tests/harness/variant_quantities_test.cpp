@@ -121,6 +121,18 @@ TEST(VariantQuantities, PageDrawsThemAgainstTheSpacingWhereNoNumberVaries) {
                         R"([{"name":"SPH integrator=leapfrog","points":[{"x":0.5,)"));
 }
 
+TEST(VariantQuantities, VerdictSaysHowFarTheMethodsAreApart) {
+  VariantStudy s = study();
+  EXPECT_THAT(quantities_verdict(s), HasSubstr("On level 1 SPH and finite volume are within 5 % of "
+                                               "the largest value in 1 of 1 quantities"));
+  EXPECT_THAT(quantities_verdict(s), HasSubstr("furthest apart in tip, end (De=100): by 0.493"));
+  s.curves[3].points[1].run.quantities[0].final_value = 1;  // of FVM with De = 100 on level 1
+  EXPECT_THAT(quantities_verdict(s), HasSubstr("Too coarse to say of tip, end (De=100)"));
+  EXPECT_THAT(quantities_verdict(s), HasSubstr("in 0 of 1 quantities"));
+  s.curves = {s.curves[0]};
+  EXPECT_THAT(quantities_verdict(s), HasSubstr("One method only"));
+}
+
 TEST(VariantQuantities, AreChosenByNameOrProbe) {
   const run::Case setup = run::read_case(find_case("bending-column-ve"), {});
   const std::string probe = setup.probes.front().name;
