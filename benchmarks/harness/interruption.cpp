@@ -1,6 +1,5 @@
 #include "benchmarks/harness/interruption.hpp"
 
-#include "benchmarks/harness/run_case.hpp"
 #include "common/base/error.hpp"
 
 #include <csignal>
@@ -13,6 +12,8 @@
 namespace diptych::harness {
 
 namespace {
+
+volatile std::sig_atomic_t interrupt_flag = 0;
 
 /// Schedulers and timeout(1) signal the program and its group: what comes within a second is the
 /// same request. (Both calls are safe in a handler.)
@@ -41,6 +42,14 @@ void end_after_this_step(int signal) {
 }
 
 }  // namespace
+
+void request_interrupt() {
+  interrupt_flag = 1;
+}
+
+bool interrupt_requested() {
+  return interrupt_flag != 0;
+}
 
 void catch_interrupts() {
   std::signal(SIGINT, end_after_this_step);

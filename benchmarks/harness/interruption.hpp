@@ -10,6 +10,10 @@ namespace diptych::harness {
 /// program.
 void catch_interrupts();
 
+/// Set by the signal handler: the run ends its step, writes what there is, status "interrupted".
+void request_interrupt();
+bool interrupt_requested();
+
 /// 0, or that of an interrupt with a line on the standard error stream.
 /// @param to_go_on  what the user finds and does then
 int exit_code_of_study(const std::string& to_go_on);

@@ -3,6 +3,7 @@
 
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/convergence.hpp"
+#include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/provenance.hpp"
 #include "benchmarks/harness/quantities.hpp"
 #include "benchmarks/harness/regress.hpp"

@@ -2,11 +2,11 @@
 
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_list.hpp"
+#include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/progress.hpp"
 #include "benchmarks/harness/provenance.hpp"
 #include "benchmarks/harness/regress.hpp"
 #include "benchmarks/harness/regress_table.hpp"
-#include "benchmarks/harness/run_case.hpp"
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
 #include "common/io/atomic_file.hpp"

@@ -42,23 +42,4 @@ struct RunResult {
 ///         base::BreakdownError after the summary with status "breakdown" has been written
 RunResult run_case(const run::Case& setup, const RunOptions& options);
 
-/// What `diptych check` tells of a case without running it.
-struct CaseCheck {
-  std::int64_t nodes = 0, cells = 0, pairs = 0, steps = 0;
-  std::int64_t bytes = 0;           ///< arrays of the solver
-  std::int64_t running_bytes = 0;   ///< resident set once the solver stands
-  std::int64_t building_bytes = 0;  ///< largest resident set until then
-  double dt = 0;                    ///< s, of the first step
-  scheme::GraphQuality quality;
-};
-CaseCheck check_case(const run::Case& setup, const std::string& method, int level);
-
-/// Set by a signal handler: the run ends its step, writes what there is, status "interrupted".
-void request_interrupt();
-bool interrupt_requested();
-
-/// Creates DIR for a run, or takes one that an earlier run made (it has a summary.json).
-/// @throws base::EnvironmentError where it cannot, base::InputError where it holds something else
-void claim_directory(const std::string& directory);
-
 }  // namespace diptych::harness

@@ -1,5 +1,6 @@
 #include "benchmarks/harness/study.hpp"
 
+#include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/resumption.hpp"
 #include "common/base/text.hpp"
 #include "common/run/field_norms.hpp"

@@ -2,6 +2,7 @@
 
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_mesh.hpp"
+#include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/provenance.hpp"
 #include "benchmarks/harness/resumption.hpp"
 #include "benchmarks/harness/run_case.hpp"

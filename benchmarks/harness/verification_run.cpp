@@ -2,6 +2,7 @@
 
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_list.hpp"
+#include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/progress.hpp"
 #include "benchmarks/harness/resumption.hpp"
 #include "benchmarks/harness/verification.hpp"

@@ -1,6 +1,6 @@
 /// diptych check: reads a case, builds its graphs and makes one step.
 
-#include "benchmarks/harness/run_case.hpp"
+#include "benchmarks/harness/case_check.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
 
