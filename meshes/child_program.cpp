@@ -1,17 +1,15 @@
 #include "meshes/child_program.hpp"
 
 #include "common/base/error.hpp"
+#include "meshes/child_watch.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 extern char** environ;
@@ -43,24 +41,6 @@ class Descriptor {
   int number_;
 };
 
-/// Where the child's standard streams go.
-class StreamPlan {
- public:
-  explicit StreamPlan(int output) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions_, output, STDERR_FILENO);
-  }
-  StreamPlan(const StreamPlan&) = delete;
-  StreamPlan& operator=(const StreamPlan&) = delete;
-  ~StreamPlan() { posix_spawn_file_actions_destroy(&actions_); }
-  const posix_spawn_file_actions_t* get() const { return &actions_; }
-
- private:
-  posix_spawn_file_actions_t actions_{};
-};
-
 std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
   pointers.reserve(texts.size() + 1);
@@ -84,25 +64,18 @@ std::vector<std::string> environment_with(const std::vector<std::string>& first)
   return result;
 }
 
-std::string read_to_end(const std::string& program, int descriptor) {
-  std::string output;
-  std::array<char, 4096> block{};
-  for (;;) {
-    const ssize_t n = ::read(descriptor, block.data(), block.size());
-    if (n == 0) return output;
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail(program, "its output cannot be read", errno);
-    output.append(block.data(), static_cast<size_t>(n));
-    if (output.size() > 2 * most_output) output.erase(0, output.size() - most_output);
-  }
-}
-
-int wait_for(const std::string& program, pid_t child) {
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) fail(program, "waiting for it failed", errno);
-  }
-  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+/// In the child: becomes the program, or tells through `report` why it could not. Nothing is
+/// allocated here, as another thread may have held the allocator when the process was forked.
+[[noreturn]] void become(
+    char* const* words, char* const* variables, int output, int report, pid_t parent) noexcept {
+  if (!join_parent(parent)) _exit(127);
+  const int input = ::open("/dev/null", O_RDONLY);
+  const bool has_streams = input >= 0 && dup2(input, STDIN_FILENO) >= 0 &&
+                           dup2(output, STDOUT_FILENO) >= 0 && dup2(output, STDERR_FILENO) >= 0;
+  if (has_streams) execve(words[0], words, variables);
+  const int error = errno;
+  [[maybe_unused]] const auto told = ::write(report, &error, sizeof error);
+  _exit(127);
 }
 
 }  // namespace
@@ -133,20 +106,28 @@ std::string program_in_path(const std::string& name) {
 ChildResult run_child(const std::string& program,
                       const std::vector<std::string>& arguments,
                       const std::vector<std::string>& environment) {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) fail(program, "no pipe for its output", errno);
-  Descriptor reading(ends[0]), writing(ends[1]);
-  const StreamPlan streams(writing.number());
+  int output_ends[2], report_ends[2];
+  if (pipe2(output_ends, O_CLOEXEC) != 0) fail(program, "no pipe for its output", errno);
+  Descriptor reading(output_ends[0]), writing(output_ends[1]);
+  if (pipe2(report_ends, O_CLOEXEC) != 0) fail(program, "no pipe for its output", errno);
+  Descriptor report(report_ends[0]), reporting(report_ends[1]);
   std::vector<std::string> words = arguments, variables = environment_with(environment);
   words.insert(words.begin(), program);
-  pid_t child = 0;
-  const int error = posix_spawn(&child, program.c_str(), streams.get(), nullptr,
-                                pointers_to(words).data(), pointers_to(variables).data());
-  if (error != 0) fail(program, "cannot be started", error);
+  const std::vector<char*> word_pointers = pointers_to(words);
+  const std::vector<char*> variable_pointers = pointers_to(variables);
+  const pid_t parent = getpid(), child = fork();
+  if (child < 0) fail(program, "cannot be started", errno);
+  if (child == 0)
+    become(word_pointers.data(), variable_pointers.data(), writing.number(), reporting.number(),
+           parent);
   writing.close();
+  reporting.close();
   ChildResult result;
-  result.output = read_to_end(program, reading.number());
-  result.exit_status = wait_for(program, child);
+  result.output = output_of(child, reading.number(), program, most_output);
+  result.exit_status = exit_status_of(child, program);
+  int error = 0;
+  if (::read(report.number(), &error, sizeof error) == sizeof error)
+    fail(program, "cannot be started", error);
   return result;
 }
 

@@ -22,7 +22,8 @@ std::string program_in_path(const std::string& name);
 /// @param program      full path
 /// @param arguments    without the program's name
 /// @param environment  "NAME=value", in front of those of this process
-/// @throws base::EnvironmentError where it cannot be started
+/// @throws base::EnvironmentError where it cannot be started; base::Interruption where the user
+///         asked this program to end: the child has ended, too
 ChildResult run_child(const std::string& program,
                       const std::vector<std::string>& arguments,
                       const std::vector<std::string>& environment);

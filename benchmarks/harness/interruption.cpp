@@ -13,8 +13,6 @@ namespace diptych::harness {
 
 namespace {
 
-volatile std::sig_atomic_t interrupt_flag = 0;
-
 /// Schedulers and timeout(1) signal the program and its group: what comes within a second is the
 /// same request. (Both calls are safe in a handler.)
 constexpr double same_request = 1;  // s
@@ -43,17 +41,12 @@ void end_after_this_step(int signal) {
 
 }  // namespace
 
-void request_interrupt() {
-  interrupt_flag = 1;
-}
-
-bool interrupt_requested() {
-  return interrupt_flag != 0;
-}
-
 void catch_interrupts() {
   std::signal(SIGINT, end_after_this_step);
   std::signal(SIGTERM, end_after_this_step);
+  // nohup has it ignored, which is to stay so
+  if (std::signal(SIGHUP, end_after_this_step) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 int exit_code_of_study(const std::string& to_go_on) {

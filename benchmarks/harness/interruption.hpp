@@ -1,18 +1,20 @@
 #pragma once
-/// Ctrl-C and SIGTERM: the run ends its step, what there is is written, the user is told how to go
-/// on, the exit code is 130. Test: tests/command_line/interrupt_test.cpp
+/// Ctrl-C, SIGTERM and SIGHUP: the run ends its step, what there is is written, the user is told
+/// how to go on, the exit code is 130. A run under nohup goes on when its terminal closes. Test:
+/// tests/command_line/interrupt_test.cpp
+
+#include "common/base/interruption.hpp"
 
 #include <string>
 
 namespace diptych::harness {
 
-/// From now on the first of the two ends the step (see interrupt_requested), the second the
-/// program.
-void catch_interrupts();
+using base::interrupt_requested;
+using base::request_interrupt;
 
-/// Set by the signal handler: the run ends its step, writes what there is, status "interrupted".
-void request_interrupt();
-bool interrupt_requested();
+/// From now on the first of the three ends the step (see interrupt_requested), the second the
+/// program; a write beyond a limit of the size of files is an error of that write.
+void catch_interrupts();
 
 /// 0, or that of an interrupt with a line on the standard error stream.
 /// @param to_go_on  what the user finds and does then
