@@ -146,11 +146,11 @@ struct ExactCase {
 
 struct Case {
   std::string name;  ///< folder or file name of the case
-  std::string file;  ///< path it was read from
-  std::string text;  ///< file as read, for the record
+  std::string file;  ///< absolute path; of a copy that a run left, that of its original
+  std::string text;  ///< file as read; of a copy, that of its original
   std::string hash;  ///< of text and overrides
   std::string title;
-  std::vector<std::string> overrides;  ///< "key=value" of --set
+  std::vector<std::string> overrides;  ///< "key=value" of --set and of a copy
   MeshCase mesh;
   MaterialCase material;
   InitialCase initial;
