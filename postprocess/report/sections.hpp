@@ -10,6 +10,7 @@
 namespace diptych::report {
 
 std::string header_section(const StudyReport& study);
+std::string breakdowns_section(const StudyReport& study);
 std::string verdict_section(const StudyReport& study);
 std::string panels_section(
     const StudyReport& study);  ///< the two methods side by side, finest level

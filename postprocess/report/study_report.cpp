@@ -173,10 +173,10 @@ std::string report_html(const StudyReport& study, const std::string& chart_scrip
   std::string html = page_head(study.title);
   html += header_section(study);
   html += "<main>\n";
-  html += verdict_section(study) + panels_section(study) + shapes_section(study) +
-          probes_section(study) + cost_section(study) + convergence_section(study) +
-          quantities_section(study) + energy_section(study) + runs_section(study) +
-          provenance_section(study);
+  html += breakdowns_section(study) + verdict_section(study) + panels_section(study) +
+          shapes_section(study) + probes_section(study) + cost_section(study) +
+          convergence_section(study) + quantities_section(study) + energy_section(study) +
+          runs_section(study) + provenance_section(study);
   return html + "</main>\n" + page_scripts(data_json(study), chart_script, page_js);
 }
 

@@ -11,6 +11,7 @@
 #include "postprocess/report/shapes.hpp"
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -51,11 +52,23 @@ struct References {
   std::vector<ReferencePoints> points;
 };
 
+/// A run that the physics or the scheme ended before its time.
+struct Breakdown {
+  std::string method;
+  int level = 0;
+  double time = 0;  ///< s
+  std::int64_t step = 0;
+  std::int64_t node = -1;                           ///< below zero: of no one node
+  std::string message;                              ///< what happened, without a full stop
+  std::optional<std::array<double, 3>> place = {};  ///< m, of the node in the undeformed body
+};
+
 struct StudyReport {
   std::string title, description;
   std::vector<std::string> material;  ///< lines of text: law, constants with units, branches
-  std::vector<io::RunSummary> runs;   ///< any methods and levels, in any order
+  std::vector<io::RunSummary> runs;   ///< any methods and levels, in any order; none that broke
   std::map<std::string, std::vector<io::HistoryRow>> histories;  ///< method: finest level
+  std::vector<Breakdown> breakdowns;                             ///< named before anything else
   std::vector<AcceptanceLine> acceptance;
   std::map<std::string, double> differences;  ///< field: L2 between the methods at the end, over
                                               ///< its largest norm at any output time
