@@ -24,6 +24,7 @@ Recorder::Recorder(const run::Case& setup,
       initial_(solver.balance()),
       energy_(initial_),
       cells_(mesh.mesh) {
+  if (!options.directory.empty()) log_ = std::make_unique<RunLog>(options.directory, setup);
   if (!options.directory.empty() && options.fields && setup.output.fields) {
     writer_ = std::make_unique<io::FieldWriter>(options.directory, visual_mesh(mesh));
   }
@@ -56,6 +57,7 @@ void Recorder::record(const run::StepReport& step) {
   update_drifts(balance, solver_.audit());
   run::Snapshot snapshot = solver_.snapshot();
   check_cells(snapshot);
+  if (log_) log_->row(result_.history.back());
   const bool keeps_shape = shapes_ && shapes_->wants(result_.history.size() - 1);
   if (options_.scales) raise_scales(run::field_norms(result_.graph, snapshot));
   if (errors_.available()) {
@@ -70,6 +72,11 @@ void Recorder::record(const run::StepReport& step) {
 void Recorder::record_step(const run::StepReport& step) {
   if (!probes_.has_stepped()) return;
   result_.steps.push_back({step.time, step.step, probes_.stepped_values(solver_)});
+  if (log_) log_->step(result_.steps.back());
+}
+
+void Recorder::finish() {
+  if (log_) log_->finish();
 }
 
 double Recorder::energy_residual() {

@@ -5,6 +5,7 @@
 #include "benchmarks/harness/energy_record.hpp"
 #include "benchmarks/harness/exact_record.hpp"
 #include "benchmarks/harness/run_case.hpp"
+#include "benchmarks/harness/run_log.hpp"
 #include "benchmarks/harness/shape_recorder.hpp"
 #include "common/io/field_writer.hpp"
 #include "common/run/exact_errors.hpp"
@@ -34,6 +35,8 @@ class Recorder {
   void record(const run::StepReport& step);
   /// After every step.
   void record_step(const run::StepReport& step);
+  /// No more rows will come: those that were written are on the disk.
+  void finish();
   /// What the run comes to. @pre record() has been called
   void fill(io::RunSummary& summary) const;
 
@@ -57,6 +60,7 @@ class Recorder {
   scheme::Balance initial_;
   EnergyRecord energy_;
   meshes::DeformedCells cells_;
+  std::unique_ptr<RunLog> log_;
   std::unique_ptr<io::FieldWriter> writer_;
   std::unique_ptr<ShapeRecorder> shapes_;
   double momentum_scale_ = 0, angular_scale_ = 0, linear_drift_ = 0, angular_drift_ = 0;

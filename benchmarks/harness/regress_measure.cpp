@@ -347,6 +347,8 @@ RegressMeasurement measure_regress(const std::string& case_file,
       }
     } catch (const base::BreakdownError& error) {
       now.failure = error.what();
+    } catch (const base::Interruption&) {
+      return measurement;  // while a mesh was made
     }
   }
   if (size.levels < 2) {

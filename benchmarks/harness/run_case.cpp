@@ -1,6 +1,7 @@
 #include "benchmarks/harness/run_case.hpp"
 
 #include "benchmarks/harness/backends.hpp"
+#include "benchmarks/harness/breakdown_place.hpp"
 #include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/memory.hpp"
 #include "benchmarks/harness/progress.hpp"
@@ -10,12 +11,16 @@
 #include "benchmarks/harness/run_folder.hpp"
 #include "common/base/error.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/parallel/thread_count.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <new>
+#include <optional>
+#include <utility>
 
 namespace diptych::harness {
 
@@ -90,67 +95,143 @@ void advance(const run::Case& setup,
   }
 }
 
-}  // namespace
+/// One run, whose parts refer to each other.
+class CaseRun {
+ public:
+  CaseRun(const run::Case& setup, const RunOptions& options);
+  CaseRun(const CaseRun&) = delete;
+  CaseRun& operator=(const CaseRun&) = delete;
 
-RunResult run_case(const run::Case& setup, const RunOptions& options) {
-  const auto start = Clock::now();
+  /// Steps to the end, or to a breakdown, and writes what came of it.
+  void go();
+  /// Writes the summary of a run that could not be finished.
+  void fail(const std::string& message) noexcept;
+  RunResult take() { return std::move(result_); }
+
+ private:
+  void identify();
+  void measure();
+  void finish();
+
+  Clock::time_point start_ = Clock::now();
+  const run::Case& setup_;
+  const RunOptions& options_;
+  RunFolder folder_;
+  RunResult result_;
+  std::optional<CaseMesh> mesh_;
+  std::unique_ptr<run::Solver> solver_;
+  std::optional<Recorder> recorder_;
+};
+
+CaseRun::CaseRun(const run::Case& setup, const RunOptions& options)
+    : setup_(setup), options_(options), folder_(options.directory) {
   reset_peak_rss();
   parallel::set_threads(options.threads);
-  RunResult result;
-  io::RunSummary& s = result.summary;
-  CaseMesh mesh = mesh_of(setup, options.level, std::filesystem::temp_directory_path().string());
-  result.graph = method_menu().at(options.method)(mesh.mesh, setup);
-  const auto solver = run::make_solver(setup, result.graph);
-  if (!options.directory.empty()) claim_directory(options.directory);
-  s.method = options.method;
-  s.case_name = setup.name;
-  s.title = setup.title;
-  s.level = options.level;
-  s.threads = parallel::n_threads();
-  s.integrator = setup.time.integrator;
-  s.precision = setup.scheme.precision;
-  s.unknowns_per_node = solver->unknowns_per_node();
-  s.arrangement = solver->arrangement();
-  s.provenance = provenance(setup.hash);
-  s.provenance.input_hash = input_hash(setup, options.measures);
-  describe_graph(result.graph, s);
-  Recorder recorder(setup, options, mesh, *solver, result);
+  mesh_ = mesh_of(setup, options.level, std::filesystem::temp_directory_path().string());
+  result_.graph = method_menu().at(options.method)(mesh_->mesh, setup);
+  solver_ = run::make_solver(setup, result_.graph);
+  identify();
+  describe_graph(result_.graph, result_.summary);
+  folder_.check();
+  if (folder_.is_written() && options.before_writing) options.before_writing();
+  folder_.open(setup, result_.summary);
+}
+
+void CaseRun::identify() {
+  io::RunSummary& s = result_.summary;
+  s.method = options_.method;
+  s.case_name = setup_.name;
+  s.case_file = setup_.file;
+  s.title = setup_.title;
+  s.level = options_.level;
+  s.threads = parallel::running_threads();
+  s.integrator = setup_.time.integrator;
+  s.precision = setup_.scheme.precision;
+  s.unknowns_per_node = solver_->unknowns_per_node();
+  s.arrangement = solver_->arrangement();
+  s.provenance = provenance(setup_.hash);
+  s.provenance.input_hash = input_hash(setup_, options_.measures);
+}
+
+void CaseRun::go() {
+  io::RunSummary& s = result_.summary;
+  recorder_.emplace(setup_, options_, *mesh_, *solver_, result_);
   // from here on the solver's arrays are all that is needed, and the nodes
-  result.order = std::move(mesh.order);
-  release_pairs(result.graph);
-  s.solver_bytes = solver->bytes();
+  result_.order = std::move(mesh_->order);
+  release_pairs(result_.graph);
+  s.solver_bytes = solver_->bytes();
   s.building_rss_bytes = peak_rss_bytes();
   s.running_rss_bytes = settled_memory();
-  announce(options, s);
-  s.setup_seconds = seconds_since(start);
-  const auto finish = [&] {
-    s.stages = s.steps * solver->evaluations_per_step();
-    s.end_time = solver->time();
-    s.wall_seconds = seconds_since(start);
-    s.peak_rss_bytes = peak_rss_bytes();
-    if (s.stages > 0) {
-      s.nanoseconds_per_node_stage =
-          1e9 * s.loop_seconds / (static_cast<double>(s.stages) * static_cast<double>(s.nodes));
-      const double crossings = s.end_time * solver->undeformed_speed() / s.spacing;
-      s.nanoseconds_per_node_crossing =
-          1e9 * s.loop_seconds / (crossings * static_cast<double>(s.nodes));
-    }
-    s.state_hash = solver->state_hash(result.order);
-    recorder.fill(s);
-    if (s.status == "done")
-      s.measures =
-          measured(options.measures, {result.graph, result.final_state, recorder.errors()});
-    write_record(setup, options, result);
-  };
+  s.setup_seconds = seconds_since(start_);
   try {
-    advance(setup, options, *solver, recorder, s);
+    advance(setup_, options_, *solver_, *recorder_, s);
   } catch (const base::BreakdownError& error) {
     s.status = "breakdown";
-    finish();
-    throw base::BreakdownError(
-        fmt::format("{} level {}: {}", options.method, options.level, error.what()));
+    s.failure = failure_of(error, *solver_, result_.graph, s.steps, result_.order);
   }
   finish();
+}
+
+/// What the run cost.
+void CaseRun::measure() {
+  io::RunSummary& s = result_.summary;
+  s.stages = s.steps * solver_->evaluations_per_step();
+  s.end_time = solver_->time();
+  s.wall_seconds = seconds_since(start_);
+  s.peak_rss_bytes = peak_rss_bytes();
+  if (s.stages == 0) return;
+  s.nanoseconds_per_node_stage =
+      1e9 * s.loop_seconds / (static_cast<double>(s.stages) * static_cast<double>(s.nodes));
+  const double crossings = s.end_time * solver_->undeformed_speed() / s.spacing;
+  s.nanoseconds_per_node_crossing =
+      1e9 * s.loop_seconds / (crossings * static_cast<double>(s.nodes));
+}
+
+void CaseRun::finish() {
+  io::RunSummary& s = result_.summary;
+  measure();
+  s.state_hash = solver_->state_hash(result_.order);
+  recorder_->finish();
+  recorder_->fill(s);
+  if (s.status == "done") {
+    s.measures =
+        measured(options_.measures, {result_.graph, result_.final_state, recorder_->errors()});
+  }
+  folder_.close(result_);
+}
+
+void CaseRun::fail(const std::string& message) noexcept {
+  io::RunSummary& s = result_.summary;
+  measure();
+  if (s.status != "breakdown") {
+    s.status = "failed";
+    s.failure = io::RunFailure{message, s.end_time, s.steps, {}, {}};
+  }
+  folder_.close_failed(s);
+}
+
+}  // namespace
+
+RunResult attempt_case(const run::Case& setup, const RunOptions& options) {
+  CaseRun run(setup, options);
+  try {
+    run.go();
+  } catch (const std::bad_alloc&) {
+    run.fail("out of memory; use a smaller --level");
+    throw;
+  } catch (const std::exception& error) {
+    run.fail(error.what());
+    throw;
+  }
+  return run.take();
+}
+
+RunResult run_case(const run::Case& setup, const RunOptions& options) {
+  RunResult result = attempt_case(setup, options);
+  if (result.summary.status == "breakdown") {
+    throw base::BreakdownError(fmt::format("{} level {}: {}", options.method, options.level,
+                                           result.summary.failure->message));
+  }
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "common/run/solver.hpp"
 #include "postprocess/report/shapes.hpp"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,7 +24,9 @@ struct RunOptions {
   bool quiet = false;     ///< no progress
   bool shapes = false;    ///< keep deformed surfaces for a report
   bool scales = false;    ///< find the largest norms of the fields over the output times
-  std::vector<NodeMeasure> measures;  ///< of the final state, for summary.json
+  std::vector<NodeMeasure> measures;     ///< of the final state, for summary.json
+  std::function<void()> before_writing;  ///< called once mesh, graph and solver stand, before the
+                                         ///< folder of the run is made; may be empty
 };
 
 struct RunResult {
@@ -38,8 +41,15 @@ struct RunResult {
   scheme::PairGraph graph;               ///< without its pairs
 };
 
-/// @throws base::InputError, base::EnvironmentError before anything is written;
-///         base::BreakdownError after the summary with status "breakdown" has been written
+/// A breakdown is a result: summary.status "breakdown" and summary.failure say so, the rest is
+/// what had been computed until then.
+/// @throws base::InputError, base::EnvironmentError, std::bad_alloc: before anything is written, or
+///         after the summary with status "failed" and the message has been;
+///         base::Interruption where the user ended the meshing: nothing is written
+RunResult attempt_case(const run::Case& setup, const RunOptions& options);
+
+/// The same where a breakdown is the end.
+/// @throws base::BreakdownError too, after the summary with status "breakdown" has been written
 RunResult run_case(const run::Case& setup, const RunOptions& options);
 
 }  // namespace diptych::harness

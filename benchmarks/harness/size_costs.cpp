@@ -7,8 +7,8 @@
 #include "benchmarks/harness/status_line.hpp"
 #include "common/base/error.hpp"
 #include "common/parallel/for_chunks.hpp"
-#include "common/run/solver.hpp"
 #include "common/run/case_reader.hpp"
+#include "common/run/solver.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,8 +1,10 @@
 #include "benchmarks/harness/study_verb.hpp"
 
 #include "benchmarks/harness/backends.hpp"
+#include "benchmarks/harness/breakdowns.hpp"
 #include "benchmarks/harness/case_mesh.hpp"
 #include "benchmarks/harness/interruption.hpp"
+#include "benchmarks/harness/output_folder.hpp"
 #include "benchmarks/harness/provenance.hpp"
 #include "benchmarks/harness/resumption.hpp"
 #include "benchmarks/harness/run_case.hpp"
@@ -13,6 +15,8 @@
 #include "common/io/atomic_file.hpp"
 #include "common/io/run_record.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/parallel/thread_count.hpp"
+#include "common/run/case_reader.hpp"
 #include "common/time/integrator.hpp"
 #include "postprocess/report/orders.hpp"
 
@@ -82,7 +86,7 @@ void study_stability(const StudyRequest& asked) {
   std::vector<run::Case> cases;  // all are read before the first runs
   for (const Variant& variant : variants)
     cases.push_back(case_of_variant(request.case_file, request.overrides, variant));
-  io::make_directory(request.directory);
+  OutputFolder output(request.directory, cases.front(), OutputKind::stability, request.force);
   parallel::set_threads(request.threads);
   std::vector<StabilityLimit> limits;
   StatusLine status(request.quiet);
@@ -95,6 +99,7 @@ void study_stability(const StudyRequest& asked) {
   print(fmt::format("{}, level {}: largest stable time step, as a factor on the graph bound\n",
                     cases.front().name, request.level));
   print(stability_table(limits));
+  output.prepare();
   write(request, "stability.csv", stability_csv(limits));
 }
 
@@ -105,33 +110,9 @@ std::optional<io::RunSummary> timed_before(const run::Case& setup, const RunOpti
   const auto finished = finished_run(setup, options);
   if (!finished) return std::nullopt;
   const io::RunSummary& run = finished->summary;
-  const bool same =
-      run.threads == parallel::n_threads() && run.provenance.cpu == provenance(setup.hash).cpu;
+  const bool same = run.threads == parallel::running_threads() &&
+                    run.provenance.cpu == provenance(setup.hash).cpu;
   return same ? std::optional(run) : std::nullopt;
-}
-
-/// Adds a repetition of one level to a curve. @return false after an interrupt
-bool add_run(const run::Case& setup,
-             const RunOptions& options,
-             bool first,
-             bool fresh,
-             int& n_taken_over,
-             WorkCurve& curve) {
-  const auto before = fresh ? std::nullopt : timed_before(setup, options);
-  if (before) ++n_taken_over;
-  const io::RunSummary run = before ? *before : run_case(setup, options).summary;
-  if (interrupt_requested()) return false;
-  if (first) {
-    curve.points.push_back({run, run.loop_seconds, run.loop_seconds, setup.scheme.face_correction});
-    return true;
-  }
-  WorkPoint& point = curve.points.back();
-  point.most = std::max(point.most, run.loop_seconds);
-  if (run.loop_seconds < point.least) {
-    point.least = run.loop_seconds;
-    point.run = run;
-  }
-  return true;
 }
 
 /// The field to show: the one asked for, or the first of the case.
@@ -150,49 +131,90 @@ std::string field_of(const StudyRequest& request, const io::RunSummary& run) {
   return request.field;
 }
 
+/// Curves that grow level by level, and what broke down on the way.
+struct Measurement {
+  const StudyRequest& request;
+  const std::vector<run::Case>& cases;
+  OutputFolder& output;
+  std::vector<WorkCurve> curves;
+  std::vector<report::Breakdown> breakdowns;
+  std::string field;
+  int n_taken_over = 0;
+
+  const run::Case& case_of(size_t curve) const { return cases[curve / request.methods.size()]; }
+};
+
+/// Adds a repetition of one level to a curve, unless the first one broke down.
+void add_run(Measurement& all, size_t curve, const RunOptions& options) {
+  const run::Case& setup = all.case_of(curve);
+  std::vector<WorkPoint>& points = all.curves[curve].points;
+  const bool has_level = !points.empty() && points.back().run.level == options.level;
+  const auto before = all.request.fresh ? std::nullopt : timed_before(setup, options);
+  if (before) ++all.n_taken_over;
+  const io::RunSummary run = before ? *before : attempt_case(setup, options).summary;
+  if (interrupt_requested()) return;
+  if (all.field.empty()) all.field = field_of(all.request, run);
+  if (run.status == "breakdown") {
+    all.breakdowns.push_back(breakdown_of(run));
+    const std::string& variant = all.curves[curve].variant;
+    std::string& message = all.breakdowns.back().message;
+    if (!variant.empty()) message = variant + ": " + message;
+  } else if (!has_level) {
+    points.push_back({run, run.loop_seconds, run.loop_seconds, setup.scheme.face_correction});
+  } else {
+    WorkPoint& point = points.back();
+    point.most = std::max(point.most, run.loop_seconds);
+    if (run.loop_seconds < point.least) {
+      point.least = run.loop_seconds;
+      point.run = run;
+    }
+  }
+}
+
+/// One repetition of one level of all curves; those that broke down in the first one are left out.
+void repeat(Measurement& all, RunOptions options, int repetition, StatusLine& status) {
+  const std::filesystem::path runs = std::filesystem::path(all.request.directory) / "runs";
+  for (size_t i = 0; i < all.curves.size() && !interrupt_requested(); ++i) {
+    const std::vector<WorkPoint>& points = all.curves[i].points;
+    if (repetition > 0 && (points.empty() || points.back().run.level != options.level)) continue;
+    options.method = all.curves[i].method;
+    status.show(fmt::format("{} level {}, repetition {} of {}", all.curves[i].name(), options.level,
+                            repetition + 1, all.request.repeats));
+    // the very first run tells whether what was asked makes sense: nothing is written before
+    if (!all.field.empty()) {
+      options.directory = (runs / fmt::format("{}_{}_level_{}_{}", input_hash(all.case_of(i), {}),
+                                              options.method, options.level, repetition + 1))
+                              .string();
+    }
+    add_run(all, i, options);
+    if (!interrupt_requested()) all.output.prepare();  // nothing is wrong with what was asked
+  }
+}
+
 /// All levels of all curves. The first run, the shortest, sets the field and makes the folder.
-void measure(const StudyRequest& request,
-             const std::vector<run::Case>& cases,
-             std::string& field,
-             std::vector<WorkCurve>& curves) {
+void measure(Measurement& all) {
+  const StudyRequest& request = all.request;
   StatusLine status(request.quiet);
   RunOptions options;
   options.threads = request.threads;
   options.fields = false;
   options.quiet = request.quiet;
-  const std::filesystem::path runs = std::filesystem::path(request.directory) / "runs";
-  int n_taken_over = 0;
   for (options.level = request.level; options.level < request.level + request.n_levels;
        ++options.level) {
     for (int repetition = 0; repetition < request.repeats; ++repetition) {
-      for (size_t i = 0; i < curves.size(); ++i) {
-        options.method = curves[i].method;
-        const run::Case& setup = cases[i / request.methods.size()];
-        status.show(fmt::format("{} level {}, repetition {} of {}", curves[i].name(), options.level,
-                                repetition + 1, request.repeats));
-        // the very first run tells whether what was asked makes sense: nothing is written before
-        if (!field.empty()) {
-          options.directory = (runs / fmt::format("{}_{}_level_{}_{}", input_hash(setup, {}),
-                                                  options.method, options.level, repetition + 1))
-                                  .string();
-        }
-        if (!add_run(setup, options, repetition == 0, request.fresh, n_taken_over, curves[i])) {
-          return;
-        }
-        if (!field.empty()) continue;
-        field = field_of(request, curves[i].points.back().run);
-        io::make_directory(request.directory);  // now that nothing is wrong with what was asked
-      }
+      repeat(all, options, repetition, status);
+      if (interrupt_requested()) return;
     }
     status.keep(fmt::format("level {} done: {} runs, {} of them taken over", options.level,
-                            request.repeats * static_cast<int>(curves.size()), n_taken_over));
-    n_taken_over = 0;
+                            request.repeats * static_cast<int>(all.curves.size()),
+                            all.n_taken_over));
+    all.n_taken_over = 0;
   }
 }
 
 }  // namespace
 
-void study_work_precision(const StudyRequest& request) {
+std::vector<report::Breakdown> study_work_precision(const StudyRequest& request) {
   if (request.n_levels < 1) throw base::InputError("--levels must be 1 or more");
   if (request.repeats < 1) throw base::InputError("--repeats must be 1 or more");
   std::vector<run::Case> cases;
@@ -202,19 +224,28 @@ void study_work_precision(const StudyRequest& request) {
     for (const std::string& method : request.methods)
       curves.push_back({variant.label, method, {}});
   }
-  std::string field;
-  measure(request, cases, field, curves);
-  curves.erase(std::remove_if(curves.begin(), curves.end(),
-                              [](const WorkCurve& curve) { return curve.points.empty(); }),
-               curves.end());
-  if (curves.empty()) return;  // interrupted in the first run
+  const run::Case base_case = run::read_case(request.case_file, request.overrides);
+  OutputFolder output(request.directory, base_case, OutputKind::study, request.force);
+  Measurement all{request, cases, output, curves, {}, "", 0};
+  try {
+    measure(all);
+  } catch (const base::Interruption&) {
+    // while a mesh was made: what was finished before stands
+  }
+  std::erase_if(all.curves, [](const WorkCurve& curve) { return curve.points.empty(); });
+  const std::string broken = breakdown_table(all.breakdowns);
+  if (all.curves.empty()) {  // interrupted in the first run, or all broke down
+    print(broken);
+    return all.breakdowns;
+  }
   const auto machine = probes::measure_machine(request.threads);
   const std::string title =
       fmt::format("Work and precision: {}",
                   cases.front().title.empty() ? cases.front().name : cases.front().title);
-  print(cases.front().name + "\n" + work_precision_table(curves, field, machine));
-  write(request, "work_precision.csv", work_precision_csv(curves));
-  write(request, "work_precision.html", work_precision_html(title, curves, field, machine));
+  print(cases.front().name + "\n" + work_precision_table(all.curves, all.field, machine) + broken);
+  write(request, "work_precision.csv", work_precision_csv(all.curves));
+  write(request, "work_precision.html", work_precision_html(title, all.curves, all.field, machine));
+  return all.breakdowns;
 }
 
 }  // namespace diptych::harness

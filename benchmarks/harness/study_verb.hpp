@@ -2,6 +2,7 @@
 /// What `diptych study` does: stability limits, or error against cost, of a case and its variants.
 
 #include "benchmarks/harness/stability.hpp"
+#include "postprocess/report/study_report.hpp"
 
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct StudyRequest {
   int threads = 0;
   std::string directory;
   bool quiet = false, fresh = false;
+  bool force = false;  ///< results of another case in the folder may be replaced
   StabilityOptions stability;
 };
 
@@ -29,7 +31,9 @@ void study_stability(const StudyRequest& request);
 /// round the curves, so that a slow minute of the machine hits all of them. Runs are kept in
 /// DIR/runs, and taken over where the same program has finished them with as many threads on the
 /// same kind of processor.
+/// A run that breaks down is left out.
+/// @return the runs that broke down
 /// @throws base::InputError where the case has no exact solution
-void study_work_precision(const StudyRequest& request);
+std::vector<report::Breakdown> study_work_precision(const StudyRequest& request);
 
 }  // namespace diptych::harness

@@ -98,6 +98,8 @@ VerificationRow row_of(const VerificationTable& table,
   } catch (const base::BreakdownError& error) {
     row.summary.level = entry.levels[i];
     row.failure = error.what();
+  } catch (const base::Interruption& error) {
+    row.failure = error.what();  // while a mesh was made; nothing of the row is kept
   }
   return row;
 }

@@ -3,6 +3,7 @@
 #include "benchmarks/harness/regress.hpp"
 
 #include "benchmarks/harness/interruption.hpp"
+#include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
 
 #include <memory>
@@ -17,7 +18,7 @@ Action declare_regress(CommandLine& line) {
               "record a new baseline of this case, or of all; asks for --why");
   line.option("--why", request->why, "reason of the new baseline, kept with it");
   line.option("--out", request->directory, "output folder (default results/regress)");
-  line.option("--threads", request->threads, "0: all processors");
+  declare_threads(line, request->threads);
   line.flag("--quiet", request->quiet, "no progress");
   return [request] {
     harness::regress(*request);

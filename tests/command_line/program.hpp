@@ -52,6 +52,12 @@ inline Outcome diptych(const Folder& folder, const std::string& arguments) {
   return outcome;
 }
 
+/// A shell line in the folder; $diptych is the program.
+inline Outcome shell(const Folder& folder, const std::string& line) {
+  return diptych(folder, "list > /dev/null; exec 2>&1; cd " + folder.path().string() +
+                             "; diptych=" DIPTYCH_BUILD_DIR "/diptych; " + line);
+}
+
 inline std::string text_of(const std::filesystem::path& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
