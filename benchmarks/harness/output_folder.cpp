@@ -6,6 +6,7 @@
 #include "common/base/error.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/io/run_record.hpp"
+#include "common/run/case_copy.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -91,6 +92,15 @@ void move_run(const fs::path& from, const fs::path& to) {
   if (error) fail(from, "set aside", error);
 }
 
+/// Whether some command of diptych has put its results into this folder: a table or page there is
+/// then its own, and not somebody else's of the same name.
+bool is_output_folder(const fs::path& directory) {
+  const fs::path copy = directory / "case.toml";
+  std::error_code error;
+  return !all_runs(directory).empty() ||
+         (fs::is_regular_file(copy, error) && run::is_case_copy(io::read_file(copy.string())));
+}
+
 bool contains(const std::vector<std::string>& paths, const fs::path& path) {
   return std::find(paths.begin(), paths.end(), path.string()) != paths.end();
 }
@@ -111,8 +121,8 @@ OutputFolder::OutputFolder(std::string directory,
   for (const fs::path& run : all_runs(directory_)) {
     const auto owner = owner_of(run);
     if (!owner) continue;
-    const bool is_same = owner->case_file.empty() ? owner->case_name == setup.name
-                                                  : owner->case_file == setup.file;
+    const bool is_same =
+        owner->case_file.empty() ? owner->case_name == setup.name : owner->case_file == setup.file;
     if (is_same) continue;
     of_another_case_ = true;
     if (force) return;
@@ -128,7 +138,7 @@ void OutputFolder::prepare() {
   prepared_ = true;
   io::make_directory(directory_);
   if (of_another_case_) remove_everything();
-  remove_pages();
+  if (is_output_folder(directory_)) remove_pages();
   if (kind_ == OutputKind::runs || kind_ == OutputKind::levels) {
     remove_runs();
     set_levels_aside();

@@ -24,13 +24,16 @@ Recorder::Recorder(const run::Case& setup,
       initial_(solver.balance()),
       energy_(initial_),
       cells_(mesh.mesh) {
-  if (!options.directory.empty()) log_ = std::make_unique<RunLog>(options.directory, setup);
-  if (!options.directory.empty() && options.fields && setup.output.fields) {
-    writer_ = std::make_unique<io::FieldWriter>(options.directory, visual_mesh(mesh));
-  }
   if (options.shapes) {
     const auto n_outputs = static_cast<size_t>(setup.output.frames) + 1;
     shapes_ = std::make_unique<ShapeRecorder>(mesh.mesh, n_outputs);
+  }
+}
+
+void Recorder::open(const CaseMesh& mesh) {
+  if (!options_.directory.empty()) log_ = std::make_unique<RunLog>(options_.directory, setup_);
+  if (!options_.directory.empty() && options_.fields && setup_.output.fields) {
+    writer_ = std::make_unique<io::FieldWriter>(options_.directory, visual_mesh(mesh));
   }
 }
 

@@ -31,6 +31,9 @@ class Recorder {
            run::Solver& solver,
            RunResult& result);
 
+  /// Makes the files that grow with the run, where the run has a folder.
+  /// @throws base::EnvironmentError
+  void open(const CaseMesh& mesh);
   /// At an output time.
   void record(const run::StepReport& step);
   /// After every step.

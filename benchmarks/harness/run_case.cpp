@@ -132,6 +132,7 @@ CaseRun::CaseRun(const run::Case& setup, const RunOptions& options)
   solver_ = run::make_solver(setup, result_.graph);
   identify();
   describe_graph(result_.graph, result_.summary);
+  recorder_.emplace(setup, options, *mesh_, *solver_, result_);
   folder_.check();
   if (folder_.is_written() && options.before_writing) options.before_writing();
   folder_.open(setup, result_.summary);
@@ -155,7 +156,7 @@ void CaseRun::identify() {
 
 void CaseRun::go() {
   io::RunSummary& s = result_.summary;
-  recorder_.emplace(setup_, options_, *mesh_, *solver_, result_);
+  recorder_->open(*mesh_);
   // from here on the solver's arrays are all that is needed, and the nodes
   result_.order = std::move(mesh_->order);
   release_pairs(result_.graph);
@@ -192,7 +193,7 @@ void CaseRun::finish() {
   measure();
   s.state_hash = solver_->state_hash(result_.order);
   recorder_->finish();
-  recorder_->fill(s);
+  if (!result_.history.empty()) recorder_->fill(s);
   if (s.status == "done") {
     s.measures =
         measured(options_.measures, {result_.graph, result_.final_state, recorder_->errors()});

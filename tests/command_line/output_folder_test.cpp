@@ -125,10 +125,28 @@ TEST_F(OutputFolder, LeavesACaseFileOfTheUserThere) {
   EXPECT_THAT(text_of(folder.path() / "out" / "fvm" / "case.toml"), HasSubstr("time.end=0.5"));
 }
 
+TEST_F(OutputFolder, KeepsPagesThatDiptychDidNotMake) {
+  fs::create_directories(folder.path() / "out");
+  folder.write("out/report.html", "mine");
+  folder.write("out/convergence.csv", "mine");
+  diptych("run --method fvm --no-fields" + cube);
+  EXPECT_EQ(text_of(folder.path() / "out" / "report.html"), "mine");
+  EXPECT_EQ(text_of(folder.path() / "out" / "convergence.csv"), "mine");
+}
+
 TEST_F(OutputFolder, IsNotTouchedWhereTheInputIsWrong) {
   diptych("compare" + cube);
   diptych("run --method sph --set mesh.cells=[0,1,1]" + cube, 2);
   diptych("run --method sph --level 25" + cube, 2);
+  const std::string file =
+      (fs::path(DIPTYCH_SOURCE_DIR) / "benchmarks/cases/shear-wave-elastic").string();
+  std::string text = text_of(fs::path(file) / "case.toml");
+  text +=
+      "\n[[probe]]\nname = \"far\"\nunit = \"m\"\nkind = \"point\"\nat = [9, 9, 9]\n"
+      "quantity = \"ux\"\n";
+  fs::create_directories(folder.path() / "wrong");
+  folder.write("wrong/case.toml", text);
+  diptych("run wrong --method sph --force", 2);
   EXPECT_TRUE(has("fvm/summary.json") && has("report.html") && has("sph/frame_0002.hdf"));
 }
 
