@@ -1,6 +1,7 @@
 #include "meshes/child_program.hpp"
 
 #include "common/base/error.hpp"
+#include "meshes/child_watch.hpp"
 #include "meshes/jail.hpp"
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 #include <utility>
 
@@ -81,42 +81,31 @@ std::vector<std::string> environment_with(const std::vector<std::string>& first)
   return result;
 }
 
+/// What a child knows of the process that made it.
+struct Parenthood {
+  pid_t parent;
+  const Jail* jail;
+};
+
 /// In the child: becomes the program, or tells through `report` why it could not. Nothing is
 /// allocated here, as another thread may have held the allocator when the process was forked.
-[[noreturn]] void become(
-    char* const* words, char* const* variables, int output, int report, const Jail* jail) noexcept {
+[[noreturn]] void become(char* const* words,
+                         char* const* variables,
+                         int output,
+                         int report,
+                         const Parenthood& born) noexcept {
+  if (!join_parent(born.parent)) _exit(127);
   const int input = ::open("/dev/null", O_RDONLY);
   const bool has_streams = input >= 0 && dup2(input, STDIN_FILENO) >= 0 &&
                            dup2(output, STDOUT_FILENO) >= 0 && dup2(output, STDERR_FILENO) >= 0;
   int error = has_streams ? 0 : errno;
-  if (error == 0 && jail != nullptr) error = jail->enter();
+  if (error == 0 && born.jail != nullptr) error = born.jail->enter();
   if (error == 0) {
     execve(words[0], words, variables);
     error = errno;
   }
   [[maybe_unused]] const auto told = ::write(report, &error, sizeof error);
   _exit(127);
-}
-
-std::string read_to_end(const std::string& program, int descriptor) {
-  std::string output;
-  std::array<char, 4096> block{};
-  for (;;) {
-    const ssize_t n = ::read(descriptor, block.data(), block.size());
-    if (n == 0) return output;
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail(program, "its output cannot be read", errno);
-    output.append(block.data(), static_cast<size_t>(n));
-    if (output.size() > 2 * most_output) output.erase(0, output.size() - most_output);
-  }
-}
-
-int wait_for(const std::string& program, pid_t child) {
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) fail(program, "waiting for it failed", errno);
-  }
-  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
 }  // namespace
@@ -160,20 +149,21 @@ ChildResult run_child(const std::string& program,
   words.insert(words.begin(), program);
   const std::vector<char*> word_pointers = pointers_to(words);
   const std::vector<char*> variable_pointers = pointers_to(variables);
+  const Parenthood born{getpid(), surroundings.jail};
   const pid_t child = fork();
   if (child < 0) fail(program, "cannot be started", errno);
   if (child == 0) {
     become(word_pointers.data(), variable_pointers.data(), output.writing.number(),
-           report.writing.number(), surroundings.jail);
+           report.writing.number(), born);
   }
   output.writing.close();
   report.writing.close();
   ChildResult result;
-  result.output = read_to_end(program, output.reading.number());
+  result.output = output_of(child, output.reading.number(), program, most_output);
+  result.exit_status = exit_status_of(child, program);
   int error = 0;
-  const bool failed = ::read(report.reading.number(), &error, sizeof error) == sizeof error;
-  result.exit_status = wait_for(program, child);
-  if (failed) fail(program, "cannot be started", error);
+  if (::read(report.reading.number(), &error, sizeof error) == sizeof error)
+    fail(program, "cannot be started", error);
   return result;
 }
 

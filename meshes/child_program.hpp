@@ -33,7 +33,8 @@ struct Surroundings {
 /// Runs a program to its end, with empty standard input.
 /// @param program    full path
 /// @param arguments  without the program's name
-/// @throws base::EnvironmentError where it cannot be started
+/// @throws base::EnvironmentError where it cannot be started; base::Interruption where the user
+///         asked this program to end: the child has ended, too
 ChildResult run_child(const std::string& program,
                       const std::vector<std::string>& arguments,
                       const Surroundings& surroundings);

@@ -1,6 +1,5 @@
 #include "benchmarks/harness/interruption.hpp"
 
-#include "benchmarks/harness/run_case.hpp"
 #include "common/base/error.hpp"
 
 #include <csignal>
@@ -45,6 +44,9 @@ void end_after_this_step(int signal) {
 void catch_interrupts() {
   std::signal(SIGINT, end_after_this_step);
   std::signal(SIGTERM, end_after_this_step);
+  // nohup has it ignored, which is to stay so
+  if (std::signal(SIGHUP, end_after_this_step) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 int exit_code_of_study(const std::string& to_go_on) {

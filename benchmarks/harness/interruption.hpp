@@ -1,13 +1,19 @@
 #pragma once
-/// Ctrl-C and SIGTERM: the run ends its step, what there is is written, the user is told how to go
-/// on, the exit code is 130. Test: tests/command_line/interrupt_test.cpp
+/// Ctrl-C, SIGTERM and SIGHUP: the run ends its step, what there is is written, the user is told
+/// how to go on, the exit code is 130. A run under nohup goes on when its terminal closes. Test:
+/// tests/command_line/interrupt_test.cpp
+
+#include "common/base/interruption.hpp"
 
 #include <string>
 
 namespace diptych::harness {
 
-/// From now on the first of the two ends the step (see interrupt_requested), the second the
-/// program.
+using base::interrupt_requested;
+using base::request_interrupt;
+
+/// From now on the first of the three ends the step (see interrupt_requested), the second the
+/// program; a write beyond a limit of the size of files is an error of that write.
 void catch_interrupts();
 
 /// 0, or that of an interrupt with a line on the standard error stream.

@@ -2,7 +2,7 @@
 
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_mesh.hpp"
-#include "benchmarks/harness/run_case.hpp"
+#include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/status_line.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/run/case_reader.hpp"

@@ -1,6 +1,7 @@
 #include "benchmarks/harness/regress_bless.hpp"
 
 #include "benchmarks/harness/backends.hpp"
+#include "benchmarks/harness/case_check.hpp"
 #include "benchmarks/harness/progress.hpp"
 #include "benchmarks/harness/provenance.hpp"
 #include "benchmarks/harness/regress_cases.hpp"

@@ -3,6 +3,7 @@
 
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/convergence.hpp"
+#include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/provenance.hpp"
 #include "benchmarks/harness/quantities.hpp"
 #include "benchmarks/harness/regress.hpp"
@@ -355,6 +356,8 @@ RegressMeasurement measure_regress(const std::string& case_file,
       }
     } catch (const base::BreakdownError& error) {
       now.failure = error.what();
+    } catch (const base::Interruption&) {
+      return measurement;  // while a mesh was made
     }
     now.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }

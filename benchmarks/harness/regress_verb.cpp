@@ -3,12 +3,12 @@
 #include "benchmarks/harness/regress_verb.hpp"
 
 #include "benchmarks/harness/backends.hpp"
+#include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/progress.hpp"
 #include "benchmarks/harness/provenance.hpp"
 #include "benchmarks/harness/regress_bless.hpp"
 #include "benchmarks/harness/regress_cases.hpp"
 #include "benchmarks/harness/regress_report.hpp"
-#include "benchmarks/harness/run_case.hpp"
 #include "benchmarks/harness/schedule.hpp"
 #include "common/base/error.hpp"
 #include "common/io/atomic_file.hpp"

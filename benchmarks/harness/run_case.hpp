@@ -9,6 +9,7 @@
 #include "common/run/solver.hpp"
 #include "postprocess/report/shapes.hpp"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,8 +25,10 @@ struct RunOptions {
   bool quiet = false;     ///< no progress
   bool shapes = false;    ///< keep deformed surfaces for a report
   bool scales = false;    ///< find the largest norms of the fields over the output times
-  std::vector<NodeMeasure> measures;   ///< of the final state, for summary.json
-  const Schedule* schedule = nullptr;  ///< of the command that makes this run among others
+  std::vector<NodeMeasure> measures;     ///< of the final state, for summary.json
+  const Schedule* schedule = nullptr;    ///< of the command that makes this run among others
+  std::function<void()> before_writing;  ///< called once mesh, graph and solver stand, before the
+                                         ///< folder of the run is made; may be empty
 };
 
 struct RunResult {
@@ -40,30 +43,15 @@ struct RunResult {
   scheme::PairGraph graph;               ///< without its pairs
 };
 
-/// @throws base::InputError, base::EnvironmentError before anything is written;
-///         base::BreakdownError after the summary with status "breakdown" has been written
+/// A breakdown is a result: summary.status "breakdown" and summary.failure say so, the rest is
+/// what had been computed until then.
+/// @throws base::InputError, base::EnvironmentError, std::bad_alloc: before anything is written, or
+///         after the summary with status "failed" and the message has been;
+///         base::Interruption where the user ended the meshing: nothing is written
+RunResult attempt_case(const run::Case& setup, const RunOptions& options);
+
+/// The same where a breakdown is the end.
+/// @throws base::BreakdownError too, after the summary with status "breakdown" has been written
 RunResult run_case(const run::Case& setup, const RunOptions& options);
-
-/// What `diptych check` tells of a case without running it.
-struct CaseCheck {
-  std::int64_t nodes = 0, cells = 0, pairs = 0, steps = 0;
-  std::int64_t bytes = 0;           ///< arrays of the solver
-  std::int64_t running_bytes = 0;   ///< resident set once the solver stands
-  std::int64_t building_bytes = 0;  ///< largest resident set until then
-  double estimated_bytes = 0;       ///< of that, from the case alone
-  double setup_seconds = 0;         ///< until the solver stood
-  double seconds = 0;               ///< of all steps, as the first ones went; without output
-  double dt = 0;                    ///< s, of the first step
-  scheme::GraphQuality quality;
-};
-CaseCheck check_case(const run::Case& setup, const std::string& method, int level);
-
-/// Set by a signal handler: the run ends its step, writes what there is, status "interrupted".
-void request_interrupt();
-bool interrupt_requested();
-
-/// Creates DIR for a run, or takes one that an earlier run made (it has a summary.json).
-/// @throws base::EnvironmentError where it cannot, base::InputError where it holds something else
-void claim_directory(const std::string& directory);
 
 }  // namespace diptych::harness

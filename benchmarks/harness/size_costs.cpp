@@ -2,13 +2,14 @@
 
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_mesh.hpp"
+#include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/memory.hpp"
 #include "benchmarks/harness/memory_estimate.hpp"
-#include "benchmarks/harness/run_case.hpp"
 #include "benchmarks/harness/status_line.hpp"
 #include "common/base/error.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/run/case_reader.hpp"
+#include "common/run/solver.hpp"
 
 #include <algorithm>
 #include <chrono>

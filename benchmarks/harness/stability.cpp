@@ -1,6 +1,6 @@
 #include "benchmarks/harness/stability.hpp"
 
-#include "benchmarks/harness/run_case.hpp"
+#include "benchmarks/harness/interruption.hpp"
 #include "common/base/error.hpp"
 #include "common/run/default_cfl.hpp"
 #include "common/run/solver.hpp"

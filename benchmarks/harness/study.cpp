@@ -1,6 +1,9 @@
 #include "benchmarks/harness/study.hpp"
 
+#include "benchmarks/harness/breakdowns.hpp"
+#include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/memory_estimate.hpp"
+#include "benchmarks/harness/output_folder.hpp"
 #include "benchmarks/harness/resumption.hpp"
 #include "common/base/text.hpp"
 #include "common/run/case_reader.hpp"
@@ -43,46 +46,84 @@ std::string run_directory(const StudyOptions& options, int level, const std::str
   return (path / method).string();
 }
 
+/// What the options ask of one run.
+RunOptions run_options(const StudyOptions& options, int level, const std::string& method) {
+  RunOptions run;
+  run.method = method;
+  run.level = level;
+  run.threads = options.threads;
+  run.directory = run_directory(options, level, method);
+  run.fields = options.fields;
+  run.quiet = options.quiet;
+  run.shapes = options.shapes && level == options.levels.back();
+  run.scales = options.methods.size() == 2 && level == options.levels.back();
+  return run;
+}
+
+void add_run(Study& study,
+             const RunOptions& options,
+             const io::RunSummary& summary,
+             const std::vector<io::HistoryRow>& history,
+             const std::vector<io::HistoryColumn>& exact) {
+  study.runs.push_back(summary);
+  study.directories.push_back(options.directory);
+  study.histories[options.method] = history;
+  study.exact[options.method] = exact;
+}
+
+/// All methods on one level.
+void run_level(const run::Case& setup,
+               const StudyOptions& options,
+               int level,
+               OutputFolder& output,
+               Schedule& schedule,
+               Study& study) {
+  std::vector<RunResult> results;
+  for (const std::string& method : options.methods) {
+    RunOptions run = run_options(options, level, method);
+    if (const auto finished = options.resume ? finished_run(setup, run) : std::nullopt) {
+      add_run(study, run, finished->summary, finished->history, finished->exact);
+      study.taken_over.push_back(run.directory);
+      schedule.finish(finished->summary.wall_seconds);
+      continue;
+    }
+    run.schedule = &schedule;
+    run.before_writing = [&output] { output.prepare(); };
+    RunResult result = attempt_case(setup, run);
+    if (result.summary.status == "breakdown") {
+      schedule.finish(std::nullopt);
+      study.breakdowns.push_back(breakdown_of(result.summary));
+    } else {
+      schedule.finish(result.summary.wall_seconds);
+      add_run(study, run, result.summary, result.history, result.exact);
+      if (run.shapes) study.shapes[method] = std::move(result.shapes);
+      results.push_back(std::move(result));
+    }
+    if (interrupt_requested()) return;
+  }
+  // of the finest level only, and only where both were run now
+  if (results.size() == 2 && level == options.levels.back())
+    study.differences = differences_of(results[0], results[1]);
+}
+
 }  // namespace
 
 Study run_study(const run::Case& setup, const StudyOptions& options) {
   require_memory(setup, options.methods, options.levels);
+  const bool has_levels = options.levels.size() > 1;
+  OutputFolder output(options.directory, setup, has_levels ? OutputKind::levels : OutputKind::runs,
+                      options.force);
+  if (has_levels) output.ask_for(options.levels, options.methods, !options.resume);
   Study study;
   Schedule schedule = schedule_of(setup, options);
-  for (const int level : options.levels) {
-    std::vector<RunResult> results;
-    for (const std::string& method : options.methods) {
-      RunOptions run_options;
-      run_options.method = method;
-      run_options.level = level;
-      run_options.schedule = &schedule;
-      run_options.threads = options.threads;
-      run_options.directory = run_directory(options, level, method);
-      run_options.fields = options.fields;
-      run_options.quiet = options.quiet;
-      run_options.shapes = options.shapes && level == options.levels.back();
-      run_options.scales = options.methods.size() == 2 && level == options.levels.back();
-      const auto finished = options.resume ? finished_run(setup, run_options) : std::nullopt;
-      study.directories.push_back(run_options.directory);
-      if (finished) {
-        study.runs.push_back(finished->summary);
-        study.histories[method] = finished->history;
-        study.exact[method] = finished->exact;
-        study.taken_over.push_back(run_options.directory);
-        schedule.finish(finished->summary.wall_seconds);
-        continue;
-      }
-      results.push_back(run_case(setup, run_options));
-      study.runs.push_back(results.back().summary);
-      schedule.finish(results.back().summary.wall_seconds);
-      study.histories[method] = results.back().history;
-      study.exact[method] = results.back().exact;
-      if (run_options.shapes) study.shapes[method] = std::move(results.back().shapes);
+  try {
+    for (const int level : options.levels) {
+      run_level(setup, options, level, output, schedule, study);
       if (interrupt_requested()) return study;
     }
-    // of the finest level only, and only where both were run now
-    if (results.size() == 2 && level == options.levels.back())
-      study.differences = differences_of(results[0], results[1]);
+    output.prepare();  // where all runs were taken over
+  } catch (const base::Interruption&) {
+    // while a mesh was made: what was finished before stands
   }
   return study;
 }
@@ -149,6 +190,9 @@ report::StudyReport report_of(const run::Case& setup,
   report.material = material_lines(setup.material);
   report.runs = study.runs;
   report.histories = study.histories;
+  report.breakdowns = study.breakdowns;
+  for (report::Breakdown& one : report.breakdowns)
+    one.message = one.message.substr(0, one.message.find('\n'));
   report.differences = study.differences;
   report.references = references_of(setup, study);
   report.shapes = study.shapes;

@@ -20,20 +20,28 @@ struct StudyOptions {
   bool quiet = false;
   bool shapes = false;  ///< keep deformed surfaces of the finest level for the report
   bool resume = false;  ///< runs that the same program has finished there are taken over
+  bool force = false;   ///< results of another case in the folder may be replaced
 };
 
 struct Study {
-  std::vector<io::RunSummary> runs;  ///< level by level, methods in the order of the options
-  std::map<std::string, std::vector<io::HistoryRow>> histories;  ///< method: finest level
-  std::map<std::string, std::vector<io::HistoryColumn>> exact;   ///< method: finest level
+  /// level by level, methods in the order of the options; without those that broke down
+  std::vector<io::RunSummary> runs;
+  std::vector<report::Breakdown> breakdowns;
+  // of each method the finest level that did not break down
+  std::map<std::string, std::vector<io::HistoryRow>> histories;  ///< method: rows
+  std::map<std::string, std::vector<io::HistoryColumn>> exact;   ///< method: columns
   std::vector<std::string> directories;                          ///< of each run
   std::vector<std::string> taken_over;                           ///< directories of such runs
   std::map<std::string, report::ShapeRecord> shapes;             ///< method: finest level
   std::map<std::string, double> differences;  ///< field: L2 at the nodes at the end, finest level,
                                               ///< over its largest norm at any output time
+
+  /// Nothing was run or taken over.
+  bool is_empty() const { return runs.empty() && breakdowns.empty(); }
 };
 
-/// Runs all methods on all levels; stops after an interrupt.
+/// Runs all methods on all levels; a breakdown ends only its own run, an interrupt all.
+/// @throws base::InputError where results of another case lie in the folder
 Study run_study(const run::Case& setup, const StudyOptions& options);
 
 /// The study as the report shows it. @param convergence  of its runs; empty: of one level

@@ -1,13 +1,16 @@
 #include "benchmarks/harness/study_runs.hpp"
 
+#include "benchmarks/harness/breakdowns.hpp"
+#include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/provenance.hpp"
 #include "benchmarks/harness/resumption.hpp"
 #include "benchmarks/harness/run_case.hpp"
 #include "benchmarks/harness/status_line.hpp"
 #include "common/base/error.hpp"
+#include "common/base/interruption.hpp"
 #include "common/base/text.hpp"
-#include "common/io/atomic_file.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/parallel/thread_count.hpp"
 #include "common/run/case_reader.hpp"
 #include "postprocess/report/orders.hpp"
 
@@ -25,8 +28,8 @@ std::optional<io::RunSummary> timed_before(const run::Case& setup, const RunOpti
   const auto finished = finished_run(setup, options);
   if (!finished) return std::nullopt;
   const io::RunSummary& run = finished->summary;
-  const bool same =
-      run.threads == parallel::n_threads() && run.provenance.cpu == provenance(setup.hash).cpu;
+  const bool same = run.threads == parallel::running_threads() &&
+                    run.provenance.cpu == provenance(setup.hash).cpu;
   return same ? std::optional(run) : std::nullopt;
 }
 
@@ -77,10 +80,12 @@ class Runner {
   Runner(const StudyRequest& request,
          const std::vector<run::Case>& cases,
          std::vector<PlannedRun> planned,
+         OutputFolder& output,
          StudyRuns& runs)
       : request_(request),
         cases_(cases),
         schedule_(std::move(planned)),
+        output_(output),
         runs_(runs),
         status_(request.quiet) {
     options_.threads = request.threads;
@@ -91,7 +96,7 @@ class Runner {
     // of an exact solution the first run tells whether what was asked makes sense: nothing is
     // written before
     is_checked_ = !has_exact(cases.front());
-    if (is_checked_) io::make_directory(request.directory);
+    if (is_checked_) output.prepare();
   }
 
   /// @return false after an interrupt
@@ -105,15 +110,15 @@ class Runner {
                              turn.repetition + 1, request_.repeats));
     const auto before = request_.fresh ? std::nullopt : timed_before(setup, options_);
     if (before) ++n_taken_over_;
-    try {
-      const io::RunSummary run = before ? *before : run_case(setup, options_).summary;
-      if (interrupt_requested()) return false;
-      schedule_.finish(run.wall_seconds);
-      check_field(run);
-      add_to_curve(run, setup, curve);
-    } catch (const base::BreakdownError& error) {
+    const io::RunSummary run = before ? *before : attempt_case(setup, options_).summary;
+    if (interrupt_requested()) return false;
+    check_field(run);
+    if (run.status == "breakdown") {
       schedule_.finish(std::nullopt);
-      if (turn.repetition == 0) runs_.breakdowns.push_back(broken(curve, error.what()));
+      if (turn.repetition == 0) add_breakdown(run, curve.variant);
+    } else {
+      schedule_.finish(run.wall_seconds);
+      add_to_curve(run, setup, curve);
     }
     return true;
   }
@@ -136,17 +141,20 @@ class Runner {
   void check_field(const io::RunSummary& run) {
     if (is_checked_) return;
     runs_.field = field_of(request_, run);
-    io::make_directory(request_.directory);
+    output_.prepare();
     is_checked_ = true;
   }
 
-  static std::string broken(const WorkCurve& curve, const std::string& what) {
-    return curve.variant.empty() ? what : curve.variant + ", " + what;
+  void add_breakdown(const io::RunSummary& run, const std::string& variant) {
+    runs_.breakdowns.push_back(breakdown_of(run));
+    std::string& message = runs_.breakdowns.back().message;
+    if (!variant.empty()) message = variant + ": " + message;
   }
 
   const StudyRequest& request_;
   const std::vector<run::Case>& cases_;
   Schedule schedule_;
+  OutputFolder& output_;
   StudyRuns& runs_;
   StatusLine status_;
   RunOptions options_;
@@ -162,7 +170,8 @@ bool has_exact(const run::Case& setup) {
 
 StudyRuns runs_of_study(const StudyRequest& request,
                         const std::vector<Variant>& variants,
-                        const std::vector<run::Case>& cases) {
+                        const std::vector<run::Case>& cases,
+                        OutputFolder& output) {
   StudyRuns runs;
   for (const Variant& variant : variants) {
     for (const std::string& method : request.methods)
@@ -175,11 +184,15 @@ StudyRuns runs_of_study(const StudyRequest& request,
     planned.push_back({curve.name(), curve.method, turn.level,
                        run::dimension_of(cases[turn.curve / request.methods.size()].mesh)});
   }
-  Runner runner(request, cases, std::move(planned), runs);
-  for (size_t i = 0; i < turns.size(); ++i) {
-    if (!runner.take(turns[i])) break;
-    if (i + 1 == turns.size() || turns[i + 1].level != turns[i].level)
-      runner.tell_of_level(turns[i].level);
+  Runner runner(request, cases, std::move(planned), output, runs);
+  try {
+    for (size_t i = 0; i < turns.size(); ++i) {
+      if (!runner.take(turns[i])) break;
+      if (i + 1 == turns.size() || turns[i + 1].level != turns[i].level)
+        runner.tell_of_level(turns[i].level);
+    }
+  } catch (const base::Interruption&) {
+    // while a mesh was made: what was finished before stands
   }
   runs.curves.erase(std::remove_if(runs.curves.begin(), runs.curves.end(),
                                    [](const WorkCurve& curve) { return curve.points.empty(); }),

@@ -3,6 +3,7 @@
 /// round the curves, so that a slow minute of the machine hits all of them. A run that breaks down
 /// is left out and the others go on. Test: tests/command_line/study_test.cpp
 
+#include "benchmarks/harness/output_folder.hpp"
 #include "benchmarks/harness/study_verb.hpp"
 #include "benchmarks/harness/variants.hpp"
 #include "benchmarks/harness/work_precision.hpp"
@@ -10,17 +11,19 @@
 namespace diptych::harness {
 
 struct StudyRuns {
-  std::vector<WorkCurve> curves;        ///< those with a run at least
-  std::string field;                    ///< whose error is shown; empty without an exact solution
-  std::vector<std::string> breakdowns;  ///< what is known of each
+  std::vector<WorkCurve> curves;              ///< those with a run at least
+  std::string field;                          ///< whose error is shown, or empty
+  std::vector<report::Breakdown> breakdowns;  ///< with the variant in the message
 };
 
 bool has_exact(const run::Case& setup);
 
-/// @param cases  of the variants
+/// @param cases   of the variants
+/// @param output  prepared once the first run has shown that what was asked makes sense
 /// @throws base::InputError where --field is not measured, after the first run
 StudyRuns runs_of_study(const StudyRequest& request,
                         const std::vector<Variant>& variants,
-                        const std::vector<run::Case>& cases);
+                        const std::vector<run::Case>& cases,
+                        OutputFolder& output);
 
 }  // namespace diptych::harness

@@ -1,8 +1,11 @@
 #include "benchmarks/harness/study_verb.hpp"
 
 #include "benchmarks/harness/backends.hpp"
+#include "benchmarks/harness/breakdowns.hpp"
 #include "benchmarks/harness/case_mesh.hpp"
+#include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/memory_estimate.hpp"
+#include "benchmarks/harness/output_folder.hpp"
 #include "benchmarks/harness/run_case.hpp"
 #include "benchmarks/harness/status_line.hpp"
 #include "benchmarks/harness/study_runs.hpp"
@@ -13,6 +16,8 @@
 #include "common/io/atomic_file.hpp"
 #include "common/io/run_record.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/parallel/thread_count.hpp"
+#include "common/run/case_reader.hpp"
 #include "common/time/integrator.hpp"
 
 #include <cstdio>
@@ -85,7 +90,7 @@ void study_stability(const StudyRequest& asked) {
     cases.push_back(case_of_variant(request.case_file, request.overrides, variant));
   for (const run::Case& setup : cases)
     require_memory(setup, request.methods, {request.level});
-  io::make_directory(request.directory);
+  OutputFolder output(request.directory, cases.front(), OutputKind::stability, request.force);
   parallel::set_threads(request.threads);
   std::vector<StabilityLimit> limits;
   StatusLine status(request.quiet);
@@ -98,6 +103,7 @@ void study_stability(const StudyRequest& asked) {
   print(fmt::format("{}, level {}: largest stable time step, as a factor on the graph bound\n",
                     cases.front().name, request.level));
   print(stability_table(limits));
+  output.prepare();
   write(request, "stability.csv", stability_csv(limits));
 }
 
@@ -144,7 +150,7 @@ void show_quantities(const StudyRequest& request,
 
 }  // namespace
 
-void study_variants(const StudyRequest& asked) {
+std::vector<report::Breakdown> study_variants(const StudyRequest& asked) {
   const auto variants = variants_of(asked.variations);
   std::vector<run::Case> cases;  // all are read before the first runs
   for (const Variant& variant : variants)
@@ -156,16 +162,16 @@ void study_variants(const StudyRequest& asked) {
   std::iota(levels.begin(), levels.end(), request.level);
   for (const run::Case& one : cases)
     require_memory(one, request.methods, levels);
-  const StudyRuns runs = runs_of_study(request, variants, cases);
-  if (!runs.curves.empty()) {  // else interrupted in the first run
+  const run::Case base_case = run::read_case(request.case_file, request.overrides);
+  OutputFolder output(request.directory, base_case, OutputKind::study, request.force);
+  const StudyRuns runs = runs_of_study(request, variants, cases, output);
+  if (!runs.curves.empty()) {  // else interrupted in the first run, or all broke down
     if (has_exact(setup)) show_errors(request, setup, runs);
     if (!has_exact(setup) || !request.quantities.empty())
       show_quantities(request, setup, variants, runs);
   }
-  if (!runs.breakdowns.empty()) {
-    throw base::BreakdownError(fmt::format("{} of the runs broke down: {}", runs.breakdowns.size(),
-                                           fmt::join(runs.breakdowns, "; ")));
-  }
+  print(breakdown_table(runs.breakdowns));
+  return runs.breakdowns;
 }
 
 }  // namespace diptych::harness

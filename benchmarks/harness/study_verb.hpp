@@ -3,6 +3,7 @@
 /// quantities where there is no exact solution, or where they are asked for.
 
 #include "benchmarks/harness/stability.hpp"
+#include "postprocess/report/study_report.hpp"
 
 #include <limits>
 #include <string>
@@ -24,6 +25,7 @@ struct StudyRequest {
   int threads = 0;
   std::string directory;
   bool quiet = false, fresh = false;
+  bool force = false;  ///< results of another case in the folder may be replaced
   StabilityOptions stability;
 };
 
@@ -34,8 +36,9 @@ void study_stability(const StudyRequest& request);
 /// errors against cost and writes DIR/work_precision.csv and .html; else, and where quantities are
 /// asked for, those with DIR/quantities.csv and .html. Runs are kept in DIR/runs, and taken over
 /// where the same program has finished them with as many threads on the same kind of processor.
-/// @throws base::InputError before the first run; base::BreakdownError at the end, when all other
-///         runs are made and shown
-void study_variants(const StudyRequest& request);
+/// A run that breaks down is left out.
+/// @return the runs that broke down
+/// @throws base::InputError before the first run
+std::vector<report::Breakdown> study_variants(const StudyRequest& request);
 
 }  // namespace diptych::harness

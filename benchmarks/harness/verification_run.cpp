@@ -2,6 +2,7 @@
 
 #include "benchmarks/harness/backends.hpp"
 #include "benchmarks/harness/case_list.hpp"
+#include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/progress.hpp"
 #include "benchmarks/harness/resumption.hpp"
 #include "benchmarks/harness/verification.hpp"
@@ -94,6 +95,8 @@ VerificationRow row_of(const VerificationTable& table,
   } catch (const base::BreakdownError& error) {
     row.summary.level = entry.levels[i];
     row.failure = error.what();
+  } catch (const base::Interruption& error) {
+    row.failure = error.what();  // while a mesh was made; nothing of the row is kept
   }
   return row;
 }

@@ -1,8 +1,11 @@
 #include "benchmarks/verbs/case_arguments.hpp"
 
 #include "benchmarks/harness/backends.hpp"
+#include "benchmarks/harness/breakdowns.hpp"
 #include "benchmarks/harness/case_list.hpp"
 #include "benchmarks/harness/case_mesh.hpp"
+#include "benchmarks/harness/interruption.hpp"
+#include "common/parallel/thread_count.hpp"
 #include "common/run/case_reader.hpp"
 
 #include <cstdio>
@@ -18,11 +21,15 @@ void CaseArguments::declare_case(CommandLine& line) {
 void CaseArguments::declare(CommandLine& line) {
   declare_case(line);
   line.option("--level", level, "the mesh spacing is divided by 2^level");
-  line.option("--threads", threads, "0: all processors");
+  declare_threads(line, threads);
   line.repeated("--set", overrides, "key=value, overrides the case file; repeatable");
   line.option("--out", directory, "output folder (default results/CASE)");
   line.flag("--quiet", quiet, "no progress");
   line.flag("--no-fields", no_fields, "write no field frames");
+}
+
+void CaseArguments::declare_force(CommandLine& line) {
+  line.flag("--force", force, "replace results of another case in the output folder");
 }
 
 void CaseArguments::declare_with_method(CommandLine& line) {
@@ -58,12 +65,28 @@ harness::StudyOptions CaseArguments::study_options(const run::Case& setup) const
   options.directory = output_folder(setup);
   options.fields = !no_fields;
   options.quiet = quiet;
+  options.force = force;
   return options;
+}
+
+void declare_threads(CommandLine& line, int& threads) {
+  line.count("--threads", threads, 0, parallel::most_threads,
+             "how many threads; 0: OMP_NUM_THREADS, or all processors");
 }
 
 void print(const std::string& text) {
   std::fputs(text.c_str(), stdout);
   std::fflush(stdout);
+}
+
+void print_breakdowns(const harness::Study& study) {
+  const std::string table = harness::breakdown_table(study.breakdowns);
+  if (!table.empty()) print(table + "\n");
+}
+
+std::string end_of(const harness::Study& study, const std::string& folder) {
+  return study.is_empty() ? "nothing had been computed; the same command begins again"
+                          : harness::begin_again(folder);
 }
 
 void write_report(const run::Case& setup,

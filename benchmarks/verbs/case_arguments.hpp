@@ -20,12 +20,14 @@ struct CaseArguments {
   std::string case_name, cases_folder, method = "both", directory;
   std::vector<std::string> overrides;
   int level = 0, threads = 0;
-  bool quiet = false, no_fields = false;
+  bool quiet = false, no_fields = false, force = false;
 
   /// Adds `case` and --cases.
   void declare_case(CommandLine& line);
   /// Adds these, --level, --threads, --set, --out, --quiet, --no-fields.
   void declare(CommandLine& line);
+  /// Adds --force, of verbs that write results of the case.
+  void declare_force(CommandLine& line);
   /// Adds --method too.
   void declare_with_method(CommandLine& line);
 
@@ -41,8 +43,17 @@ struct CaseArguments {
   harness::StudyOptions study_options(const run::Case& setup) const;
 };
 
+/// --threads, with its range.
+void declare_threads(CommandLine& line, int& threads);
+
 /// Writes to standard output and flushes it.
 void print(const std::string& text);
+
+/// The runs that broke down; nothing where none did.
+void print_breakdowns(const harness::Study& study);
+
+/// Of a command without levels that was interrupted: where what it has is, and how to go on.
+std::string end_of(const harness::Study& study, const std::string& folder);
 
 /// Writes DIR/report.html and says so. @param convergence  of the runs; empty: of one level
 void write_report(const run::Case& setup,

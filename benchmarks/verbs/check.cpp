@@ -1,8 +1,8 @@
 /// diptych check: reads a case, builds its graphs and makes one step.
 
+#include "benchmarks/harness/case_check.hpp"
 #include "benchmarks/harness/memory_estimate.hpp"
 #include "benchmarks/harness/progress.hpp"
-#include "benchmarks/harness/run_case.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
 #include "common/parallel/for_chunks.hpp"

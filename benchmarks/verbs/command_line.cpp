@@ -23,6 +23,9 @@ void CommandLine::option(const char* name, int& value, const char* help) {
 void CommandLine::option(const char* name, double& value, const char* help) {
   verb_.add_option(name, value, help);
 }
+void CommandLine::count(const char* name, int& value, int least, int most, const char* help) {
+  verb_.add_option(name, value, help)->check(CLI::Range(least, most));
+}
 void CommandLine::required(const char* name, double& value, const char* help) {
   verb_.add_option(name, value, help)->required();
 }

@@ -26,6 +26,8 @@ class CommandLine {
   void option(const char* name, std::string& value, const char* help);
   void option(const char* name, int& value, const char* help);
   void option(const char* name, double& value, const char* help);
+  /// A whole number between two others.
+  void count(const char* name, int& value, int least, int most, const char* help);
   /// An option without which the verb does not run.
   void required(const char* name, double& value, const char* help);
   /// An option that may stand several times, one value each.

@@ -1,7 +1,7 @@
 /// diptych compare: both methods on the same nodes, what they cost, how far they are apart.
 
+#include "benchmarks/harness/breakdowns.hpp"
 #include "benchmarks/harness/history_differences.hpp"
-#include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/run_table.hpp"
 #include "benchmarks/harness/tables.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
@@ -27,9 +27,14 @@ int compare_methods(const CaseArguments& arguments) {
     print(harness::comparison_table(study.runs[0], study.runs[1], study.differences, apart));
     for (const auto& summary : study.runs)
       print(harness::inverted_cells_warning(summary));
-    write_report(setup, study, options.directory);
+  } else {  // the other one broke down, or was never begun
+    for (const auto& summary : study.runs)
+      print(harness::run_table(summary) + "\n");
   }
-  return harness::exit_code_of_study(harness::begin_again(options.directory));
+  print_breakdowns(study);
+  if (study.runs.size() + study.breakdowns.size() == 2)
+    write_report(setup, study, options.directory);
+  return harness::exit_code_of_study(study.breakdowns, end_of(study, options.directory));
 }
 
 }  // namespace
@@ -37,6 +42,7 @@ int compare_methods(const CaseArguments& arguments) {
 Action declare_compare(CommandLine& line) {
   const auto arguments = std::make_shared<CaseArguments>();
   arguments->declare(line);
+  arguments->declare_force(line);
   return [arguments] { return compare_methods(*arguments); };
 }
 

@@ -1,5 +1,6 @@
 /// diptych converge: levels of refinement, errors with observed orders, extrapolated quantities.
 
+#include "benchmarks/harness/breakdowns.hpp"
 #include "benchmarks/harness/case_mesh.hpp"
 #include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/run_table.hpp"
@@ -27,7 +28,7 @@ std::vector<harness::MethodConvergence> finished_levels(const harness::Study& st
                                                         const std::vector<std::string>& columns) {
   std::vector<harness::LevelRecord> records;
   for (size_t i = 0; i < study.runs.size(); ++i) {
-    if (study.runs[i].status == "interrupted") continue;
+    if (study.runs[i].status != "done") continue;
     const std::string file = (std::filesystem::path(study.directories[i]) / "history.csv").string();
     records.push_back({study.runs[i], io::history_columns_from_csv(io::read_file(file), file)});
   }
@@ -60,9 +61,11 @@ void show_convergence(const run::Case& setup,
   if (!agreement.empty()) print(agreement + "\n");
   for (const auto& summary : study.runs)
     print(harness::inverted_cells_warning(summary));
+  print_breakdowns(study);
   if (convergence.empty()) return;
   write_tables(convergence, folder);
-  if (study.shapes.size() < arguments.methods().size() && !harness::interrupt_requested()) {
+  const bool is_whole = study.breakdowns.empty() && !harness::interrupt_requested();
+  if (study.shapes.size() < arguments.methods().size() && is_whole) {
     print(
         "bodies and difference of the methods: not all in this report, as a run of the finest "
         "level was\n  taken over; 'diptych compare' or --fresh gives them\n");
@@ -86,7 +89,7 @@ int converge(const ConvergeArguments& arguments) {
     print("taken over, not run again: " + folder + "\n");
   if (!study.taken_over.empty()) print("\n");
   show_convergence(setup, arguments, study, options.directory);
-  return harness::exit_code_of_study(harness::go_on_from(options.directory));
+  return harness::exit_code_of_study(study.breakdowns, harness::go_on_from(options.directory));
 }
 
 }  // namespace
@@ -94,6 +97,7 @@ int converge(const ConvergeArguments& arguments) {
 Action declare_converge(CommandLine& line) {
   const auto arguments = std::make_shared<ConvergeArguments>();
   arguments->declare_with_method(line);
+  arguments->declare_force(line);
   line.option("--levels", arguments->levels, "number of levels, from --level on");
   line.flag("--fresh", arguments->fresh, "run finished levels again too");
   line.repeated("--quantity", arguments->quantities,

@@ -3,6 +3,7 @@
 #include "benchmarks/harness/cost_verb.hpp"
 #include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/verbs/table.hpp"
+#include "common/parallel/thread_count.hpp"
 
 #include <memory>
 
@@ -36,7 +37,7 @@ Action declare_cost(CommandLine& line) {
   line.list("--sizes", arguments->sizes,
             "nodes along the side of a cube, such as 22,47,101: cost, set-up and memory by size "
             "instead");
-  line.option("--threads", arguments->threads, "with --sizes: default 1");
+  line.count("--threads", arguments->threads, 0, parallel::most_threads, "with --sizes: default 1");
   line.repeated("--set", arguments->overrides, "with --sizes: key=value of a case; repeatable");
   line.option("--out", arguments->folder, "output folder (default results)");
   line.flag("--quiet", arguments->quiet, "no progress");

@@ -28,7 +28,7 @@ Action declare_regress(CommandLine& line) {
   line.option("--one-level-because", request->one_level_because,
               "with --levels 1: the reason, kept with the baseline");
   line.option("--out", request->directory, "output folder (default results/regress)");
-  line.option("--threads", request->threads, "0: all processors");
+  declare_threads(line, request->threads);
   line.flag("--quiet", request->quiet, "no progress");
   return [request] {
     harness::regress(*request);

@@ -1,6 +1,6 @@
 /// diptych run: a case with one method or both.
 
-#include "benchmarks/harness/interruption.hpp"
+#include "benchmarks/harness/breakdowns.hpp"
 #include "benchmarks/harness/run_table.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
@@ -17,8 +17,9 @@ int run_methods(const CaseArguments& arguments) {
   const harness::Study study = harness::run_study(setup, options);
   for (const auto& summary : study.runs)
     print(harness::run_table(summary) + "\n");
-  print("output: " + options.directory + "\n");
-  return harness::exit_code_of_study(harness::begin_again(options.directory));
+  print_breakdowns(study);
+  if (!study.is_empty()) print("output: " + options.directory + "\n");
+  return harness::exit_code_of_study(study.breakdowns, end_of(study, options.directory));
 }
 
 }  // namespace
@@ -26,6 +27,7 @@ int run_methods(const CaseArguments& arguments) {
 Action declare_run(CommandLine& line) {
   const auto arguments = std::make_shared<CaseArguments>();
   arguments->declare_with_method(line);
+  arguments->declare_force(line);
   return [arguments] { return run_methods(*arguments); };
 }
 

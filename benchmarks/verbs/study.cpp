@@ -1,6 +1,7 @@
 /// diptych study: error against cost, or quantities, of a case and its variants; or stability
 /// limits.
 
+#include "benchmarks/harness/breakdowns.hpp"
 #include "benchmarks/harness/interruption.hpp"
 #include "benchmarks/harness/study_verb.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
@@ -26,14 +27,15 @@ int study(const StudyArguments& arguments) {
   request.level = arguments.level;
   request.threads = arguments.threads;
   request.quiet = arguments.quiet;
+  request.force = arguments.force;
   request.directory = arguments.output_folder(run::read_case(request.case_file));
   if (arguments.stability) {
     harness::study_stability(request);
     return harness::exit_code_of_study(
         "the limits above are in stability.csv; the same command begins again");
   }
-  harness::study_variants(request);
-  return harness::exit_code_of_study(harness::go_on_from(request.directory));
+  const auto breakdowns = harness::study_variants(request);
+  return harness::exit_code_of_study(breakdowns, harness::go_on_from(request.directory));
 }
 
 }  // namespace
@@ -42,6 +44,7 @@ Action declare_study(CommandLine& line) {
   const auto arguments = std::make_shared<StudyArguments>();
   harness::StudyRequest& request = arguments->request;
   arguments->declare_with_method(line);
+  arguments->declare_force(line);
   line.repeated("--vary", request.variations,
                 "KEY=VALUE,VALUE: a run for every value, all combinations; repeatable");
   line.option("--levels", request.n_levels, "number of levels, from --level on");

@@ -1,6 +1,7 @@
 /// diptych verify: the verification tables, what is asked beside what is measured.
 
 #include "benchmarks/harness/verify_verb.hpp"
+#include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
 
 #include <memory>
@@ -35,7 +36,7 @@ Action declare_verify(CommandLine& line) {
   line.option("--page", request.page, "the page to write (default OUT/VERIFICATION.md)");
   line.flag("--literature", arguments->literature,
             "the cases of benchmarks/literature, on a page LITERATURE.md of their own");
-  line.option("--threads", request.run.threads, "0: all processors");
+  declare_threads(line, request.run.threads);
   line.flag("--check", request.check, "exit code 5 where a bound is not met");
   line.flag("--fresh", request.run.fresh, "run finished runs again too");
   line.flag("--quick", request.run.quick, "without the finest level of each sequence");

@@ -122,6 +122,21 @@ void write_file_atomically(const std::string& path, const std::string& text) {
   sync_folder(path);
 }
 
+bool write_over(const std::string& path, const std::string& text) {
+  Descriptor descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW));
+  if (descriptor.get() < 0) return false;
+  size_t written = 0;
+  while (written < text.size()) {
+    const ssize_t n = ::pwrite(descriptor.get(), text.data() + written, text.size() - written,
+                               static_cast<off_t>(written));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    written += static_cast<size_t>(n);
+  }
+  return ::ftruncate(descriptor.get(), static_cast<off_t>(text.size())) == 0 &&
+         ::fsync(descriptor.get()) == 0 && descriptor.close();
+}
+
 std::string read_file(const std::string& path) {
   Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   const auto fail = [&path](int error) {

@@ -10,4 +10,8 @@ namespace diptych::io {
 /// Makes the folder with its parents where it is missing. @throws base::EnvironmentError
 void make_directory(const std::string& directory);
 
+/// Writes the text over what the file holds, in the space that it has: for a last word on a full
+/// disk, where a file beside it cannot be made. @return whether all of it is there
+bool write_over(const std::string& path, const std::string& text);
+
 }  // namespace diptych::io

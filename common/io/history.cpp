@@ -204,14 +204,23 @@ void append_row(fmt::memory_buffer& text, const HistoryRow& row) {
 
 }  // namespace
 
+std::string history_header(const std::vector<std::string>& probe_names) {
+  std::string text = fmt::format("{}", fmt::join(fixed_columns, ","));
+  for (const std::string& name : probe_names)
+    text += fmt::format(",{}", quoted(name));
+  return text + "\n";
+}
+
+std::string history_line(const HistoryRow& row) {
+  fmt::memory_buffer text;
+  append_row(text, row);
+  return fmt::to_string(text);
+}
+
 std::string history_csv(const std::vector<HistoryRow>& rows,
                         const std::vector<std::string>& probe_names) {
   fmt::memory_buffer text;
-  const auto out = std::back_inserter(text);
-  fmt::format_to(out, "{}", fmt::join(fixed_columns, ","));
-  for (const std::string& name : probe_names)
-    fmt::format_to(out, ",{}", quoted(name));
-  text.push_back('\n');
+  fmt::format_to(std::back_inserter(text), "{}", history_header(probe_names));
   for (const HistoryRow& row : rows) {
     if (row.probes.size() != probe_names.size()) {
       throw std::logic_error(fmt::format("history_csv: {} probe values for {} probes",
@@ -222,21 +231,29 @@ std::string history_csv(const std::vector<HistoryRow>& rows,
   return fmt::to_string(text);
 }
 
-std::string steps_csv(const std::vector<StepRow>& rows,
-                      const std::vector<std::string>& probe_names) {
+std::string steps_header(const std::vector<std::string>& probe_names) {
+  std::string text = "time [s],step";
+  for (const std::string& name : probe_names)
+    text += fmt::format(",{}", quoted(name));
+  return text + "\n";
+}
+
+std::string steps_line(const StepRow& row) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "time [s],step");
-  for (const std::string& name : probe_names)
-    fmt::format_to(out, ",{}", quoted(name));
+  fmt::format_to(out, "{:.17g},{}", row.time, row.step);
+  for (const double value : row.probes)
+    fmt::format_to(out, ",{:.17g}", value);
   text.push_back('\n');
-  for (const StepRow& row : rows) {
-    fmt::format_to(out, "{:.17g},{}", row.time, row.step);
-    for (const double value : row.probes)
-      fmt::format_to(out, ",{:.17g}", value);
-    text.push_back('\n');
-  }
   return fmt::to_string(text);
+}
+
+std::string steps_csv(const std::vector<StepRow>& rows,
+                      const std::vector<std::string>& probe_names) {
+  std::string text = steps_header(probe_names);
+  for (const StepRow& row : rows)
+    text += steps_line(row);
+  return text;
 }
 
 std::vector<HistoryRow> history_from_csv(const std::string& text, const std::string& path) {

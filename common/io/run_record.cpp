@@ -7,12 +7,10 @@
 
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
+#include "common/io/json_text.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <limits>
-#include <nlohmann/json.hpp>
-#include <set>
 
 namespace diptych::io {
 namespace {
@@ -49,6 +47,15 @@ Json quantity_json(const QuantitySummary& quantity) {
 Json cells_json(const RunSummary& summary) {
   Json json = {{"least_J", summary.least_cell_J}, {"most_inverted", summary.most_inverted_cells}};
   if (summary.inverted_from) json["inverted_from"] = *summary.inverted_from;
+  return json;
+}
+
+Json failure_json(const RunFailure& failure) {
+  Json json = {{"message", failure.message}};
+  if (failure.time) json["time"] = *failure.time;
+  if (failure.step) json["step"] = *failure.step;
+  if (failure.node) json["node"] = *failure.node;
+  if (failure.place) json["place"] = *failure.place;
   return json;
 }
 
@@ -102,6 +109,18 @@ class Section {
     return value.get<std::string>();
   }
 
+  /// Three numbers.
+  std::array<double, 3> place(const char* key) const {
+    const Json& value = at(key);
+    std::array<double, 3> X{};
+    if (!value.is_array() || value.size() != X.size()) fail(full(key), "must be three numbers");
+    for (size_t i = 0; i < X.size(); ++i) {
+      if (!value[i].is_number()) fail(full(key), "must be three numbers");
+      X[i] = value[i].get<double>();
+    }
+    return X;
+  }
+
   bool has(const std::string& key) const { return object_.contains(key); }
   Section section(const std::string& key) const { return {at(key), full(key), path_}; }
 
@@ -133,57 +152,6 @@ class Section {
   const std::string& path_;
 };
 
-/// JSON allows a key twice and the library keeps the last; a record must mean one thing.
-class DuplicateKeys {
- public:
-  explicit DuplicateKeys(const std::string& path) : path_(path) {}
-
-  bool operator()(int, Json::parse_event_t event, Json& parsed) {
-    if (event == Json::parse_event_t::object_start) open_.emplace_back();
-    if (event == Json::parse_event_t::object_end) open_.pop_back();
-    if (event == Json::parse_event_t::key &&
-        !open_.back().insert(parsed.get<std::string>()).second) {
-      throw base::InputError(
-          fmt::format("{}: key '{}' stands twice; remove one", path_, parsed.get<std::string>()));
-    }
-    return true;
-  }
-
- private:
-  const std::string& path_;
-  std::vector<std::set<std::string>> open_;
-};
-
-/// "path:line:column" of a byte of the text (1-based, as the parser counts).
-std::string place(const std::string& text, const std::string& path, size_t byte) {
-  const size_t end = std::min(text.size(), byte > 0 ? byte - 1 : 0);
-  const auto line =
-      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
-  const size_t newline = end > 0 ? text.rfind('\n', end - 1) : std::string::npos;
-  const size_t column = newline == std::string::npos ? end + 1 : end - newline;
-  return fmt::format("{}:{}:{}", path, line, column);
-}
-
-/// The library's "[json.exception...] ..." without its prefix.
-std::string parser_reason(const std::string& what) {
-  const size_t bracket = what.find("] ");
-  return bracket == std::string::npos ? what : what.substr(bracket + 2);
-}
-
-Json parsed(const std::string& text, const std::string& path) {
-  DuplicateKeys duplicates(path);
-  try {
-    return Json::parse(text, [&](int depth, Json::parse_event_t event, Json& value) {
-      return duplicates(depth, event, value);
-    });
-  } catch (const Json::parse_error& error) {
-    throw base::InputError(fmt::format("{}: not valid JSON: {}", place(text, path, error.byte),
-                                       parser_reason(error.what())));
-  } catch (const Json::exception& error) {
-    throw base::InputError(fmt::format("{}: {}", path, parser_reason(error.what())));
-  }
-}
-
 EnergySummary read_energy(const Section& section) {
   EnergySummary energy;
   energy.kinetic = section.number("kinetic");
@@ -193,6 +161,16 @@ EnergySummary read_energy(const Section& section) {
   energy.external_work = section.number("external_work");
   energy.relative_residual = section.number("relative_residual");
   return energy;
+}
+
+RunFailure read_failure(const Section& section) {
+  RunFailure failure;
+  failure.message = section.text("message");
+  if (section.has("time")) failure.time = section.number("time");
+  if (section.has("step")) failure.step = section.large_count("step");
+  if (section.has("node")) failure.node = section.large_count("node");
+  if (section.has("place")) failure.place = section.place("place");
+  return failure;
 }
 
 Provenance read_provenance(const Section& section) {
@@ -297,9 +275,10 @@ std::string to_json(const RunSummary& summary) {
   Json measures = Json::object();
   for (const auto& [name, value] : summary.measures)
     measures[name] = value;
-  const Json file = {
+  Json file = {
       {"method", summary.method},
       {"case", summary.case_name},
+      {"case_file", summary.case_file},
       {"title", summary.title},
       {"level", summary.level},
       {"dimension", summary.dimension},
@@ -342,17 +321,19 @@ std::string to_json(const RunSummary& summary) {
       {"state_hash", summary.state_hash},
       {"provenance", provenance_json(summary.provenance)},
   };
+  if (summary.failure) file["failure"] = failure_json(*summary.failure);
   // Texts come from the user's case: bytes that are not UTF-8 become U+FFFD instead of an
   // exception.
   return file.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 RunSummary summary_from_json(const std::string& text, const std::string& path) {
-  const Json root = parsed(text, path);
+  const Json root = parsed_json(text, path);
   const Section file(root, "", path);
   RunSummary summary;
   summary.method = file.text("method");
   summary.case_name = file.text("case");
+  summary.case_file = file.text("case_file");
   summary.title = file.text("title");
   summary.level = file.small_count("level");
   summary.dimension = file.small_count("dimension");
@@ -364,6 +345,7 @@ RunSummary summary_from_json(const std::string& text, const std::string& path) {
   read_size_and_cost(file, summary);
   read_quality(file, summary);
   summary.provenance = read_provenance(file.section("provenance"));
+  if (file.has("failure")) summary.failure = read_failure(file.section("failure"));
   return summary;
 }
 

@@ -2,6 +2,7 @@
 /// What a run says of itself: summary.json (contract of the program: stable names, more may be
 /// added), read back by the harness and the report.
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -40,14 +41,27 @@ struct QuantitySummary {
   std::optional<double> decrement;  ///< logarithmic, a period; from two periods on
 };
 
+/// Why a run has the status "breakdown" (with time, step, node and place where they are known) or
+/// "failed" (full disk, no memory, an expression without a value).
+struct RunFailure {
+  std::string message;
+  std::optional<double> time;                  ///< s, of the scene
+  std::optional<std::int64_t> step;            ///< the one that was not finished
+  std::optional<std::int64_t> node;            ///< its number in the user's mesh
+  std::optional<std::array<double, 3>> place;  ///< m, reference position of the node
+};
+
 struct RunSummary {
   std::string method, case_name, title;
+  std::string case_file;  ///< absolute path of the case file, which tells cases apart
   int level = 0, dimension = 3;
   std::int64_t nodes = 0, pairs = 0;
   int unknowns_per_node = 0;
   std::int64_t steps = 0, stages = 0;
   int threads = 1, ranks = 1;
-  std::string precision = "double", integrator, status = "done";
+  std::string precision = "double", integrator;
+  std::string status = "done";  ///< running, done, step limit, interrupted, breakdown, failed
+  std::optional<RunFailure> failure;
   std::string arrangement;  ///< of pairs in the sweeps: runs or rows
   double end_time = 0;
   double setup_seconds = 0, wall_seconds = 0, loop_seconds = 0, nanoseconds_per_node_stage = 0;
@@ -79,11 +93,19 @@ struct RunSummary {
 
 /// JSON text with the key names of the contract: method, case, level, ..., dt{min,max},
 /// errors{field{l1,l2,linf}}, energy{...}, momentum{linear_drift,angular_drift}, involution{H,J},
-/// min_jacobian, cells{least_J,most_inverted,inverted_from}, state_hash, provenance{...}.
+/// min_jacobian, cells{least_J,most_inverted,inverted_from}, state_hash, provenance{...}; where the
+/// run was not finished, failure{message,time,step,node,place}.
 std::string to_json(const RunSummary& summary);
 
 /// @throws base::InputError on malformed text, a missing key, NaN
 RunSummary summary_from_json(const std::string& text, const std::string& path);
+
+/// Whose results a summary.json is of; it need not be whole.
+struct SummaryOwner {
+  std::string case_name, case_file;  ///< case_file: empty in summaries of earlier versions
+};
+/// Nothing where the text is no summary.
+std::optional<SummaryOwner> summary_owner(const std::string& text);
 
 /// Writes text to path.tmp, fsyncs, renames. @throws base::EnvironmentError with path and errno
 void write_file_atomically(const std::string& path, const std::string& text);
@@ -104,6 +126,10 @@ struct HistoryRow {
   std::vector<double> probes;
 };
 
+/// history.csv and steps.csv are these header lines and these lines, one below the other.
+std::string history_header(const std::vector<std::string>& probe_names);
+std::string history_line(const HistoryRow& row);
+
 /// CSV with a header line of names with units in brackets, e.g. "time [s]".
 std::string history_csv(const std::vector<HistoryRow>& rows,
                         const std::vector<std::string>& probe_names);
@@ -115,6 +141,8 @@ struct StepRow {
   std::int64_t step = 0;
   std::vector<double> probes;
 };
+std::string steps_header(const std::vector<std::string>& probe_names);
+std::string steps_line(const StepRow& row);
 std::string steps_csv(const std::vector<StepRow>& rows,
                       const std::vector<std::string>& probe_names);
 

@@ -1,16 +1,55 @@
+#include "common/base/error.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/parallel/processors.hpp"
+#include "common/parallel/thread_count.hpp"
 
 #include <omp.h>
 
+#include <algorithm>
+#include <string>
+
 namespace diptych::parallel {
 
+namespace {
+
+/// What OMP_NUM_THREADS says, or else the processors: as it was before anything was set.
+int initial_threads() {
+  static const int n = omp_get_max_threads();
+  return n;
+}
+
+}  // namespace
+
+int thread_count(int asked) {
+  const int limit = omp_get_thread_limit(), initial = initial_threads();
+  if (asked < 0 || asked > most_threads) {
+    throw base::InputError(std::to_string(asked) + " threads: give 0 (as many as there are " +
+                           "processors) to " + std::to_string(most_threads));
+  }
+  if (asked > limit) {
+    throw base::InputError(std::to_string(asked) +
+                           " threads are more than OMP_THREAD_LIMIT allows; give at most " +
+                           std::to_string(limit) + ", or 0");
+  }
+  return asked > 0 ? asked : std::min({initial, limit, available_processors(), most_threads});
+}
+
 void set_threads(int n) {
+  const int count = thread_count(n);
   omp_set_dynamic(0);
-  omp_set_num_threads(n > 0 ? n : omp_get_num_procs());
+  omp_set_num_threads(count);
 }
 
 int n_threads() {
   return omp_get_max_threads();
+}
+
+int running_threads() {
+  int n = 1;
+#pragma omp parallel
+#pragma omp single
+  n = omp_get_num_threads();
+  return n;
 }
 
 }  // namespace diptych::parallel

@@ -180,6 +180,8 @@ std::string type_name(KeyType type) {
       return "path";
     case KeyType::name:
       return "name";
+    case KeyType::texts:
+      return "list of texts";
     case KeyType::groups:
       return "name or list of names";
     case KeyType::flag:

@@ -88,6 +88,8 @@ constexpr std::array section_table{
     Section{"exact", false,
             "The exact solution; errors are measured against it. Fields that are missing are "
             "derived from the displacement."},
+    Section{"record", false,
+            "Of the copy of a case file that a run leaves among its results; not for other files."},
 };
 
 // One entry after the other, packed.
@@ -337,6 +339,13 @@ constexpr std::array key_table{
     key("exact.stress", tensor_field, "Pa", "", "optional", any,
         "Exact first Piola-Kirchhoff stress, three rows of three (P_33 in 2-D too).",
         "[[0, \"mu*q*pi/2*cos(pi*y/2)\", 0], [\"mu*q*pi/2*cos(pi*y/2)\", 0, 0], [0, 0, 0]]"),
+
+    key("record.file", path, "-", "", "in a copy", any,
+        "The case file that this is a copy of: it names the case, and relative paths start there.",
+        "\"/home/me/cube/case.toml\""),
+    key("record.overrides", texts, "-", "[]", "", any,
+        "What the command line had set (--set), read before any --set of now.",
+        "[\"time.end=0.1\", \"sph.kappa=0.75\"]"),
 };
 // clang-format on
 

@@ -43,6 +43,7 @@ enum class KeyType {
   text,          ///< any text
   path,          ///< file, relative to the case file
   name,          ///< one of a menu
+  texts,         ///< list of texts
   groups,        ///< a name or a list of names
   flag,          ///< true or false
   number,        ///< number, or text with an expression of parameters

@@ -3,6 +3,7 @@
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
 #include "common/run/bounded_file.hpp"
+#include "common/run/case_copy.hpp"
 #include "common/run/case_document.hpp"
 #include "common/run/case_functions.hpp"
 #include "common/run/case_keys.hpp"
@@ -15,7 +16,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
-#include <set>
 
 namespace diptych::run {
 
@@ -356,33 +356,23 @@ int dimension_of(const MeshCase& mesh) {
   return mesh.element == "triangle" || mesh.element == "quadrilateral" ? 2 : 3;
 }
 
-std::string case_hash(const std::string& text, const std::vector<std::string>& overrides) {
-  std::uint64_t hash = 14695981039346656037u;  // FNV-1a, 64 bits
-  const auto add = [&hash](const std::string& part) {
-    for (const char c : part + '\0')
-      hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  };
-  add(text);
-  for (const std::string& assignment : std::set<std::string>(overrides.begin(), overrides.end()))
-    add(assignment);
-  return fmt::format("{:016x}", hash);
-}
-
 Case case_from_text(const std::string& text,
                     const std::string& name,
                     const std::vector<std::string>& overrides) {
-  Case c;
-  c.name = case_name(name);
-  c.file = name;
-  c.text = text;
-  c.overrides = overrides;
-  c.hash = case_hash(text, overrides);
   Value document = parse_document(text, name);
   check_keys(document);
-  apply_overrides(document, overrides);
+  const CaseRecord record = record_of(document, name);
+  const fs::path origin = record.file.empty() ? name : record.file;
+  Case c;
+  c.name = case_name(origin);
+  c.file = fs::absolute(origin).lexically_normal().string();
+  c.text = original_text(text);
+  c.overrides = merged_overrides(record.overrides, overrides);
+  c.hash = case_hash(c.text, c.overrides);
+  apply_overrides(document, c.overrides);
   check_keys(document);
   Sections sections(document);
-  read_sections(sections, fs::path(name).parent_path(), c);
+  read_sections(sections, origin.parent_path(), c);
   return c;
 }
 

@@ -103,6 +103,8 @@ void apply_overrides(Value& document, const std::vector<std::string>& overrides)
     const std::string known = table_path(key);
     if (find_section(known) != nullptr || known == "functions")
       throw base::InputError(where + "'" + key + "' is a section; set its keys one by one");
+    if (known.rfind("record.", 0) == 0)
+      throw base::InputError(where + "[record] says where a copy is from and cannot be set");
     if (find_key(known) == nullptr)
       throw base::InputError(where + "unknown key '" + shown(key) + "'" + key_suggestion(known));
     if (!seen.insert(key).second) throw base::InputError(where + "'" + key + "' is set twice");
@@ -266,6 +268,18 @@ std::vector<std::string> SectionValues::groups(const std::string& name) const {
   if (value.kind != Value::Kind::text && value.kind != Value::Kind::list) wrong_type(value, name);
   if (names.empty()) fail(name, "is empty; name a group of the mesh, as in group = \"x_min\"");
   return names;
+}
+
+std::vector<std::string> SectionValues::texts(const std::string& name) const {
+  const Value* value = find(name);
+  std::vector<std::string> list;
+  if (value == nullptr) return list;
+  if (value->kind != Value::Kind::list) wrong_type(*value, name);
+  for (const Value& entry : value->elements) {
+    if (entry.kind != Value::Kind::text) wrong_type(entry, name);
+    list.push_back(entry.text);
+  }
+  return list;
 }
 
 std::vector<double> SectionValues::numbers(const std::string& name) const {

@@ -49,6 +49,7 @@ class SectionValues {
   bool flag(const std::string& name) const;
   std::string text(const std::string& name) const;
   std::string menu_name(const std::string& name) const;
+  std::vector<std::string> texts(const std::string& name) const;  ///< empty where missing
   std::vector<std::string> groups(const std::string& name) const;
   std::vector<double> numbers(const std::string& name) const;
   /// d numbers; the third is `third` in 2-D.

@@ -37,10 +37,12 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// A command of the shell, from inside the folder, with empty standard input.
+/// A command of the shell, from inside the folder, with empty standard input; $diptych is the
+/// program.
 inline Outcome shell(const Folder& folder, const std::string& line) {
-  const std::string command =
-      "cd " + folder.path().string() + " && { " + line + "\n} 2>&1 </dev/null";
+  const std::string command = "cd " + folder.path().string() +
+                              " && { diptych=" DIPTYCH_BUILD_DIR "/diptych\n" + line +
+                              "\n} 2>&1 </dev/null";
   Outcome outcome;
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return outcome;

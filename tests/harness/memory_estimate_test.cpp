@@ -3,7 +3,7 @@
 #include "benchmarks/harness/memory_estimate.hpp"
 
 #include "benchmarks/harness/machine_memory.hpp"
-#include "benchmarks/harness/run_case.hpp"
+#include "benchmarks/harness/case_check.hpp"
 #include "common/base/error.hpp"
 #include "common/run/case_reader.hpp"
 

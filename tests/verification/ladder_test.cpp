@@ -3,6 +3,7 @@
 /// deterministic, so what fails has changed.
 
 #include "benchmarks/harness/backends.hpp"
+#include "benchmarks/harness/case_check.hpp"
 #include "benchmarks/harness/case_list.hpp"
 #include "benchmarks/harness/run_case.hpp"
 #include "common/run/case_reader.hpp"

@@ -23,7 +23,8 @@ using testing::HasSubstr;
 /// Every member differs from its default and from every other.
 RunSummary full_summary() {
   RunSummary s;
-  s.method = "fvm", s.case_name = "column", s.title = "twisting \"column\" <1>";
+  s.method = "fvm", s.case_name = "column", s.case_file = "/home/me/column/case.toml";
+  s.title = "twisting \"column\" <1>";
   s.level = 2, s.dimension = 2, s.nodes = 4'000'000'017, s.pairs = 123456789,
   s.unknowns_per_node = 34;
   s.steps = 77, s.stages = 154, s.threads = 3, s.ranks = 5;
@@ -70,6 +71,42 @@ TEST(RunRecord, SaysSinceWhenCellsAreInvertedOnlyWhereTheyAre) {
   EXPECT_FALSE(summary_from_json(to_json(summary), "summary.json").inverted_from);
   summary.inverted_from = 0.045;
   EXPECT_EQ(summary_from_json(to_json(summary), "summary.json").inverted_from, 0.045);
+}
+
+TEST(RunRecord, SaysWhyARunWasNotFinishedWhereItWasNot) {
+  RunSummary summary = full_summary();
+  EXPECT_FALSE(as_json(summary).contains("failure"));
+  summary.status = "breakdown";
+  summary.failure = RunFailure{"J <= 0 at node 7\n  F = ...", 0.125, 42, 7, {{1, -2, 0.5}}};
+  const RunSummary read = summary_from_json(to_json(summary), "summary.json");
+  ASSERT_TRUE(read.failure.has_value());
+  EXPECT_EQ(read.failure->message, summary.failure->message);
+  EXPECT_EQ(read.failure->time, 0.125);
+  EXPECT_EQ(read.failure->step, 42);
+  EXPECT_EQ(read.failure->node, 7);
+  EXPECT_EQ(read.failure->place, summary.failure->place);
+  summary.failure = RunFailure{"no space left", {}, {}, {}, {}};
+  const auto plain = summary_from_json(to_json(summary), "summary.json").failure;
+  ASSERT_TRUE(plain.has_value());
+  EXPECT_FALSE(plain->time || plain->step || plain->node || plain->place);
+  json broken = as_json(summary);
+  for (const json& wrong : {json(3), json::array({1, 2}), json::array({1, 2, "x"})}) {
+    broken["failure"]["place"] = wrong;
+    EXPECT_THAT(message_of<InputError>([&] { summary_from_json(broken.dump(), "s.json"); }),
+                HasSubstr("failure.place must be three numbers"));
+  }
+}
+
+TEST(RunRecord, TellsItsOwnerEvenWhereItIsNotWhole) {
+  const auto owner = summary_owner(to_json(full_summary()) + "   \n");
+  ASSERT_TRUE(owner.has_value());
+  EXPECT_EQ(owner->case_name, "column");
+  EXPECT_EQ(owner->case_file, "/home/me/column/case.toml");
+  const auto earlier = summary_owner(R"({"method": "sph", "case": "cube", "dt": null})");
+  ASSERT_TRUE(earlier.has_value());
+  EXPECT_EQ(earlier->case_file, "");
+  for (const char* text : {"", "{", "[]", "{}", R"({"case": 3, "method": "sph"})"})
+    EXPECT_FALSE(summary_owner(text).has_value()) << text;
 }
 
 TEST(RunRecord, HasTheKeysOfTheContract) {

@@ -1,0 +1,24 @@
+#pragma once
+/// Where a run broke down, from the state that the solver stopped in.
+/// Test: tests/command_line/breakdown_test.cpp
+
+#include "common/base/error.hpp"
+#include "common/io/run_record.hpp"
+#include "common/run/solver.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace diptych::harness {
+
+/// Message, time, step, node and place of a breakdown: the node is the first one that is not finite
+/// or has J <= 0, or else, where the time step has collapsed, that of least J.
+/// @param steps  that were finished
+/// @param order  [node] its number in the user's mesh, which the message has as well
+io::RunFailure failure_of(const base::BreakdownError& error,
+                          const run::Solver& solver,
+                          const scheme::PairGraph& graph,
+                          std::int64_t steps,
+                          const std::vector<std::int32_t>& order);
+
+}  // namespace diptych::harness

@@ -1,0 +1,126 @@
+/// A method that breaks down does not take the other one with it: who, when, where and why stand
+/// in the table, in the report and in the summary, and the program ends with code 3.
+
+#include "common/io/run_record.hpp"
+#include "tests/command_line/program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
+#include <regex>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using tests::diptych;
+using tests::Folder;
+using tests::text_of;
+
+/// A cube that is thrown at itself, `a` times its length a second; the exact velocity is there so
+/// that errors have something to be measured against.
+std::string crushed(const std::string& a) {
+  return "[mesh]\nelement = \"hexahedron\"\ncells = [4, 4, 4]\n"
+         "[material]\nmodel = \"neo-hookean\"\ndensity = 1100\nyoungs_modulus = 17e6\n"
+         "poissons_ratio = 0.3\n[time]\nend = 4e-3\n[exact]\nvelocity = [\"-1\", \"0\", \"0\"]\n"
+         "[initial]\nvelocity = [\"-" +
+         a + "*x\", \"0\", \"0\"]\n";
+}
+
+io::RunSummary summary_in(const fs::path& directory) {
+  return io::summary_from_json(text_of(directory / "summary.json"), "summary.json");
+}
+
+TEST(Breakdown, OfBothMethodsIsToldOfBoth) {
+  for (const char* verb : {"run", "compare"}) {
+    const Folder folder;
+    folder.write("case.toml", crushed("3e4"));
+    const auto outcome =
+        diptych(folder, std::string(verb) + " case.toml --quiet --threads 1 --out out");
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.text;
+    for (const char* method : {"sph", "fvm"}) {
+      const std::string directory = "out/" + std::string(method);
+      const auto summary = summary_in(folder.path() / directory);
+      EXPECT_EQ(summary.status, "breakdown");
+      ASSERT_TRUE(summary.failure.has_value());
+      EXPECT_TRUE(summary.failure->node && summary.failure->step && summary.failure->place);
+      EXPECT_THAT(
+          outcome.text,
+          HasSubstr("diptych: " + std::string(method) + " level 0 broke down: " +
+                    summary.failure->message.substr(0, summary.failure->message.find('\n'))));
+    }
+    EXPECT_TRUE(std::regex_search(
+        outcome.text, std::regex("broke down +level +time \\[s\\] +step +node +place \\[m\\]")));
+    if (verb == std::string("compare")) {
+      EXPECT_THAT(text_of(folder.path() / "out" / "report.html"),
+                  AllOf(HasSubstr("broke down on level 0"), HasSubstr("J &lt;= 0")));
+    }
+  }
+}
+
+/// At this speed SPH breaks down on level 0 and on no other; the finite volumes never do.
+class OneOfTwo : public testing::Test {
+ protected:
+  OneOfTwo() { folder.write("case.toml", crushed("750")); }
+  tests::Outcome with(const std::string& verb, const std::string& options = "") const {
+    return diptych(folder, verb + " case.toml --quiet --threads 1 --out out " + options);
+  }
+  fs::path out(const std::string& name) const { return folder.path() / "out" / name; }
+  Folder folder;
+};
+
+TEST_F(OneOfTwo, GoesOnInRun) {
+  const auto outcome = with("run");
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.text;
+  EXPECT_EQ(summary_in(out("sph")).status, "breakdown");
+  EXPECT_EQ(summary_in(out("fvm")).status, "done");
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr("fvm level 0: 125 nodes"), HasSubstr("status done"),
+                                  Not(HasSubstr("sph level 0: 125 nodes"))));
+}
+
+TEST_F(OneOfTwo, GoesOnInCompare) {
+  const auto outcome = with("compare");
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.text;
+  const auto summary = summary_in(out("sph"));
+  ASSERT_TRUE(summary.failure && summary.failure->node && summary.failure->time) << outcome.text;
+  EXPECT_GT(*summary.failure->time, 0);
+  EXPECT_LT(*summary.failure->time, 4e-3);
+  EXPECT_GE(*summary.failure->step, summary.steps);
+  EXPECT_EQ(summary_in(out("fvm")).status, "done");
+  EXPECT_THAT(outcome.text, HasSubstr("report: out/report.html"));
+  const std::string page = text_of(out("report.html"));
+  EXPECT_THAT(page, HasSubstr("broke down on level 0"));
+  EXPECT_THAT(page, HasSubstr("node " + std::to_string(*summary.failure->node)));
+}
+
+TEST_F(OneOfTwo, GoesOnInConverge) {
+  const auto outcome = with("converge", "--levels 2");
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.text;
+  EXPECT_EQ(summary_in(out("level_0/sph")).status, "breakdown");
+  for (const char* run : {"level_0/fvm", "level_1/sph", "level_1/fvm"})
+    EXPECT_EQ(summary_in(out(run)).status, "done") << run;
+  const std::string csv = text_of(out("convergence.csv"));
+  EXPECT_THAT(
+      csv, AllOf(HasSubstr("fvm,velocity error L2,-,0,"), HasSubstr("sph,velocity error L2,-,1,"),
+                 Not(HasSubstr("sph,velocity error L2,-,0,"))));
+  EXPECT_THAT(text_of(out("report.html")), HasSubstr("broke down on level 0"));
+  const auto again = with("converge", "--levels 2");
+  EXPECT_EQ(again.exit_code, 3) << "what broke down is tried again, and told again";
+  EXPECT_THAT(again.text, AllOf(HasSubstr("taken over, not run again: out/level_1/sph"),
+                                Not(HasSubstr("not run again: out/level_0/sph"))));
+}
+
+TEST_F(OneOfTwo, GoesOnInAStudy) {
+  const auto outcome = with("study", "--levels 2 --repeats 2");
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.text;
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr("broke down"), HasSubstr("level 1 done")));
+  const std::string csv = text_of(out("work_precision.csv"));
+  EXPECT_THAT(csv, AllOf(HasSubstr("fvm,0,"), HasSubstr("fvm,1,"), HasSubstr("sph,1,"),
+                         Not(HasSubstr("sph,0,"))));
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,80 @@
+/// The copy of the case among the results runs to the same state, wherever it lies.
+
+#include "common/io/run_record.hpp"
+#include "tests/command_line/program.hpp"
+
+#include <gtest/gtest.h>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+using tests::Folder;
+using tests::text_of;
+
+io::RunSummary summary_in(const fs::path& directory) {
+  return io::summary_from_json(text_of(directory / "summary.json"), "summary.json");
+}
+
+const std::string cube = R"([mesh]
+element = "hexahedron"
+lower = [0, 0, 0]
+upper = [1, 1, 1]
+cells = [4, 4, 4]
+[material]
+model = "neo-hookean"
+density = 1100
+youngs_modulus = 17e6
+poissons_ratio = 0.3
+[initial]
+velocity = ["y", "0", "0"]
+)";
+const std::string probes = R"([[probe]]
+name = "speed"
+unit = "m/s"
+kind = "mean"
+quantity = "vx"
+every_step = true
+[[probe]]
+name = "at a corner"
+unit = "m"
+kind = "point"
+at = [1, 1, 1]
+quantity = "ux"
+)";
+
+TEST(CopyOfTheCase, RunsToTheSameState) {
+  const Folder folder;
+  fs::create_directories(folder.path() / "mine" / "data");
+  folder.write("mine/data/tip.csv", "0,0\n1e-3,1e-3\n");
+  folder.write("mine/data/pair.msh",
+               "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n"
+               "4 0 0 1\n5 1 1 1\n$EndNodes\n$Elements\n2\n1 4 2 1 1 1 2 3 4\n"
+               "2 4 2 1 1 2 3 4 5\n$EndElements\n");
+  std::string text = cube + "[time]\nend = 1e-3\n" + probes +
+                     "[[reference]]\nprobe = \"at a corner\"\nsource = \"me\"\nfile = "
+                     "\"data/tip.csv\"\n";
+  const std::string box = "lower = [0, 0, 0]\nupper = [1, 1, 1]\ncells = [4, 4, 4]";
+  text.replace(text.find(box), box.size(), "file = \"data/pair.msh\"");
+  text.replace(text.find("hexahedron"), 10, "tetrahedron");
+  folder.write("mine/case.toml", text);
+  const auto first = tests::diptych(folder,
+                                    "run mine/case.toml --method fvm --threads 1 --quiet "
+                                    "--set time.end=5e-4 --set title='a \"pair\"' --out out");
+  ASSERT_EQ(first.exit_code, 0) << first.text;
+  for (const char* copy : {"out/case.toml", "out/fvm/case.toml"}) {
+    const auto second = tests::diptych(
+        folder, std::string("run ") + copy + " --method fvm --threads 1 --quiet --out again");
+    ASSERT_EQ(second.exit_code, 0) << second.text;
+    const auto a = summary_in(folder.path() / "out" / "fvm"),
+               b = summary_in(folder.path() / "again" / "fvm");
+    EXPECT_EQ(b.state_hash, a.state_hash);
+    EXPECT_EQ(b.provenance.input_hash, a.provenance.input_hash);
+    EXPECT_EQ(b.case_name, "mine");
+    EXPECT_EQ(b.title, "a \"pair\"");
+    EXPECT_EQ(b.end_time, 5e-4);
+  }
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,223 @@
+/// Whatever ends a run, its folder tells the truth: rows until then are readable, and no summary
+/// says "running" of a run that the program itself has given up.
+
+#include "common/io/run_record.hpp"
+#include "tests/command_line/program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <gmock/gmock.h>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using tests::Folder;
+using tests::shell;
+using tests::text_of;
+
+io::RunSummary summary_in(const fs::path& directory) {
+  return io::summary_from_json(text_of(directory / "summary.json"), "summary.json");
+}
+
+const std::string cube = R"([mesh]
+element = "hexahedron"
+lower = [0, 0, 0]
+upper = [1, 1, 1]
+cells = [4, 4, 4]
+[material]
+model = "neo-hookean"
+density = 1100
+youngs_modulus = 17e6
+poissons_ratio = 0.3
+[initial]
+velocity = ["y", "0", "0"]
+)";
+const std::string probes = R"([[probe]]
+name = "speed"
+unit = "m/s"
+kind = "mean"
+quantity = "vx"
+every_step = true
+[[probe]]
+name = "at a corner"
+unit = "m"
+kind = "point"
+at = [1, 1, 1]
+quantity = "ux"
+)";
+/// Hours of steps, with an output time every few of them.
+const std::string endless =
+    cube + "[time]\nend = 1000\n[output]\nframes = 2000000\nfields = false\n";
+
+TEST(Killed, LeavesAllRowsUntilThen) {
+  const Folder folder;
+  folder.write("case.toml", endless + probes);
+  shell(folder,
+        "timeout -s KILL 4 $diptych run case.toml --method fvm --threads 1 --quiet --out out");
+  const fs::path directory = folder.path() / "out" / "fvm";
+  EXPECT_EQ(summary_in(directory).status, "running") << "it could not say more";
+  const auto history = io::history_from_csv(text_of(directory / "history.csv"), "history.csv");
+  ASSERT_GT(history.size(), 100u);
+  EXPECT_EQ(history.front().time, 0);
+  EXPECT_EQ(history.back().probes.size(), 2u);
+  EXPECT_GT(history.back().time, history[history.size() - 2].time);
+  const auto steps = io::columns_from_csv(text_of(directory / "steps.csv"), "steps.csv");
+  EXPECT_GE(steps.front().values.back(), history[history.size() - 2].time);
+}
+
+TEST(Killed, RowsAreThoseThatAFinishedRunHas) {
+  const Folder folder;
+  folder.write("case.toml", cube + "[time]\nend = 1e-2\n[output]\nframes = 7\n" + probes);
+  const auto outcome = tests::diptych(folder, "run case.toml --threads 1 --quiet --out out");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  for (const char* method : {"sph", "fvm"}) {
+    const fs::path directory = folder.path() / "out" / method;
+    const std::string text = text_of(directory / "history.csv");
+    const auto rows = io::history_from_csv(text, "history.csv");
+    EXPECT_EQ(rows.size(), 8u);
+    EXPECT_EQ(text, io::history_csv(rows, {"speed [m/s]", "at a corner [m]"}));
+    const auto steps = io::columns_from_csv(text_of(directory / "steps.csv"), "steps.csv");
+    ASSERT_EQ(steps.size(), 3u);
+    EXPECT_EQ(steps[0].values.size(), static_cast<size_t>(summary_in(directory).steps) + 1);
+    EXPECT_EQ(steps[2].values.back(), rows.back().probes[0]);
+  }
+}
+
+TEST(Hangup, IsAnInterruptUnlessItIsIgnored) {
+  const Folder folder;
+  folder.write("case.toml", endless);
+  const std::string run = " $diptych run case.toml --method fvm --threads 1 --quiet --out ";
+  const auto hung_up =
+      shell(folder, "timeout --preserve-status -s HUP 2" + run + "out; echo code $?");
+  EXPECT_THAT(hung_up.text, HasSubstr("code 130"));
+  EXPECT_EQ(summary_in(folder.path() / "out" / "fvm").status, "interrupted");
+  // the signal of a terminal that closes leaves a run under nohup alone; what ends it comes later
+  const auto kept = shell(folder, "nohup" + run +
+                                      "kept > /dev/null 2>&1 & pid=$!; sleep 1.5; "
+                                      "kill -HUP $pid; sleep 1; kill -0 $pid && echo alive; "
+                                      "kill -TERM $pid; wait $pid; echo code $?");
+  EXPECT_THAT(kept.text, AllOf(HasSubstr("alive"), HasSubstr("code 130")));
+}
+
+TEST(FullDisk, LeavesTheStatusFailedWithItsMessage) {
+  const Folder folder;
+  folder.write("case.toml", endless + probes);
+  const auto outcome =
+      shell(folder,
+            "bash -c 'ulimit -f 16; exec '$diptych' run case.toml --method sph --threads 1 "
+            "--quiet --out out'");
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.text;
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr(".csv"), HasSubstr("free space")));
+  const auto summary = summary_in(folder.path() / "out" / "sph");
+  EXPECT_EQ(summary.status, "failed");
+  ASSERT_TRUE(summary.failure.has_value());
+  EXPECT_THAT(summary.failure->message, HasSubstr("File too large"));
+  EXPECT_GT(summary.failure->time, 0);
+}
+
+TEST(FullDisk, LeavesTheStatusFailedWhereNoFrameFits) {
+  const Folder folder;
+  folder.write("case.toml", cube + "[time]\nend = 1e-2\n");
+  const auto outcome =
+      shell(folder,
+            "bash -c 'ulimit -f 16; exec '$diptych' run case.toml --method sph --threads 1 "
+            "--level 2 --quiet --out out'");
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.text;
+  const auto summary = summary_in(folder.path() / "out" / "sph");
+  EXPECT_EQ(summary.status, "failed");
+  EXPECT_FALSE(summary.failure.value_or(io::RunFailure{}).message.empty());
+}
+
+/// A run of a case whose expression has no value from t = 5 ms on.
+io::RunFailure failure_of(const std::string& section, const std::string& status, int code) {
+  const Folder folder;
+  folder.write("case.toml", cube + "[time]\nend = 1e-2\n[output]\nfields = false\n" + section);
+  const auto outcome =
+      tests::diptych(folder, "run case.toml --method fvm --threads 1 --quiet --out out");
+  EXPECT_EQ(outcome.exit_code, code) << outcome.text;
+  const auto summary = summary_in(folder.path() / "out" / "fvm");
+  EXPECT_EQ(summary.status, status) << section;
+  EXPECT_TRUE(summary.failure.has_value()) << section;
+  return summary.failure.value_or(io::RunFailure{});
+}
+
+TEST(Expression, WithoutAValueEndsTheRunWithItsName) {
+  const auto probe = failure_of(
+      "[[probe]]\nname = \"root\"\nunit = \"-\"\nkind = \"mean\"\nquantity = \"sqrt(55e-4 - t)\"\n",
+      "failed", 2);
+  EXPECT_THAT(probe.message,
+              AllOf(HasSubstr("case.toml:"), HasSubstr("'root' is"), HasSubstr("nan")));
+  const auto exact = failure_of("[exact]\nvelocity = [\"sqrt(55e-4 - t)\", 0, 0]\n", "failed", 2);
+  EXPECT_THAT(exact.message, HasSubstr("exact velocity is not finite at t = 0.006 s"));
+  const auto boundary = failure_of(
+      "[[boundary]]\ngroup = \"x_min\"\ntype = \"velocity\"\nvalue = [\"sqrt(5e-3 - t)\", 0, 0]\n",
+      "breakdown", 3);
+  EXPECT_THAT(boundary.message, HasSubstr("not finite at node"));
+  EXPECT_GE(boundary.time, 5e-3);
+  EXPECT_LT(boundary.time, 6e-3);
+  EXPECT_TRUE(boundary.node.has_value() && boundary.step.has_value());
+  ASSERT_TRUE(boundary.place.has_value());
+  EXPECT_EQ((*boundary.place)[0], 0);
+}
+
+#if DIPTYCH_GMSH_FOUND
+/// A case whose mesh takes gmsh minutes; temporary files go to tmp.
+void write_slow_mesh(const Folder& folder) {
+  fs::create_directories(folder.path() / "tmp");
+  folder.write("case.geo",
+               "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n"
+               "Mesh.MeshSizeMax = 0.008;\nMesh.MeshSizeMin = 0.008;\n"
+               "Physical Volume(\"body\") = {1};\n");
+  std::string text = cube + "[time]\nend = 1e-3\n";
+  const std::string box = "lower = [0, 0, 0]\nupper = [1, 1, 1]\ncells = [4, 4, 4]";
+  text.replace(text.find(box), box.size(), "file = \"case.geo\"\nsize = 0.008");
+  text.replace(text.find("hexahedron"), 10, "tetrahedron");
+  folder.write("case.toml", text);
+}
+
+/// Starts the program, waits until gmsh runs, and sends a signal; $child is gmsh.
+std::string signal_while_meshing(const std::string& signal) {
+  return "export TMPDIR=$PWD/tmp; $diptych run case.toml --quiet --out out & pid=$!; "
+         "for i in $(seq 100); do child=$(cat /proc/$pid/task/$pid/children); "
+         "test -n \"$child\" && break; sleep 0.1; done; sleep 0.5; "
+         "test -n \"$child\" && echo was meshing; ls tmp; kill -" +
+         signal + " $pid; ";
+}
+
+TEST(Meshing, EndsWithTheProgramAndLeavesNoFolder) {
+  for (const char* signal : {"TERM", "INT", "HUP"}) {
+    const Folder folder;
+    write_slow_mesh(folder);
+    const auto outcome =
+        shell(folder, signal_while_meshing(signal) +
+                          "wait $pid; echo code $?; "
+                          "for c in $child; do kill -0 $c 2>/dev/null && echo gmsh lives; done");
+    EXPECT_THAT(outcome.text,
+                AllOf(HasSubstr("was meshing"), HasSubstr("diptych-mesh"), HasSubstr("code 130"),
+                      HasSubstr("nothing had been computed"), Not(HasSubstr("gmsh lives"))))
+        << signal;
+    EXPECT_TRUE(fs::is_empty(folder.path() / "tmp")) << signal;
+    EXPECT_FALSE(fs::exists(folder.path() / "out")) << signal;
+  }
+}
+
+TEST(Meshing, EndsWithAProgramThatIsKilled) {
+  const Folder folder;
+  write_slow_mesh(folder);
+  const auto outcome =
+      shell(folder, signal_while_meshing("KILL") +
+                        "sleep 0.5; for c in $child; do "
+                        "grep -q '^State:.[^Z]' /proc/$c/status 2>/dev/null && echo gmsh lives; "
+                        "done; echo looked");
+  EXPECT_THAT(outcome.text,
+              AllOf(HasSubstr("was meshing"), HasSubstr("looked"), Not(HasSubstr("gmsh lives"))));
+}
+#endif
+
+}  // namespace
+}  // namespace diptych

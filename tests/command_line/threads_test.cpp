@@ -1,0 +1,64 @@
+/// How many threads run is what was asked for, or what the environment leaves.
+
+#include "common/io/run_record.hpp"
+#include "tests/command_line/program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using tests::Folder;
+using tests::shell;
+using tests::text_of;
+
+io::RunSummary summary_in(const fs::path& directory) {
+  return io::summary_from_json(text_of(directory / "summary.json"), "summary.json");
+}
+
+const std::string cube = R"([mesh]
+element = "hexahedron"
+lower = [0, 0, 0]
+upper = [1, 1, 1]
+cells = [4, 4, 4]
+[material]
+model = "neo-hookean"
+density = 1100
+youngs_modulus = 17e6
+poissons_ratio = 0.3
+[initial]
+velocity = ["y", "0", "0"]
+)";
+
+TEST(Threads, AreThoseOfTheEnvironmentAndOfTheRange) {
+  const Folder folder;
+  folder.write("case.toml", cube + "[time]\nend = 1e-3\n[output]\nfields = false\n");
+  const auto threads_with = [&](const std::string& before, const std::string& arguments) {
+    const auto outcome = shell(folder, before + " $diptych run case.toml --method fvm --quiet " +
+                                           arguments + " --out out");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+    return summary_in(folder.path() / "out" / "fvm").threads;
+  };
+  EXPECT_EQ(threads_with("OMP_NUM_THREADS=1", ""), 1);
+  EXPECT_EQ(threads_with("OMP_THREAD_LIMIT=1", ""), 1);
+  EXPECT_EQ(threads_with("taskset -c 0", ""), 1);
+  EXPECT_EQ(threads_with("OMP_NUM_THREADS=1", "--threads 3"), 3);
+  for (const char* wrong : {"-1", "1e9", "1000000000", "1025", "2.5", "two"}) {
+    const auto outcome =
+        tests::diptych(folder, std::string("run case.toml --threads ") + wrong + " --out out");
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
+    EXPECT_THAT(outcome.text, AllOf(HasSubstr("--threads"), HasSubstr("0"), HasSubstr("1024")));
+  }
+  const auto limited =
+      shell(folder, "OMP_THREAD_LIMIT=2 $diptych run case.toml --threads 3 --out out");
+  EXPECT_EQ(limited.exit_code, 2) << limited.text;
+  EXPECT_THAT(limited.text, HasSubstr("OMP_THREAD_LIMIT"));
+}
+
+}  // namespace
+}  // namespace diptych
