@@ -103,7 +103,8 @@ struct Support {
   bool is_touched = false;  ///< a lattice vector is as long as it: rounding decides, node by node
 };
 
-Support support_of(const Lattice& lattice, double radius) {
+/// @param touching_count  of a neighbour as far away as the support reaches, 0 to 1
+Support support_of(const Lattice& lattice, double radius, double touching_count) {
   double volume = 1;
   for (int i = 0; i < lattice.dimension; ++i)
     volume *= lattice.spacing[i];
@@ -123,13 +124,28 @@ Support support_of(const Lattice& lattice, double radius) {
       for (int k = -most[2]; k <= most[2]; ++k) {
         const double length =
             std::hypot(i * lattice.spacing[0], j * lattice.spacing[1], k * lattice.spacing[2]);
-        support.neighbours += length < support.reach ? 1 : 0;
-        support.is_touched |= std::abs(length - support.reach) < 1e-9 * support.reach;
+        const bool touches = std::abs(length - support.reach) < 1e-9 * support.reach;
+        support.is_touched |= touches;
+        if (touches) support.neighbours += touching_count;
+        if (!touches && length < support.reach) support.neighbours += 1;
       }
     }
   }
   support.neighbours -= 1;
   return support;
+}
+
+/// Whether all coordinates of the box are exact in binary: distances that are equal are then equal
+/// in the last bit too.
+bool is_exact(const run::MeshCase& mesh, const Lattice& lattice) {
+  const auto has_few_digits = [](double x) {
+    const double scaled = std::ldexp(x, 24);
+    return scaled == std::floor(scaled) && std::abs(scaled) < 1e12;
+  };
+  bool result = true;
+  for (int i = 0; i < lattice.dimension; ++i)
+    result = result && has_few_digits(lattice.spacing[i]) && has_few_digits(mesh.lower[i]);
+  return result;
 }
 
 double particle_pairs(const Lattice& lattice, const Support& support) {
@@ -213,9 +229,10 @@ MemoryEstimate estimate_memory(const run::Case& setup, const std::string& method
   const double radius = is_sph ? support_radius(setup.sph) : 1;
   bool is_regular = setup.mesh.perturbation == 0;
   if (is_sph) {
-    const Support support = support_of(lattice, radius);
+    const bool exact = is_exact(setup.mesh, lattice);  // else one half, by rounding
+    const Support support = support_of(lattice, radius, exact ? 1 : 0.5);
     size.pairs = particle_pairs(lattice, support);
-    is_regular &= !support.is_touched;
+    is_regular = is_regular && (!support.is_touched || exact);
   } else {
     size.pairs = finite_volume_pairs(lattice, setup.mesh.element, setup.fvm.stencil == "integral");
   }

@@ -64,6 +64,7 @@ const Scene scenes[] = {
     {"perturbed", "hexahedron", 28, {"mesh.perturbation=0.2", "mesh.seed=3"}},
     {"single", "hexahedron", 30, {"scheme.precision=single"}},
     {"wide", "hexahedron", 28, {"sph.kappa=1.5", "fvm.stencil=integral"}},
+    {"touching", "hexahedron", 32, {"sph.kappa=1"}},
     {"quadrilaterals", "quadrilateral", 160, {}},
 };
 
