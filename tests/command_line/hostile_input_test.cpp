@@ -84,14 +84,15 @@ TEST(CommandLine, CheckTellsMemoryAndTimeOfTheWholeRun) {
 
 TEST(CommandLine, OutputThatDoesNotArriveIsAnError) {
   const Folder folder;
-  const std::vector<std::string> all{"list",
-                                     "explain all",
-                                     "--help",
-                                     "run --help",
-                                     "--version",
-                                     "material " + cube + " --end 1 --out out",
-                                     "check " + cube + " --method fvm",
-                                     "run " + cube + " --quiet --threads 1 --method fvm --out out"};
+  const std::vector<std::string> all{
+      "list",
+      "explain all",
+      "--help",
+      "run --help",
+      "--version",
+      "material " + cube + " --end 1 --path shear-step --amplitude 0.1 --out out",
+      "check " + cube + " --method fvm",
+      "run " + cube + " --quiet --threads 1 --method fvm --out out"};
   for (const std::string& words : all) {
     for (const char* output : {" >/dev/full", " >&-"}) {
       const auto outcome =
