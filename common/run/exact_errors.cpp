@@ -1,10 +1,7 @@
 #include "common/run/exact_errors.hpp"
 
-#include "common/base/error.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <utility>
 
 namespace diptych::run {
@@ -63,13 +60,6 @@ void ExactErrors::measure_field(const std::string& name,
       v = std::hypot(v, size_of(Field(exact[part][a] - rest)));
     }
     nodal[a] = d;
-    if (!std::isfinite(d + v)) {
-      const Vec3& X = graph_.X[a];
-      throw base::InputError(fmt::format(
-          "the exact {} is not finite at t = {:.6g} s at the node at ({:g}, {:g}, {:g}); "
-          "[exact] must have a value wherever the run comes",
-          name, exact_.time, X[0], X[1], X[2]));
-    }
     const double Omega = graph_.Omega[a];
     e.l1 += Omega * d;
     e.l2 += Omega * d * d;

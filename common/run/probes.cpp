@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 #include <map>
@@ -120,15 +119,7 @@ std::vector<double> Probes::evaluate(const Selection& selection, Solver& solver)
       next = std::lower_bound(next, selection.nodes.end(), node);
       placed.probe.fields->set(
           node_of(snapshot, static_cast<size_t>(next - selection.nodes.begin())));
-      const Vec3& X = X_[static_cast<size_t>(node)];
-      values.push_back(placed.probe.quantity(X, snapshot.time));
-      if (!std::isfinite(values.back())) {
-        throw base::InputError(fmt::format(
-            "{}probe '{}' is {} at t = {:.6g} s at the node at ({:g}, {:g}, {:g}); its expression "
-            "must have a value wherever the run comes",
-            prefix(placed.probe.where), placed.probe.name, values.back(), snapshot.time, X[0], X[1],
-            X[2]));
-      }
+      values.push_back(placed.probe.quantity(X_[static_cast<size_t>(node)], snapshot.time));
     }
     results.push_back(reduced(placed.probe.kind, values, placed.weights));
   }

@@ -116,7 +116,7 @@ TEST_F(OneOfTwo, GoesOnInConverge) {
 TEST_F(OneOfTwo, GoesOnInAStudy) {
   const auto outcome = with("study", "--levels 2 --repeats 2");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.text;
-  EXPECT_THAT(outcome.text, AllOf(HasSubstr("broke down"), HasSubstr("level 1 done")));
+  EXPECT_THAT(outcome.text, HasSubstr("broke down"));
   const std::string csv = text_of(out("work_precision.csv"));
   EXPECT_THAT(csv, AllOf(HasSubstr("fvm,0,"), HasSubstr("fvm,1,"), HasSubstr("sph,1,"),
                          Not(HasSubstr("sph,0,"))));

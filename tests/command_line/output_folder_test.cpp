@@ -74,7 +74,7 @@ TEST_F(OutputFolder, SetsFinishedLevelsAsideAndTakesThemOverLater) {
   EXPECT_FALSE(has("earlier"));
   // other overrides make other runs: nothing of those before is left where it could be taken for
   // one of them
-  diptych("converge --levels 2 --set scheme.dissipation=0.9" + cube);
+  diptych("converge" + cube + "--levels 2 --set scheme.dissipation=0.9");
   EXPECT_FALSE(has("level_2"));
   EXPECT_THAT(text_of(folder.path() / "out" / "case.toml"), HasSubstr("scheme.dissipation=0.9"));
 }
@@ -94,7 +94,7 @@ TEST_F(OutputFolder, OfAnotherCaseIsNotOverwrittenWithoutForce) {
   EXPECT_TRUE(has("fvm/summary.json"));
   EXPECT_FALSE(has("level_0") || has("level_1") || has("convergence.csv") || has("report.html"));
   EXPECT_EQ(text_of(folder.path() / "out" / "notes.txt"), "mine");
-  diptych("run --method fvm --set time.cfl=0.5" + other);  // the same case: other overrides
+  diptych("run" + other + "--method fvm --set time.cfl=0.5");  // the same case: other overrides
   const auto refused = diptych("study --levels 1 --repeats 1" + cube, 2);
   EXPECT_THAT(refused.text, HasSubstr("swinging-cube-elastic-hex"));
 }
@@ -136,7 +136,7 @@ TEST_F(OutputFolder, KeepsPagesThatDiptychDidNotMake) {
 
 TEST_F(OutputFolder, IsNotTouchedWhereTheInputIsWrong) {
   diptych("compare" + cube);
-  diptych("run --method sph --set mesh.cells=[0,1,1]" + cube, 2);
+  diptych("run" + cube + "--method sph --set mesh.cells=[0,1,1]", 2);
   diptych("run --method sph --level 25" + cube, 2);
   const std::string file =
       (fs::path(DIPTYCH_SOURCE_DIR) / "benchmarks/cases/shear-wave-elastic").string();
