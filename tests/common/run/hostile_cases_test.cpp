@@ -78,10 +78,10 @@ std::string chain(const std::string& first,
                   const std::string& two) {
   std::string text = "[functions.f0]\ntype = 'expression'\nvalue = '" + first + "'\n";
   for (int k = 1; k <= n; ++k) {
-    const std::string f = "f" + std::to_string(k - 1);
-    const std::string g = two.empty() ? f : k == 1 ? "f0" : "f" + std::to_string(k - 2);
-    text += "[functions.f" + std::to_string(k) + "]\ntype = 'expression'\nvalue = '" + f + before +
-            g + "'\n";
+    const std::string f = fmt::format("f{}", k - 1);
+    const std::string g = two.empty() ? f : fmt::format("f{}", std::max(k - 2, 0));
+    text +=
+        fmt::format("[functions.f{}]\ntype = 'expression'\nvalue = '{}{}{}'\n", k, f, before, g);
   }
   return text;
 }
@@ -111,7 +111,7 @@ TEST(HostileCases, DepthOfFunctionsIsBounded) {
 TEST(HostileCases, ChainedParametersEndAtTheirSum) {
   std::string text = "[parameters]\np0 = 1\n";
   for (int k = 1; k < 20000; ++k)
-    text += "p" + std::to_string(k) + " = 'p" + std::to_string(k - 1) + " + 1'\n";
+    text += fmt::format("p{} = 'p{} + 1'\n", k, k - 1);
   const Case c = case_from_text(
       text +
           "[mesh]\ncells = [2, 2, 2]\n[material]\nmodel = 'neo-hookean'\ndensity = 'p19999'\n"
