@@ -5,8 +5,10 @@
 #include "common/run/case_reader.hpp"
 #include "tests/common/io/scratch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <string>
