@@ -2,8 +2,8 @@
 
 #include "benchmarks/harness/memory_estimate.hpp"
 
-#include "benchmarks/harness/machine_memory.hpp"
 #include "benchmarks/harness/case_check.hpp"
+#include "benchmarks/harness/machine_memory.hpp"
 #include "common/base/error.hpp"
 #include "common/run/case_reader.hpp"
 

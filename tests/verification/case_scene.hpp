@@ -23,8 +23,7 @@ inline Scene scene_of_case(const std::string& method,
   parallel::set_threads(1);
   Scene scene;
   scene.setup = run::read_case(harness::find_case(name), overrides);
-  const auto mesh =
-      harness::mesh_of(scene.setup, level);
+  const auto mesh = harness::mesh_of(scene.setup, level);
   scene.graph = harness::method_menu().at(method)(mesh.mesh, scene.setup);
   scene.solver = run::make_solver(scene.setup, scene.graph);
   return scene;

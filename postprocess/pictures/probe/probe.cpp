@@ -3,6 +3,7 @@
 #include <vtkHDFReader.h>
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
+
 #include <X11/Xlib.h>
 
 int main() {
