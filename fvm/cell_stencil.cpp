@@ -1,5 +1,7 @@
 #include "fvm/cell_stencil.hpp"
 
+#include "fvm/incidence.hpp"
+
 #include <algorithm>
 #include <array>
 
@@ -25,34 +27,6 @@ Coupling coupling(const ReferenceCell& cell, Quadrature quadrature) {
     }
   }
   return coupled;
-}
-
-/// Cells around each node: cells[first[a]] ... cells[first[a + 1] - 1] as (cell, place in it).
-struct Incidence {
-  std::vector<std::int64_t> first;
-  std::vector<std::int64_t> cell;
-  std::vector<std::uint8_t> place;
-};
-
-Incidence cells_around_nodes(const meshes::Mesh& mesh) {
-  Incidence around;
-  around.first.assign(static_cast<size_t>(mesh.n_nodes()) + 1, 0);
-  for (std::int32_t a : mesh.cell_nodes)
-    ++around.first[a + 1];
-  for (size_t a = 1; a < around.first.size(); ++a)
-    around.first[a] += around.first[a - 1];
-  std::vector<std::int64_t> next(around.first.begin(), around.first.end() - 1);
-  around.cell.resize(mesh.cell_nodes.size());
-  around.place.resize(mesh.cell_nodes.size());
-  for (std::int64_t c = 0; c < mesh.n_cells(); ++c) {
-    const auto nodes = mesh.cell(c);
-    for (size_t i = 0; i < nodes.size(); ++i) {
-      const std::int64_t slot = next[nodes[i]]++;
-      around.cell[slot] = c;
-      around.place[slot] = static_cast<std::uint8_t>(i);
-    }
-  }
-  return around;
 }
 
 std::array<Coupling, 5> couplings(Quadrature quadrature) {

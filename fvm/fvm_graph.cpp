@@ -4,22 +4,25 @@
 #include "common/scheme/classify_rows.hpp"
 #include "common/scheme/closure_repair.hpp"
 #include "fvm/cell_stencil.hpp"
+#include "fvm/sbp_graph.hpp"
+#include "fvm/sbp_operator.hpp"
 #include "meshes/dual_measure.hpp"
+
+#include <fmt/format.h>
 
 namespace diptych::fvm {
 
 namespace {
 
-base::Registry<meshes::Quadrature> stencils() {
-  base::Registry<meshes::Quadrature> menu("stencil of fvm");
-  menu.add("edge", meshes::Quadrature::vertex).add("integral", meshes::Quadrature::exact);
+enum class Stencil { edge, integral, sbp };
+
+base::Registry<Stencil> stencils() {
+  base::Registry<Stencil> menu("stencil of fvm");
+  menu.add("edge", Stencil::edge).add("integral", Stencil::integral).add("sbp", Stencil::sbp);
   return menu;
 }
 
-}  // namespace
-
-scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) {
-  const meshes::Quadrature quadrature = stencils().at(options.stencil);
+scheme::PairGraph graph_of_cells(const meshes::Mesh& mesh, meshes::Quadrature quadrature) {
   meshes::DualMeasure measure = meshes::dual_measure(mesh, quadrature);
   scheme::PairGraph graph;
   graph.dimension = mesh.dimension;
@@ -48,6 +51,30 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
   set_classes(graph);
   validate(graph);
   return graph;
+}
+
+}  // namespace
+
+scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) {
+  const Stencil stencil = stencils().at(options.stencil);
+  if (stencil == Stencil::sbp) return sbp_graph(mesh, options.order);
+  return graph_of_cells(
+      mesh, stencil == Stencil::edge ? meshes::Quadrature::vertex : meshes::Quadrature::exact);
+}
+
+Operators operators_of(const meshes::Mesh& mesh, const Options& options) {
+  if (stencils().at(options.stencil) != Stencil::sbp) return {};
+  const std::vector<SbpLines> lines = sbp_lines(mesh, options.order);
+  Operators operators{lines_text(lines), {}};
+  for (const SbpLines& line : lines) {
+    if (line.order == options.order) continue;
+    operators.lost.push_back(fmt::format(
+        "order {} instead of {} along ({:.3g}, {:.3g}, {:.3g}): its lines have {} nodes, order {} "
+        "takes {}",
+        line.order, options.order, line.direction[0], line.direction[1], line.direction[2],
+        line.n_nodes, options.order, sbp_table(options.order).least_nodes()));
+  }
+  return operators;
 }
 
 }  // namespace diptych::fvm

@@ -1,19 +1,31 @@
 #pragma once
 /// Vertex-centred finite volumes as a pair graph: nodal-quadrature edge stencil
 /// C_ab = 2 sum_e w_a^e grad N_b(X_a) (quadrilaterals, hexahedra; physics note 3.8), or
-/// C_ab = 2 int N_a grad N_b dV (physics note 4.1).
+/// C_ab = 2 int N_a grad N_b dV (physics note 4.1), or operators that sum by parts along the lines
+/// of a block (sbp_graph.hpp).
 
 #include "common/scheme/pair_graph.hpp"
 #include "meshes/mesh.hpp"
 
 #include <string>
+#include <vector>
 
 namespace diptych::fvm {
 
 struct Options {
-  std::string stencil = "edge";  ///< edge or integral; simplices are the same up to the boundary
+  /// edge or integral, on simplices the same up to the boundary; sbp, on blocks
+  std::string stencil = "edge";
+  int order = 4;  ///< of sbp
 };
 
 scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options);
+
+/// What build_graph makes of a mesh, where that depends on more than the options.
+struct Operators {
+  std::string text;               ///< for the record; empty but for sbp
+  std::vector<std::string> lost;  ///< where less than the order asked for fits, and why
+};
+
+Operators operators_of(const meshes::Mesh& mesh, const Options& options);
 
 }  // namespace diptych::fvm

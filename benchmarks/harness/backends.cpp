@@ -1,7 +1,10 @@
 #include "benchmarks/harness/backends.hpp"
 
+#include "common/base/error.hpp"
 #include "fvm/fvm_graph.hpp"
 #include "sph/sph_graph.hpp"
+
+#include <fmt/format.h>
 
 namespace diptych::harness {
 
@@ -20,6 +23,31 @@ scheme::PairGraph in_precision(scheme::PairGraph graph, const std::string& preci
   return graph;
 }
 
+fvm::Options fvm_options(const run::Case& setup) {
+  return {setup.fvm.stencil, setup.fvm.order};
+}
+
+/// What operators that sum by parts do not go with.
+void check_sbp(const run::Case& setup) {
+  if (setup.fvm.stencil != "sbp" || setup.fvm.order == 2) return;
+  const run::SchemeCase& scheme = setup.scheme;
+  if (scheme.face_correction != 0) {
+    throw base::InputError(fmt::format(
+        "{}: scheme.face_correction = {:.4g} corrects derivatives of second order and would spoil "
+        "those of fvm.stencil = \"sbp\" with fvm.order = {}; set it to 0",
+        setup.file, scheme.face_correction, setup.fvm.order));
+  }
+  // In its boundary rows the jumps that are left of linear reconstructions have, in the mean, the
+  // sign opposite to the plain ones (sbp_operator.hpp).
+  if (setup.fvm.order == 6 && scheme.dissipation > 0 && scheme.reconstruction == "linear" &&
+      scheme.limiter == "none") {
+    throw base::InputError(fmt::format(
+        "{}: fvm.stencil = \"sbp\" with fvm.order = 6 gains energy at boundaries from D_ab with "
+        "unlimited reconstruction; use fvm.order = 4, or scheme.limiter = \"sign-preserving\"",
+        setup.file));
+  }
+}
+
 }  // namespace
 
 const base::Registry<GraphMaker>& method_menu() {
@@ -32,10 +60,18 @@ const base::Registry<GraphMaker>& method_menu() {
                      setup.scheme.precision);
                })
           .add("fvm", [](const meshes::Mesh& mesh, const run::Case& setup) {
-            return in_precision(fvm::build_graph(mesh, {setup.fvm.stencil}),
-                                setup.scheme.precision);
+            check_sbp(setup);
+            return in_precision(fvm::build_graph(mesh, fvm_options(setup)), setup.scheme.precision);
           });
   return menu;
+}
+
+GraphDescription graph_description(const std::string& method,
+                                   const meshes::Mesh& mesh,
+                                   const run::Case& setup) {
+  if (method != "fvm") return {};
+  const fvm::Operators operators = fvm::operators_of(mesh, fvm_options(setup));
+  return {operators.text, operators.lost};
 }
 
 }  // namespace diptych::harness

@@ -48,6 +48,7 @@ CaseCheck check_case(const run::Case& setup, const std::string& method, int leve
                                                   : estimate_memory(setup, method, mesh.mesh).bytes;
   scheme::PairGraph graph = method_menu().at(method)(mesh.mesh, setup);
   check.quality = scheme::quality(graph);
+  check.operators = graph_description(method, mesh.mesh, setup).operators;
   check.nodes = graph.n_nodes();
   check.cells = mesh.mesh.n_cells();
   check.pairs = graph.n_pairs();

@@ -4,6 +4,7 @@
 #include "benchmarks/harness/machine_memory.hpp"
 #include "common/base/error.hpp"
 #include "common/run/case_reader.hpp"
+#include "fvm/sbp_operator.hpp"
 
 #include <algorithm>
 #include <array>
@@ -82,6 +83,25 @@ double finite_volume_pairs(const Lattice& lattice, const std::string& element, b
   }
   if (is_simplex(element)) edges += diagonals + (d == 3 ? lattice.n_cells() : 0);
   return 2 * edges;
+}
+
+/// Directed pairs of operators that sum by parts along the lines of a box.
+double pairs_of_lines(const Lattice& lattice, int order) {
+  double pairs = 0;
+  for (int i = 0; i < lattice.dimension; ++i) {
+    const int n = static_cast<int>(lattice.cells[i]) + 1;
+    const fvm::SbpOperator line(fvm::widest_sbp_table(order, n), n);
+    double of_line = 0;
+    for (int k = 0; k < n; ++k)
+      of_line += static_cast<double>(line.row(k).size());
+    pairs += of_line * lattice.nodes() / n;
+  }
+  return pairs;
+}
+
+/// Nodes that a row of finite volumes reaches along a line.
+double reach_of(const run::FvmCase& fvm) {
+  return fvm.stencil == "sbp" ? fvm.order / 2 : 1;
 }
 
 /// Of the support of the kernel, in spacings of a cube of the same volume.
@@ -226,13 +246,15 @@ MemoryEstimate estimate_memory(const run::Case& setup, const std::string& method
   size.nodes = lattice.nodes();
   size.cells = lattice.n_cells() * simplices_of_cell(setup.mesh);
   const bool is_sph = method == "sph";
-  const double radius = is_sph ? support_radius(setup.sph) : 1;
+  const double radius = is_sph ? support_radius(setup.sph) : reach_of(setup.fvm);
   bool is_regular = setup.mesh.perturbation == 0;
   if (is_sph) {
     const bool exact = is_exact(setup.mesh, lattice);  // else one half, by rounding
     const Support support = support_of(lattice, radius, exact ? 1 : 0.5);
     size.pairs = particle_pairs(lattice, support);
     is_regular = is_regular && (!support.is_touched || exact);
+  } else if (setup.fvm.stencil == "sbp") {
+    size.pairs = pairs_of_lines(lattice, setup.fvm.order);
   } else {
     size.pairs = finite_volume_pairs(lattice, setup.mesh.element, setup.fvm.stencil == "integral");
   }
@@ -257,7 +279,7 @@ MemoryEstimate estimate_memory(const run::Case& setup,
     const double of_simplices = d == 3 ? 14 : 6, of_boxes = d == 3 ? 6 : 4;
     const double around = all                              ? std::pow(3, d) - 1
                           : is_simplex(setup.mesh.element) ? of_simplices
-                                                           : of_boxes;
+                                                           : of_boxes * reach_of(setup.fvm);
     size.pairs = size.nodes * around;
   }
   size.bytes = bytes_of(setup, size, 0);

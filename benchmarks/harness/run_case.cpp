@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <new>
@@ -52,6 +53,19 @@ void describe_graph(const scheme::PairGraph& graph, io::RunSummary& s) {
   const double mean =
       n > 0 ? inside / static_cast<double>(n) : all / static_cast<double>(graph.n_nodes());
   s.spacing = std::pow(mean, 1.0 / graph.dimension);
+}
+
+/// What the graph is made of, and a line for the log where that is less than was asked for.
+void describe_operators(const meshes::Mesh& mesh,
+                        const run::Case& setup,
+                        const RunOptions& options,
+                        io::RunSummary& s) {
+  const GraphDescription description = graph_description(options.method, mesh, setup);
+  s.graph_operators = description.operators;
+  if (options.quiet) return;
+  for (const std::string& notice : description.notices)
+    std::fputs(fmt::format("{} level {}: {}\n", options.method, options.level, notice).c_str(),
+               stderr);
 }
 
 /// Steps to the end; time in the loop without output is summed in s.loop_seconds.
@@ -135,6 +149,7 @@ CaseRun::CaseRun(const run::Case& setup, const RunOptions& options)
   solver_ = run::make_solver(setup, result_.graph);
   identify();
   describe_graph(result_.graph, result_.summary);
+  describe_operators(mesh_->mesh, setup, options, result_.summary);
   recorder_.emplace(setup, options, *mesh_, *solver_, result_);
   folder_.check();
   if (folder_.is_written() && options.before_writing) options.before_writing();

@@ -38,6 +38,7 @@ int check(const CaseArguments& arguments) {
         harness::bytes_text(check.estimated_bytes), harness::duration_text(check.seconds),
         parallel::n_threads(), parallel::n_threads() == 1 ? "thread" : "threads",
         harness::duration_text(check.setup_seconds)));
+    if (!check.operators.empty()) print("     " + check.operators + "\n");
   }
   print(setup.name + ": the case is sound\n");
   return 0;

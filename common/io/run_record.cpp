@@ -239,6 +239,7 @@ void read_quality(const Section& file, RunSummary& summary) {
   const Section graph = file.section("graph");
   summary.graph_closure = graph.number("closure");
   summary.graph_linear_exactness = graph.number("linear_exactness");
+  if (graph.has("operators")) summary.graph_operators = graph.text("operators");
   const Section errors = file.section("errors");
   for (const std::string& field : errors.keys()) {
     const Section norms = errors.section(field);
@@ -275,6 +276,9 @@ std::string to_json(const RunSummary& summary) {
   Json measures = Json::object();
   for (const auto& [name, value] : summary.measures)
     measures[name] = value;
+  Json graph = {{"closure", summary.graph_closure},
+                {"linear_exactness", summary.graph_linear_exactness}};
+  if (!summary.graph_operators.empty()) graph["operators"] = summary.graph_operators;
   Json file = {
       {"method", summary.method},
       {"case", summary.case_name},
@@ -306,8 +310,7 @@ std::string to_json(const RunSummary& summary) {
       {"dt", {{"min", summary.dt_min}, {"max", summary.dt_max}}},
       {"spacing", summary.spacing},
       {"mean_neighbours", summary.mean_neighbours},
-      {"graph",
-       {{"closure", summary.graph_closure}, {"linear_exactness", summary.graph_linear_exactness}}},
+      {"graph", graph},
       {"errors", errors},
       {"measures", measures},
       {"energy", energy_json(summary.energy)},

@@ -326,8 +326,14 @@ constexpr std::array key_table{
         "Repair of the boundary so that the pseudo-areas close (sum C_ab = -gamma_a).", "false"),
 
     choice("fvm.stencil", "\"edge\"", "", menus::stencils,
-           "Pair areas by nodal quadrature (edge) or by 2 int N_a grad N_b dV (integral).",
-           "\"integral\""),
+           "Pair areas by nodal quadrature (edge), by 2 int N_a grad N_b dV (integral), or from operators "
+           "that sum by parts along the lines of nodes (sbp), on boxes of hexahedra or quadrilaterals.",
+           "\"sbp\""),
+    key("fvm.order", integer, "-", "4", "", between(2, 6),
+        "With stencil = \"sbp\", order of the derivatives inside: 2 (the edge stencil), 4 or 6; half of it "
+        "at boundaries. On lines of fewer than 8 (4) or 12 nodes (6) it falls to the next. 6 takes "
+        "scheme.limiter = \"sign-preserving\" or none of the reconstruction.",
+        "6"),
 
     key("exact.displacement", vector_field, "m", "", "optional", any, "Exact displacement.",
         "[\"q*sin(pi*y/2)\", 0, 0]"),

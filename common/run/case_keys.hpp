@@ -33,7 +33,7 @@ inline constexpr std::array<Name, 4> limiters{"none", "barth-jespersen", "venkat
 inline constexpr std::array<Name, 2> impedances{"isotropic", "exact"};
 inline constexpr std::array<Name, 3> precisions{"double", "mixed", "single"};
 inline constexpr std::array<Name, 3> kernels{"cubic-spline", "quintic-spline", "wendland-c2"};
-inline constexpr std::array<Name, 2> stencils{"edge", "integral"};
+inline constexpr std::array<Name, 3> stencils{"edge", "integral", "sbp"};
 inline constexpr std::array<Name, 5> functions{"expression", "zener_mode", "zener_slab",
                                                "zener_wave", "uniaxial_wave"};
 inline constexpr std::array<Name, 3> signals{"step", "one-minus-cosine", "sine"};

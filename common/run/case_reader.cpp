@@ -301,6 +301,21 @@ SchemeCase read_scheme(const SectionValues& section) {
   return scheme;
 }
 
+FvmCase read_fvm(const SectionValues& section) {
+  FvmCase fvm;
+  fvm.stencil = section.menu_name("stencil");
+  fvm.order = static_cast<int>(section.integer("order"));
+  if (fvm.stencil != "sbp") {
+    section.refuse("order",
+                   fmt::format("has no effect on stencil = \"{}\"; it is for sbp", fvm.stencil));
+  }
+  if (fvm.order % 2 != 0) {
+    section.fail("order",
+                 fmt::format("= {} is not the order of an operator; use 2, 4 or 6", fvm.order));
+  }
+  return fvm;
+}
+
 ExactCase read_exact(const SectionValues& section) {
   ExactCase exact;
   exact.displacement = section.vector_field_if("displacement");
@@ -339,7 +354,7 @@ void read_sections(Sections& sections, const fs::path& folder, Case& c) {
   c.sph.kernel = sections.section("sph").menu_name("kernel");
   c.sph.kappa = sections.section("sph").number("kappa");
   c.sph.closure = sections.section("sph").flag("closure");
-  c.fvm.stencil = sections.section("fvm").menu_name("stencil");
+  c.fvm = read_fvm(sections.section("fvm"));
   c.exact = read_exact(sections.section("exact"));
 }
 

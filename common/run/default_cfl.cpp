@@ -24,6 +24,13 @@ double shear_ratio_of(const MaterialCase& m) {
   return std::sqrt(shear / pressure);
 }
 
+/// The frequency of all components together may be so many times that of one before it shortens the
+/// step: default_dt_omega leaves more than that, and on lattices it is smaller.
+constexpr double most_elastic = 1.1;
+
+/// What leapfrog takes of its limit at most, where the fastest and the most damped modes meet.
+constexpr double leapfrog_share = 0.95;
+
 /// Of the step at which the dissipation alone turns unstable. For leapfrog, stable where
 /// (dt omega)^2/4 + dt d/2 < 1, it leaves what dt omega = 0.92 takes, 0.21, even were the same mode
 /// the fastest and the most damped.
@@ -51,12 +58,21 @@ double default_cfl(const Case& setup,
   const double kappa_f = setup.scheme.face_correction;
   const double strength = setup.scheme.dissipation *
                           scheme::strength_of(scheme::limiter_menu().at(setup.scheme.limiter));
+  const double shear_ratio = shear_ratio_of(setup.material);
   const LargestRates largest(graph);
-  const double omega = largest.frequency(kappa_f);
-  const double d = strength * largest.dissipation(shear_ratio_of(setup.material));
+  double omega = largest.frequency(kappa_f);
+  if (!integrator.is_leapfrog()) {
+    omega = std::max(omega, largest.elastic_frequency(kappa_f, shear_ratio) / most_elastic);
+  }
+  const double d = strength * largest.dissipation(shear_ratio);
   // dt at a wave speed of one
-  const double dt = std::min(integrator.default_dt_omega / omega,
-                             dissipation_share * real_extent(integrator) / d);
+  double dt = std::min(integrator.default_dt_omega / omega,
+                       dissipation_share * real_extent(integrator) / d);
+  if (integrator.is_leapfrog()) {
+    // convex in dt and zero at zero: at this part of dt it is no larger than the share
+    const double limit = largest.leapfrog_limit(dt, kappa_f, shear_ratio, strength);
+    dt *= std::min(1.0, leapfrog_share / limit);
+  }
   return dt * scheme::geometric_rate(graph) * scheme::frequency_factor(kappa_f);
 }
 

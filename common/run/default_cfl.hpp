@@ -5,8 +5,12 @@
 /// undeformed body (largest_rates.hpp), and dt is the smaller of
 ///   default_dt_omega of the integrator / omega   and   0.8 of the step at which d ends stability,
 ///   dt d = 2 with leapfrog and SSP-RK2, 2.51 with SSP-RK3, 5.15 with SSPRK(4,3).
-/// During the run it follows the wave speeds as the graph bound does. A slope limiter counts by its
-/// greatest strength. Measured limits and errors: benchmarks/README.md. Test:
+/// omega is that of one component; with SSP-RK also the 1.1th part of that of all components
+/// together, where that is more (boundaries of SPH, lambda >> mu). With leapfrog the largest
+/// eigenvalue of dt^2/4 K + dt/2 D stays below 0.95, which counts where the fastest and the most
+/// damped modes are the same (free corners of operators that sum by parts). During the run it
+/// follows the wave speeds as the graph bound does. A slope limiter counts by its greatest
+/// strength. Measured limits and errors: benchmarks/README.md. Test:
 /// tests/common/run/default_cfl_test.cpp
 
 #include "common/run/case.hpp"

@@ -3,12 +3,15 @@
 #include "common/algebra/field.hpp"
 #include "common/algebra/four.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/run/lanczos.hpp"
 #include "common/scheme/classify_rows.hpp"
+#include "common/scheme/dissipation_area.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
 #include <numeric>
+#include <utility>
 
 namespace diptych::run {
 
@@ -18,113 +21,10 @@ using algebra::Four;
 using algebra::load_three;
 using algebra::sum_three;
 using algebra::Vec3;
+using lanczos::Field;
+using lanczos::for_nodes;
+using lanczos::largest_eigenvalue;
 using scheme::PairGraph;
-template <class T>
-using Field = algebra::AlignedArray<T>;
-
-constexpr int n_iterations = 16;
-
-template <class Work>
-void for_nodes(const PairGraph& graph, const Work& work) {
-  parallel::for_chunks(graph.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-    for (std::int64_t a = begin; a < end; ++a)
-      work(a);
-  });
-}
-
-double dot(double u, double v) {
-  return u * v;
-}
-double dot(const Four& u, const Four& v) {
-  return sum_three(u * v);
-}
-
-template <class T>
-double product(const PairGraph& graph, const Field<T>& u, const Field<T>& v) {
-  std::vector<double> parts(parallel::n_chunks_of(graph.n_nodes()));
-  parallel::for_chunks(graph.n_nodes(),
-                       [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
-                         for (std::int64_t a = begin; a < end; ++a)
-                           parts[chunk] += graph.Omega[a] * dot(u[a], v[a]);
-                       });
-  return parallel::sum_in_order(parts);
-}
-
-/// Numbers in [-1, 1), the same at every call.
-class Noise {
- public:
-  void fill(double& x) {
-    state_ = state_ * 6364136223846793005U + 1442695040888963407U;
-    x = static_cast<double>(state_ >> 11) * 0x1p-52 - 1;
-  }
-  void fill(Four& x) {
-    for (int i = 0; i < 3; ++i) {
-      double value = 0;
-      fill(value);
-      x[i] = value;
-    }
-  }
-
- private:
-  std::uint64_t state_ = 1;
-};
-
-/// Largest eigenvalue of the symmetric tridiagonal matrix with this diagonal and the squares of
-/// that beside it, by bisection on the signs of its Sturm sequence.
-double largest_eigenvalue(const std::vector<double>& diagonal, const std::vector<double>& beside2) {
-  double below = 0, above = 0;
-  for (size_t i = 0; i < diagonal.size(); ++i) {
-    const double left = i > 0 ? std::sqrt(beside2[i - 1]) : 0;
-    const double right = i < beside2.size() ? std::sqrt(beside2[i]) : 0;
-    above = std::max(above, diagonal[i] + left + right);
-  }
-  const auto passes_all = [&](double x) {
-    double q = 1;
-    for (size_t i = 0; i < diagonal.size(); ++i) {
-      q = diagonal[i] - x - (i > 0 ? beside2[i - 1] / q : 0);
-      if (q >= 0) return false;
-    }
-    return true;
-  };
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (below + above);
-    (passes_all(middle) ? above : below) = middle;
-  }
-  return above;
-}
-
-/// Largest eigenvalue of a symmetric, positive operator by the Lanczos recurrence.
-template <class T>
-double lanczos(const PairGraph& graph,
-               const std::function<void(const Field<T>& in, Field<T>& out)>& apply) {
-  Field<T> before(graph.n_nodes()), now(graph.n_nodes()), next(graph.n_nodes());
-  Noise noise;
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a)
-    noise.fill(now[a]);
-  std::vector<double> diagonal, beside2;
-  const double first_length = std::sqrt(product(graph, now, now));
-  double beta = 0;
-  for_nodes(graph, [&](std::int64_t a) {
-    now[a] /= first_length;
-    before[a] = 0 * now[a];
-  });
-  while (true) {
-    apply(now, next);
-    diagonal.push_back(product(graph, now, next));
-    for_nodes(graph,
-              [&](std::int64_t a) { next[a] -= diagonal.back() * now[a] + beta * before[a]; });
-    beta = std::sqrt(product(graph, next, next));
-    // an invariant subspace: the rest is rounding
-    if (diagonal.size() == n_iterations || !(beta > 1e-10 * diagonal.front())) break;
-    beside2.push_back(beta * beta);
-    for_nodes(graph, [&](std::int64_t a) {
-      before[a] = now[a];
-      now[a] = next[a] / beta;
-    });
-  }
-  return largest_eigenvalue(diagonal, beside2);
-}
-
 /// What the operators read of pairs: those of node a are first[kind[a]] to first[kind[a] + 1].
 struct Rows {
   const std::int32_t* kind;
@@ -254,6 +154,23 @@ void for_ranges(const PairGraph& graph, const Work& work) {
   });
 }
 
+/// g_i, the gradients of the components of a displacement at node a, become the rows of the stress
+/// lambda tr(e) I + 2 mu e.
+void stress_of(
+    int dimension, double lambda, double mu, std::array<Field<Four>, 3>& g, std::int64_t a) {
+  double trace = 0;
+  for (int i = 0; i < dimension; ++i)
+    trace += g[i][a][i];
+  for (int i = 0; i < dimension; ++i) {
+    for (int j = 0; j < i; ++j) {
+      const double shear = mu * (g[i][a][j] + g[j][a][i]);
+      g[i][a][j] = shear;
+      g[j][a][i] = shear;
+    }
+    g[i][a][i] = lambda * trace + 2 * mu * g[i][a][i];
+  }
+}
+
 /// A quarter of the nodes: beyond that, geometry that stands once for them is hardly smaller.
 constexpr double most_kinds_per_node = 0.25;
 
@@ -300,59 +217,174 @@ const std::int32_t* LargestRates::neighbours() const {
   return shared() ? offset_.data() : graph_.neighbour.data();
 }
 
-double LargestRates::dissipation(double shear_ratio) const {
-  Field<Four> N(first_.back());
-  for_geometry([&](std::int64_t, std::int64_t i, std::int64_t k) {
-    const Vec3 S = graph_.C[k] - graph_.C[graph_.reverse[k]];  // twice S_ab
-    const double area = S.norm();
-    if (!(area > 0)) return;
-    N[i] = load_three(S) * std::sqrt((1 - shear_ratio) / area);
-    N[i][3] = shear_ratio * area;
-  });
-  const std::vector<double> inverse = inverse_volumes(graph_, 0.25);
-  const Rows rows{kinds_.of.data(), first_.data(), neighbours(), shared(), inverse.data()};
-  return lanczos<Four>(graph_, [&](const Field<Four>& v, Field<Four>& out) {
-    for_ranges(graph_, [&](std::int64_t begin, std::int64_t end) {
-      apply_dissipation(rows, N.data(), v.data(), out.data(), begin, end);
+/// The dissipation operator of plain jumps.
+class LargestRates::Dissipation {
+ public:
+  Dissipation(const LargestRates& rates, double shear_ratio)
+      : graph_(rates.graph_),
+        N_(rates.first_.back()),
+        inverse_(inverse_volumes(graph_, 0.25)),
+        rows_{rates.kinds_.of.data(), rates.first_.data(), rates.neighbours(), rates.shared(),
+              inverse_.data()} {
+    rates.for_geometry([&](std::int64_t, std::int64_t i, std::int64_t k) {
+      const Vec3 S = graph_.C[k] - graph_.C[graph_.reverse[k]];  // twice S_ab
+      const std::int64_t a = graph_.neighbour[graph_.reverse[k]], b = graph_.neighbour[k];
+      const double area = scheme::dissipation_area(S, graph_.X[b] - graph_.X[a]);
+      if (!(area > 0)) return;
+      N_[i] = load_three(S) * std::sqrt((1 - shear_ratio) / area);
+      N_[i][3] = shear_ratio * area;
     });
-  });
+  }
+
+  void apply(const Field<Four>& v, Field<Four>& out) const {
+    for_ranges(graph_, [&](std::int64_t begin, std::int64_t end) {
+      apply_dissipation(rows_, N_.data(), v.data(), out.data(), begin, end);
+    });
+  }
+
+ private:
+  const PairGraph& graph_;
+  Field<Four> N_;
+  std::vector<double> inverse_;
+  Rows rows_;
+};
+
+double LargestRates::dissipation(double shear_ratio) const {
+  const Dissipation D(*this, shear_ratio);
+  return largest_eigenvalue<Four>(graph_,
+                                  [&](const Field<Four>& v, Field<Four>& out) { D.apply(v, out); });
 }
 
-double LargestRates::frequency(double kappa_f) const {
-  std::vector<Vec3> C_shared, C_reverse(static_cast<size_t>(first_.back()));
-  if (shared()) C_shared.resize(C_reverse.size());
-  Field<Four> C_sum(static_cast<std::int64_t>(kinds_.representative.size()));
-  for_geometry([&](std::int64_t kind, std::int64_t i, std::int64_t k) {
-    C_reverse[i] = graph_.C[graph_.reverse[k]];
-    if (shared()) C_shared[i] = graph_.C[k];
-    C_sum[kind] += load_three(graph_.C[k]);
-  });
-  const Vec3* C = shared() ? C_shared.data() : graph_.C.data();
-  const std::vector<double> inverse = inverse_volumes(graph_, 0.5);
-  const Rows rows{kinds_.of.data(), first_.data(), neighbours(), shared(), inverse.data()};
-  Field<Four> X, g(graph_.n_nodes()), corrected;
-  if (kappa_f != 0) {
-    X = Field<Four>(graph_.n_nodes());
-    corrected = Field<Four>(graph_.n_nodes());
-    for_nodes(graph_, [&](std::int64_t a) { X[a] = load_three(graph_.X[a]); });
+/// The gradient of (18b) of one component and its adjoint, with the face correction.
+class LargestRates::Gradient {
+ public:
+  Gradient(const LargestRates& rates, double kappa_f)
+      : graph_(rates.graph_),
+        kappa_f_(kappa_f),
+        C_reverse_(static_cast<size_t>(rates.first_.back())),
+        C_sum_(static_cast<std::int64_t>(rates.kinds_.representative.size())),
+        inverse_(inverse_volumes(graph_, 0.5)),
+        rows_{rates.kinds_.of.data(), rates.first_.data(), rates.neighbours(), rates.shared(),
+              inverse_.data()} {
+    if (rates.shared()) C_shared_.resize(C_reverse_.size());
+    rates.for_geometry([&](std::int64_t kind, std::int64_t i, std::int64_t k) {
+      C_reverse_[i] = graph_.C[graph_.reverse[k]];
+      if (rates.shared()) C_shared_[i] = graph_.C[k];
+      C_sum_[kind] += load_three(graph_.C[k]);
+    });
+    C_ = rates.shared() ? C_shared_.data() : graph_.C.data();
+    if (kappa_f == 0) return;
+    X_ = Field<Four>(graph_.n_nodes());
+    corrected_ = Field<Four>(graph_.n_nodes());
+    for_nodes(graph_, [&](std::int64_t a) { X_[a] = load_three(graph_.X[a]); });
   }
-  return std::sqrt(lanczos<double>(graph_, [&](const Field<double>& u, Field<double>& out) {
-    const auto pass = [&](const auto& work) { for_ranges(graph_, work); };
-    pass([&](auto begin, auto end) { gradient(rows, C, u.data(), g.data(), begin, end); });
-    if (kappa_f != 0) {
+
+  void of(const Field<double>& u, Field<Four>& g) {
+    pass([&](auto begin, auto end) { gradient(rows_, C_, u.data(), g.data(), begin, end); });
+    if (kappa_f_ == 0) return;
+    pass([&](auto begin, auto end) {
+      correct_gradient(rows_, C_, C_reverse_.data(), X_.data(), kappa_f_, g.data(),
+                       corrected_.data(), begin, end);
+    });
+    std::swap(g, corrected_);
+  }
+
+  /// @param p  is lost
+  void adjoint_of(Field<Four>& p, Field<double>& f) {
+    if (kappa_f_ != 0) {
       pass([&](auto begin, auto end) {
-        correct_gradient(rows, C, C_reverse.data(), X.data(), kappa_f, g.data(), corrected.data(),
-                         begin, end);
+        correct_stress(rows_, C_, C_reverse_.data(), X_.data(), kappa_f_, p.data(),
+                       corrected_.data(), begin, end);
       });
-      pass([&](auto begin, auto end) {
-        correct_stress(rows, C, C_reverse.data(), X.data(), kappa_f, corrected.data(), g.data(),
-                       begin, end);
-      });
+      std::swap(p, corrected_);
     }
     pass([&](auto begin, auto end) {
-      adjoint(rows, C_reverse.data(), C_sum.data(), g.data(), out.data(), begin, end);
+      adjoint(rows_, C_reverse_.data(), C_sum_.data(), p.data(), f.data(), begin, end);
     });
-  }));
+  }
+
+ private:
+  template <class Work>
+  void pass(const Work& work) const {
+    for_ranges(graph_, work);
+  }
+
+  const PairGraph& graph_;
+  double kappa_f_;
+  std::vector<Vec3> C_shared_, C_reverse_;
+  const Vec3* C_ = nullptr;
+  Field<Four> C_sum_, X_, corrected_;
+  std::vector<double> inverse_;
+  Rows rows_;
+};
+
+double LargestRates::frequency(double kappa_f) const {
+  Gradient G(*this, kappa_f);
+  Field<Four> g(graph_.n_nodes());
+  return std::sqrt(
+      largest_eigenvalue<double>(graph_, [&](const Field<double>& u, Field<double>& out) {
+        G.of(u, g);
+        G.adjoint_of(g, out);
+      }));
+}
+
+/// u -> G* (lambda tr(e) I + 2 mu e), e the symmetric part of G u.
+class LargestRates::Elasticity {
+ public:
+  Elasticity(const LargestRates& rates, double kappa_f, double shear_ratio)
+      : graph_(rates.graph_),
+        G_(rates, kappa_f),
+        mu_(shear_ratio * shear_ratio),
+        lambda_(1 - 2 * mu_),
+        u_(graph_.n_nodes()),
+        f_(graph_.n_nodes()) {
+    for (int i = 0; i < graph_.dimension; ++i)
+      g_[i] = Field<Four>(graph_.n_nodes());
+  }
+
+  void apply(const Field<Four>& u, Field<Four>& out) {
+    for (int i = 0; i < graph_.dimension; ++i) {
+      for_nodes(graph_, [&](std::int64_t a) { u_[a] = u[a][i]; });
+      G_.of(u_, g_[i]);
+    }
+    for_nodes(graph_, [&](std::int64_t a) {
+      stress_of(graph_.dimension, lambda_, mu_, g_, a);
+      out[a] = Four{};
+    });
+    for (int i = 0; i < graph_.dimension; ++i) {
+      G_.adjoint_of(g_[i], f_);
+      for_nodes(graph_, [&](std::int64_t a) { out[a][i] = f_[a]; });
+    }
+  }
+
+ private:
+  const PairGraph& graph_;
+  Gradient G_;
+  double mu_, lambda_;
+  Field<double> u_, f_;
+  std::array<Field<Four>, 3> g_;
+};
+
+double LargestRates::elastic_frequency(double kappa_f, double shear_ratio) const {
+  Elasticity K(*this, kappa_f, shear_ratio);
+  return std::sqrt(largest_eigenvalue<Four>(
+      graph_, [&](const Field<Four>& u, Field<Four>& out) { K.apply(u, out); }));
+}
+
+double LargestRates::leapfrog_limit(double dt,
+                                    double kappa_f,
+                                    double shear_ratio,
+                                    double strength) const {
+  Elasticity K(*this, kappa_f, shear_ratio);
+  const Dissipation D(*this, shear_ratio);
+  Field<Four> damped(graph_.n_nodes());
+  return largest_eigenvalue<Four>(graph_, [&](const Field<Four>& v, Field<Four>& out) {
+    K.apply(v, out);
+    D.apply(v, damped);
+    for_nodes(graph_, [&](std::int64_t a) {
+      out[a] = 0.25 * dt * dt * out[a] + 0.5 * dt * strength * damped[a];
+    });
+  });
 }
 
 }  // namespace diptych::run

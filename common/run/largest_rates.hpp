@@ -26,7 +26,23 @@ class LargestRates {
   /// omega per unit of c_p  [1/m]
   double frequency(double kappa_f) const;
 
+  /// The same of all components together, u -> G* (lambda tr(e) I + 2 mu e) with e the symmetric
+  /// part of G u. Inside a lattice it is no larger; near boundaries, where lambda >> mu, it can be
+  /// by a half, since the divergence may count for more than waves along one direction do.
+  /// @param shear_ratio  c_s/c_p, <= sqrt(3)/2
+  double elastic_frequency(double kappa_f, double shear_ratio) const;
+
+  /// Largest eigenvalue of dt^2/4 K + dt/2 D, K the elastic operator and D the dissipation:
+  /// leapfrog is stable where it is below one. Alone dt omega and dt d say so only if the fastest
+  /// and the most damped modes differ; at the corners of operators that sum by parts they do not.
+  /// @param dt  c_p times the step  [m]  @param strength  of the dissipation
+  double leapfrog_limit(double dt, double kappa_f, double shear_ratio, double strength) const;
+
  private:
+  class Gradient;
+  class Elasticity;
+  class Dissipation;
+
   /// Calls set(kind, i, k) for the pairs k of one node of each kind, i counting them all.
   template <class Set>
   void for_geometry(const Set& set) const;

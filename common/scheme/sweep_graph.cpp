@@ -2,6 +2,7 @@
 
 #include "common/parallel/for_chunks.hpp"
 #include "common/scheme/classify_rows.hpp"
+#include "common/scheme/dissipation_area.hpp"
 #include "common/scheme/pair_runs.hpp"
 
 #include <algorithm>
@@ -153,7 +154,13 @@ EqualGroups group_blocks(const PairGraph& graph, const RowClasses& classes) {
   return group_equal(hash, [&](std::int32_t a, std::int32_t b) { return block(a) == block(b); });
 }
 
-/// Geometry of every group once, set lane by lane by set(chunk, lane, C_ab, C_ba).
+/// X_b - X_a of a pair; 0 where there is none.
+Vec3 distance_of(const PairGraph& graph, std::int64_t p) {
+  if (p < 0) return Vec3::Zero();
+  return graph.X[graph.neighbour[p]] - graph.X[graph.neighbour[graph.reverse[p]]];
+}
+
+/// Geometry of every group once, set lane by lane by set(chunk, lane, C_ab, C_ba, X_b - X_a).
 /// @param first_of_unit  into the geometry
 /// @param allocate       called with the number of chunks
 template <class Allocate, class Set>
@@ -178,7 +185,7 @@ void set_geometry(const PairGraph& graph,
     geometry_of(graph, classes, pairs, C);
     for (size_t k = 0; k < pairs.size(); ++k) {
       set(first[g] + static_cast<std::int64_t>(k) / n_lanes, static_cast<int>(k % n_lanes),
-          C[2 * k], C[2 * k + 1]);
+          C[2 * k], C[2 * k + 1], distance_of(graph, pairs[k]));
     }
   }
   for (std::int64_t u = 0; u < layouts.n_units(); ++u)
@@ -206,13 +213,14 @@ void set_directed(const PairGraph& graph,
     sweep.area = algebra::AlignedArray<PairArea>(rows ? n : 0);
     sweep.face = algebra::AlignedArray<PairVectors<Dim, float>>(rows && single ? 0 : n);
   };
-  const auto set = [&](std::int64_t chunk, int lane, const Vec3& C_ab, const Vec3& C_ba) {
+  const auto set = [&](std::int64_t chunk, int lane, const Vec3& C_ab, const Vec3& C_ba,
+                       const Vec3& X_ab) {
     const Vec3 S_ab = 0.5 * (C_ab - C_ba);
     sweep.strain.change(chunk, [&](auto& geometry) { put(geometry.component, lane, C_ab); });
     if (sweep.face.size() > 0) put(sweep.face[chunk].component, lane, S_ab);
     if (!rows) return;
     sweep.force.change(chunk, [&](auto& geometry) { put(geometry.component, lane, C_ba); });
-    sweep.area[chunk].area[lane] = static_cast<float>(S_ab.norm());
+    sweep.area[chunk].area[lane] = static_cast<float>(dissipation_area(S_ab, X_ab));
   };
   set_geometry(graph, classes, layouts, alike, sweep.first, allocate, set);
 }
@@ -233,11 +241,12 @@ void set_mutual(const PairGraph& graph,
   const auto allocate = [&](std::int64_t n) {
     mutual.geometry = GeometryArray<MutualGeometry, Dim>(n, graph.precision != Precision::full);
   };
-  const auto set = [&](std::int64_t chunk, int lane, const Vec3& C_ab, const Vec3& C_ba) {
+  const auto set = [&](std::int64_t chunk, int lane, const Vec3& C_ab, const Vec3& C_ba,
+                       const Vec3& X_ab) {
     mutual.geometry.change(chunk, [&](auto& geometry) {
       put(geometry.C_ab, lane, C_ab);
       put(geometry.C_ba, lane, C_ba);
-      geometry.area[lane] = static_cast<float>((0.5 * (C_ab - C_ba)).norm());
+      geometry.area[lane] = static_cast<float>(dissipation_area(0.5 * (C_ab - C_ba), X_ab));
     });
   };
   set_geometry(graph, classes, RunLayouts(graph, half), alike, mutual.first, allocate, set);

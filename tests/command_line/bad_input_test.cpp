@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <gmock/gmock.h>
+#include <iterator>
 #include <ostream>
 
 namespace diptych {
@@ -102,6 +104,43 @@ TEST_P(BadInput, EndsWithCodeTwoAndOneMessage) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, BadInput, testing::ValuesIn(bad_cases()), name_of);
+
+/// What operators that sum by parts cannot stand on, each with what to do about it.
+TEST(BadInputOfFiniteVolumes, SummingByPartsTakesOneUndistortedBlock) {
+  const Folder folder;
+  folder.write("case.toml", sound_case);
+  const std::vector<std::pair<std::string, std::string>> refused = {
+      {"mesh.perturbation=0.1", "mesh.perturbation"},
+      {"mesh.element=tetrahedron", "is a tetrahedron"},
+      {"scheme.face_correction=1/6", "set it to 0"},
+      {"fvm.order=6", "sign-preserving"}};
+  for (const auto& [setting, told] : refused) {
+    const auto outcome =
+        diptych(folder,
+                "run case.toml --method fvm --quiet --out out --set mesh.cells=[4,4,4] "
+                "--set fvm.stencil=sbp --set " +
+                    setting);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
+    EXPECT_THAT(outcome.text, AllOf(HasSubstr("fvm.stencil = \"sbp\""), HasSubstr(told)));
+    EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+  }
+}
+
+/// A side of four cells has too few nodes for order 4: said in the log and in the summary.
+TEST(ShortLines, AreSaidInTheLogAndInTheSummary) {
+  const Folder folder;
+  folder.write("case.toml", sound_case);
+  const auto outcome = diptych(folder,
+                               "run case.toml --method fvm --out out --set mesh.cells=[7,4,8] "
+                               "--set fvm.stencil=sbp");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  const std::string lost = "order 2 instead of 4 along (0, 1, 0): its lines have 5 nodes";
+  EXPECT_THAT(outcome.text, HasSubstr(lost));
+  std::ifstream summary(folder.path() / "out" / "fvm" / "summary.json");
+  const std::string text{std::istreambuf_iterator<char>(summary), {}};
+  EXPECT_THAT(text, HasSubstr("order 4 on 8 nodes along (1, 0, 0), order 2 on 5 nodes along"));
+}
 
 TEST(BadMesh, InvertedCellIsNamed) {
   const Folder folder;

@@ -1,6 +1,7 @@
 /// The exact identities of physics note 3.2, from the C_ab alone, and the two approximation
 /// conditions (linear exactness, closure) on every graph that the two factories make.
 
+#include "common/scheme/dissipation_area.hpp"
 #include "fvm/fvm_graph.hpp"
 #include "sph/sph_graph.hpp"
 #include "tests/graphs/graph_checks.hpp"
@@ -27,6 +28,16 @@ Scene sph_scene(CellType type, const std::string& kernel, double fraction) {
           sph::build_graph(test_box(type, is_flat(type) ? 9 : 6, fraction), options)};
 }
 
+/// 9 and 14 nodes to a line: the widest pairs; 7 cells on some, so that they fall back there.
+Scene sbp_scene(CellType type, int order, const std::array<int, 3>& cells) {
+  meshes::Mesh mesh = meshes::box(type, {-0.5, 0.1, 0}, {0.5, 1.3, is_flat(type) ? 0 : 0.8}, cells);
+  for (Vec3& X : mesh.nodes)
+    X[0] += 0.3 * X[1];  // any parallelepiped
+  fvm::Options options{"sbp", order};
+  return {"fvm sbp " + std::to_string(order) + " " + name_of(type),
+          fvm::build_graph(mesh, options)};
+}
+
 const std::vector<Scene>& scenes() {
   static const std::vector<Scene> all = [] {
     std::vector<Scene> made;
@@ -45,6 +56,11 @@ const std::vector<Scene>& scenes() {
         }
       }
     }
+    for (const int order : {2, 4, 6}) {
+      made.push_back(sbp_scene(CellType::hexahedron, order, {9, 7, 13}));
+      made.push_back(sbp_scene(CellType::hexahedron, order, {3, 8, 1}));
+      made.push_back(sbp_scene(CellType::quadrilateral, order, {13, 9, 1}));
+    }
     return made;
   }();
   return all;
@@ -58,6 +74,32 @@ TEST(EveryGraph, IsExactForLinearFieldsAndClosed) {
     EXPECT_LE(quality.linear_exactness, 1e-12) << scene.name;
     EXPECT_LE(quality.closure, 1e-12) << scene.name;
     EXPECT_GE(quality.least_neighbours, scene.graph.dimension) << scene.name;
+  }
+}
+
+/// Only wide derivatives have areas that point backwards, a tenth of all; those pairs dissipate
+/// nothing (common/scheme/dissipation_area.hpp).
+TEST(EveryGraph, HasAreasFromANodeToItsNeighbourButForWideDerivatives) {
+  for (const Scene& scene : scenes()) {
+    const auto& graph = scene.graph;
+    double backwards = 0, all = 0;
+    for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+        const Vec3 S = 0.5 * (graph.C[p] - graph.C[graph.reverse[p]]);
+        const double area = scheme::dissipation_area(S, graph.X[graph.neighbour[p]] - graph.X[a]);
+        EXPECT_TRUE(area == 0 || area == S.norm()) << scene.name;
+        all += S.norm();
+        backwards += S.norm() - area;
+      }
+    }
+    const bool is_wide = scene.name.find("sbp 4") != std::string::npos ||
+                         scene.name.find("sbp 6") != std::string::npos;
+    if (is_wide) {
+      EXPECT_GT(backwards, 0.05 * all) << scene.name;
+      EXPECT_LT(backwards, 0.15 * all) << scene.name;
+    } else {
+      EXPECT_EQ(backwards, 0) << scene.name;
+    }
   }
 }
 

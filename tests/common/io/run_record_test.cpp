@@ -36,6 +36,7 @@ RunSummary full_summary() {
   s.solver_bytes = 234, s.running_rss_bytes = 345, s.building_rss_bytes = 456;
   s.dt_min = 1e-7, s.dt_max = 2e-5, s.spacing = 0.0625, s.mean_neighbours = 50.7;
   s.graph_closure = 1.1e-16, s.graph_linear_exactness = 2.3e-15;
+  s.graph_operators = "sbp: order 4 on 17 nodes along (1, 0, 0)";
   s.errors["velocity"] = {1e-3, std::nextafter(2e-3, 1), 3e-3};
   s.errors["stress"] = {4e-3, 5e-3, 6e-3};
   s.measures["star stress"] = 7.25;

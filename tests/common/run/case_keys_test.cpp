@@ -57,6 +57,7 @@ TEST(CaseKeys, HoldTheDefaultsOfTheStructs) {
   EXPECT_EQ(read.sph.kappa, made.sph.kappa);
   EXPECT_EQ(read.sph.closure, made.sph.closure);
   EXPECT_EQ(read.fvm.stencil, made.fvm.stencil);
+  EXPECT_EQ(read.fvm.order, made.fvm.order);
 }
 
 TEST(Explain, TellsTypeUnitRangeDefaultAndExample) {

@@ -6,8 +6,11 @@
 #include "common/scheme/face_correction.hpp"
 #include "fvm/fvm_graph.hpp"
 #include "meshes/generators.hpp"
+#include "sph/sph_graph.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace diptych::run {
 namespace {
@@ -60,6 +63,30 @@ TEST(LargestRates, KnowTheFrequencyOfALatticeWithItsBoundary) {
   const double corrected = LargestRates(graph).frequency(1.0 / 6);
   EXPECT_GT(corrected, 2.3);
   EXPECT_LE(corrected, 2 * scheme::frequency_factor(1.0 / 6));
+}
+
+// All components together: on a lattice of finite volumes no faster than one alone, at boundaries
+// of SPH, where nu is near one half, by a third and more (physics note 10.2 has 1.49).
+TEST(LargestRates, CountTheDivergenceWhereItIsTheFastest) {
+  const auto lattice = squares(24, 24);
+  const LargestRates edge(lattice);
+  EXPECT_LE(edge.elastic_frequency(0, 0.535), edge.frequency(0) * (1 + 1e-12));
+  const auto bar = meshes::box(meshes::CellType::hexahedron, {0, 0, 0}, {6, 2, 2}, {6, 2, 2});
+  const auto particles = sph::build_graph(bar, {});
+  const LargestRates sph(particles);
+  EXPECT_GT(sph.elastic_frequency(0, 0.0447), 1.3 * sph.frequency(0));  // nu = 0.499
+  EXPECT_LT(sph.elastic_frequency(0, 0.0447), std::sqrt(3.0) * sph.frequency(0));
+}
+
+// Of a sum of two positive operators: no less than of either, no more than of both.
+TEST(LargestRates, KnowTheLimitOfLeapfrogWithBothRates) {
+  const auto graph = squares(24, 24);
+  const LargestRates largest(graph);
+  const double dt = 0.46, r = 0.535, omega = largest.elastic_frequency(0, r),
+               d = largest.dissipation(r), limit = largest.leapfrog_limit(dt, 0, r, 1);
+  EXPECT_GE(limit, 0.98 * std::max(dt * dt * omega * omega / 4, dt * d / 2));
+  EXPECT_LE(limit, 1.02 * (dt * dt * omega * omega / 4 + dt * d / 2));
+  EXPECT_NEAR(largest.leapfrog_limit(dt, 0, r, 0), dt * dt * omega * omega / 4, 1e-12);
 }
 
 TEST(LargestRates, AreTheSameForEveryNumberOfThreads) {

@@ -1,0 +1,26 @@
+#pragma once
+/// Cells around the nodes of a mesh.
+
+#include "meshes/mesh.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace diptych::fvm {
+
+/// Those of node a are cell[first[a]] to cell[first[a + 1] - 1], ascending, and place says which of
+/// their nodes a is.
+struct Incidence {
+  std::vector<std::int64_t> first;
+  std::vector<std::int64_t> cell;
+  std::vector<std::uint8_t> place;
+
+  std::span<const std::int64_t> cells(std::int32_t a) const {
+    return {cell.data() + first[a], static_cast<size_t>(first[a + 1] - first[a])};
+  }
+};
+
+Incidence cells_around_nodes(const meshes::Mesh& mesh);
+
+}  // namespace diptych::fvm
