@@ -239,7 +239,7 @@ void read_quality(const Section& file, RunSummary& summary) {
   const Section graph = file.section("graph");
   summary.graph_closure = graph.number("closure");
   summary.graph_linear_exactness = graph.number("linear_exactness");
-  if (graph.has("operators")) summary.graph_operators = graph.text("operators");
+  summary.graph_operators = graph.text("operators");
   const Section errors = file.section("errors");
   for (const std::string& field : errors.keys()) {
     const Section norms = errors.section(field);
@@ -277,8 +277,8 @@ std::string to_json(const RunSummary& summary) {
   for (const auto& [name, value] : summary.measures)
     measures[name] = value;
   Json graph = {{"closure", summary.graph_closure},
-                {"linear_exactness", summary.graph_linear_exactness}};
-  if (!summary.graph_operators.empty()) graph["operators"] = summary.graph_operators;
+                {"linear_exactness", summary.graph_linear_exactness},
+                {"operators", summary.graph_operators}};
   Json file = {
       {"method", summary.method},
       {"case", summary.case_name},

@@ -256,6 +256,7 @@ struct Expression::Compiled {
   double t = std::numeric_limits<double>::quiet_NaN();  // of the last evaluation: none yet
   double X[3] = {0, 0, 0};
   bool is_known = false;                 // whether value is that at X and t
+  bool may_remember = true;              // no function reads more than place and time
   int depth = 0;                         // of functions that stand on one another below this text
   std::vector<BoundFunction> functions;  // those the text uses
   mu::Parser parser;
@@ -265,6 +266,12 @@ struct Expression::Compiled {
   int depth_of(const ExpressionFunction& function) const {
     const auto& below = function.expression().compiled_;
     return below ? below->depth : 0;
+  }
+  /// What depends on the place and is no expression may depend on more: fields at a node do.
+  static bool is_of_place_and_time(const TimeFunction& function, const ExpressionFunction* named) {
+    if (named == nullptr) return !function.depends_on_position();
+    const auto& below = named->expression().compiled_;
+    return !below || below->may_remember;
   }
   void compile();
   double evaluate(const Vec3& place, double time);
@@ -279,6 +286,7 @@ bool Expression::Compiled::bind_time_function(const std::string& name,
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) continue;
     if (named != nullptr) depth = std::max(depth, 1 + depth_of(*named));
+    may_remember = may_remember && is_of_place_and_time(*function, named);
     auto bound = std::find_if(functions.begin(), functions.end(),
                               [&](const BoundFunction& b) { return b.function == function; });
     if (bound == functions.end()) {
@@ -348,7 +356,7 @@ double Expression::Compiled::evaluate(const Vec3& place, double time) {
   if (!later && !on_position) return value;
   // Functions that name one another ask for the same value many times over.
   const bool is_same_place = place[0] == X[0] && place[1] == X[1] && place[2] == X[2];
-  if (is_known && !later && is_same_place) return value;
+  if (is_known && may_remember && !later && is_same_place) return value;
   for (BoundFunction& bound : functions) {
     if (!later && !bound.function->depends_on_position()) continue;
     const std::vector<double> values = bound.function->values_at(place, time);

@@ -68,20 +68,12 @@ std::set<std::string> calls_of(const std::string& script) {
 
 /// `sh -e` on a script, in the folder, with the program on PATH and no other cases than those
 /// there.
-tests::Outcome shell(const tests::Folder& folder, const std::string& script) {
+tests::Outcome script_of_page(const tests::Folder& folder, const std::string& script) {
   const std::string file = folder.write("../" + folder.path().filename().string() + ".sh", script);
-  const std::string command = "cd " + folder.path().string() +
-                              " && DIPTYCH_CASES=/nowhere DIPTYCH_BASELINES=/nowhere "
-                              "PATH=" DIPTYCH_BUILD_DIR ":$PATH sh -e " +
-                              file + " 2>&1 </dev/null";
-  tests::Outcome outcome;
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return outcome;
-  char buffer[4096];
-  while (const size_t n = fread(buffer, 1, sizeof buffer, pipe))
-    outcome.text.append(buffer, n);
-  const int status = pclose(pipe);
-  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  const auto outcome = tests::shell(folder,
+                                    "DIPTYCH_CASES=/nowhere DIPTYCH_BASELINES=/nowhere "
+                                    "PATH=" DIPTYCH_BUILD_DIR ":$PATH sh -e " +
+                                        file);
   std::filesystem::remove(file);
   return outcome;
 }
@@ -91,7 +83,7 @@ TEST(CiPage, ItsCommandsRunInAnEmptyFolderAndItsFilesAreReadByAParser) {
   std::vector<int> codes, failures;
   for (const Block& block : runnable()) {
     EXPECT_EQ(block.language, "sh");
-    const auto outcome = shell(folder, block.text);
+    const auto outcome = script_of_page(folder, block.text);
     ASSERT_EQ(outcome.exit_code, block.exit_code) << block.text << outcome.text;
     codes.push_back(outcome.exit_code);
     if (block.text.find("--junit regress.xml") == std::string::npos) continue;

@@ -153,7 +153,7 @@ struct Library {
 inline const std::vector<Library>& libraries() {
   static const std::vector<Library> table = {
       {R"([a-z_0-9]+)", ".*"},  // the standard library
-      {R"((sys/.*|fcntl|malloc|spawn|unistd|signal|poll|dlfcn)\.h)", ".*"},
+      {R"((sys/.*|fcntl|malloc|sched|spawn|unistd|signal|poll|dlfcn)\.h)", ".*"},
       {R"(linux/.*\.h)", R"(meshes/jail\.cpp)"},
       {R"(fmt/.*)", ".*"},
       {R"(Eigen/.*)", R"(common/algebra/vectors\.hpp|common/scheme/(class|closure)_repair\.cpp|)"
