@@ -172,7 +172,7 @@ std::string convergence_csv(const std::vector<MethodConvergence>& studies) {
                               csv_cell(quantity.name), csv_cell(quantity.unit), run.level,
                               run.spacing, run.nodes, run.steps, csv_number(quantity.values[i]));
           if (quantity.is_error) {
-            text += "," + csv_number(order_of_error(study, quantity, i)) + ",,,,\n";
+            text += fmt::format(",{},,,,\n", csv_number(order_of_error(study, quantity, i)));
           } else if (const auto g = estimate(study, quantity, i)) {
             text += fmt::format(",{},{},{},{},{}\n", csv_number(g->order),
                                 csv_number(g->extrapolated), csv_number(g->error_bar),

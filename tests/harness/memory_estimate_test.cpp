@@ -26,7 +26,8 @@ run::Case cube(const std::string& element, int cells, const std::vector<std::str
   return run::case_from_text(
       "[mesh]\nelement = '" + element + "'\ncells = [" + n + ", " + n + (plane ? "" : ", " + n) +
           "]\n[material]\nmodel = 'mooney-rivlin'\ndensity = 1100\nyoungs_modulus = 17e6\n"
-          "poissons_ratio = 0.3\nzeta_ratio = 0.5\n[[material.branch]]\nbeta_C = 0.5\ntau_C = 1e-2\n"
+          "poissons_ratio = 0.3\nzeta_ratio = 0.5\n[[material.branch]]\nbeta_C = 0.5\ntau_C = "
+          "1e-2\n"
           "[time]\nend = 1\n",
       "cube.toml", overrides);
 }
