@@ -10,7 +10,7 @@ packages_browser="chromium"
 packages_micro="libbenchmark-dev"
 packages_instructions="valgrind"
 packages_format="clang-format-14"
-packages_package="dpkg-dev"
+packages_package="dpkg-dev file" # which CPack asks what is a program
 packages_bare="mmdebstrap ca-certificates"
 
 # need_packages PACKAGE...: installs those that are missing; says which, and where it may not, what
