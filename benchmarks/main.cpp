@@ -1,7 +1,7 @@
 /// The command line. Verbs and exit codes are contracts; see README.md.
 
-#include "benchmarks/harness/interruption.hpp"
-#include "benchmarks/harness/spinning.hpp"
+#include "benchmarks/run/interruption.hpp"
+#include "benchmarks/run/spinning.hpp"
 #include "benchmarks/verbs/command_line.hpp"
 #include "benchmarks/verbs/table.hpp"
 #include "common/base/error.hpp"

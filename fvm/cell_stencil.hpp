@@ -4,7 +4,7 @@
 /// over the points q of a quadrature rule: the vertex rule gives the edge stencil of physics note
 /// 3.8, the exact rule 2 int N_a grad N_b dV of physics note 4.1.
 
-#include "common/scheme/pair_graph.hpp"
+#include "common/scheme/graph/pair_graph.hpp"
 #include "meshes/mesh.hpp"
 #include "meshes/shape_integrals.hpp"
 

@@ -1,8 +1,8 @@
 #include "fvm/fvm_graph.hpp"
 
 #include "common/base/registry.hpp"
-#include "common/scheme/classify_rows.hpp"
-#include "common/scheme/closure_repair.hpp"
+#include "common/closure/closure_repair.hpp"
+#include "common/scheme/graph/classify_rows.hpp"
 #include "fvm/cell_stencil.hpp"
 #include "fvm/sbp_graph.hpp"
 #include "fvm/sbp_operator.hpp"
@@ -46,7 +46,7 @@ scheme::PairGraph graph_of_cells(const meshes::Mesh& mesh, meshes::Quadrature qu
     for (size_t p = 0; p < k.size(); ++p) {
       k[p] = 0.5 * (graph.C[p].norm() + graph.C[graph.reverse[p]].norm());
     }
-    repair_closure_pairs(graph, k);
+    closure::repair_closure_pairs(graph, k);
   }
   set_classes(graph);
   validate(graph);

@@ -4,7 +4,7 @@
 /// C_ab = 2 int N_a grad N_b dV (physics note 4.1), or operators that sum by parts along the lines
 /// of a block (sbp_graph.hpp).
 
-#include "common/scheme/pair_graph.hpp"
+#include "common/scheme/graph/pair_graph.hpp"
 #include "meshes/mesh.hpp"
 
 #include <string>

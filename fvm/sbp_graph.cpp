@@ -1,7 +1,7 @@
 #include "fvm/sbp_graph.hpp"
 
 #include "common/base/error.hpp"
-#include "common/scheme/classify_rows.hpp"
+#include "common/scheme/graph/classify_rows.hpp"
 #include "fvm/sbp_operator.hpp"
 #include "fvm/structured_block.hpp"
 

@@ -14,7 +14,7 @@
 /// exact where that is no nearer to the edge of the side than the boundary block; else it is
 /// refused. Source: physics note 10.3. Test: tests/graphs/sbp_graph_test.cpp
 
-#include "common/scheme/pair_graph.hpp"
+#include "common/scheme/graph/pair_graph.hpp"
 #include "meshes/mesh.hpp"
 
 #include <string>

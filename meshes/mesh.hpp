@@ -15,7 +15,7 @@ namespace diptych::meshes {
 using algebra::Vec3;
 
 /// Node order of every type is that of Gmsh. VTK's is the same but for the prism, which it counts
-/// the other way round (benchmarks/harness/case_mesh.cpp).
+/// the other way round (benchmarks/run/case_mesh.cpp).
 enum class CellType : std::uint8_t { triangle, quadrilateral, tetrahedron, hexahedron, prism };
 
 /// Nodes of a cell of this type.

@@ -2,9 +2,9 @@
 
 #include "common/base/error.hpp"
 #include "common/base/registry.hpp"
+#include "common/closure/class_repair.hpp"
+#include "common/closure/closure_repair.hpp"
 #include "common/parallel/for_chunks.hpp"
-#include "common/scheme/class_repair.hpp"
-#include "common/scheme/closure_repair.hpp"
 #include "meshes/dual_measure.hpp"
 #include "sph/kernel_correction.hpp"
 #include "sph/neighbours.hpp"
@@ -39,7 +39,7 @@ void repair_by_gamma(const Kernel& kernel, const std::vector<double>& h, scheme:
     for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
       w[p] /= h[a];
   }
-  scheme::repair_closure_rows(graph, w);
+  closure::repair_closure_rows(graph, w);
 }
 
 /// Least change of the C_ab, weighted with the kernel: under disorder its change is half of
@@ -51,7 +51,7 @@ void repair_by_pairs(const Kernel& kernel, const std::vector<double>& h, scheme:
     const double r = (graph.X[b] - graph.X[a]).norm(), h_ab = 0.5 * (h[a] + h[b]);
     return graph.Omega[a] * graph.Omega[b] * kernel.value(r, h_ab, graph.dimension) / h_ab;
   };
-  if (scheme::repair_closure_by_classes(graph, weight)) return;
+  if (closure::repair_closure_by_classes(graph, weight)) return;
   std::vector<double> k(graph.neighbour.size());
   parallel::for_chunks(graph.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
     for (std::int64_t a = begin; a < end; ++a) {
@@ -59,7 +59,7 @@ void repair_by_pairs(const Kernel& kernel, const std::vector<double>& h, scheme:
         k[p] = weight(a, p);
     }
   });
-  scheme::repair_closure_pairs(graph, k);
+  closure::repair_closure_pairs(graph, k);
 }
 
 base::Registry<Repair> repairs() {

@@ -2,7 +2,7 @@
 /// Total Lagrangian SPH as a pair graph: paper (19) with linear gradient correction and the
 /// exact boundary closure of physics note 3.3, by the least change of the C_ab or by gamma.
 
-#include "common/scheme/pair_graph.hpp"
+#include "common/scheme/graph/pair_graph.hpp"
 #include "meshes/mesh.hpp"
 
 #include <string>

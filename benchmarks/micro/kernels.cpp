@@ -7,8 +7,8 @@
 #include "benchmarks/probes/machine_probes.hpp"
 #include "benchmarks/probes/work_counts.hpp"
 #include "common/parallel/for_chunks.hpp"
-#include "common/scheme/momentum.hpp"
-#include "common/scheme/strain_rates.hpp"
+#include "common/scheme/sweeps/momentum.hpp"
+#include "common/scheme/sweeps/strain_rates.hpp"
 
 #include <benchmark/benchmark.h>
 #include <cstdio>

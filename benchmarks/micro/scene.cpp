@@ -1,12 +1,12 @@
 #include "benchmarks/micro/scene.hpp"
 
-#include "benchmarks/harness/backends.hpp"
-#include "benchmarks/harness/case_mesh.hpp"
+#include "benchmarks/run/backends.hpp"
+#include "benchmarks/run/case_mesh.hpp"
+#include "common/cases/reader.hpp"
 #include "common/physics/moduli.hpp"
-#include "common/run/case_reader.hpp"
 #include "common/run/model_menu.hpp"
 #include "common/run/state_access.hpp"
-#include "common/scheme/update.hpp"
+#include "common/scheme/sweeps/update.hpp"
 
 #include <filesystem>
 #include <map>
@@ -35,7 +35,7 @@ end = 1
 
 }  // namespace
 
-run::Case case_of(const SceneChoice& choice, const std::string& integrator) {
+cases::Case case_of(const SceneChoice& choice, const std::string& integrator) {
   std::vector<std::string> overrides{"time.integrator=" + integrator};
   overrides.push_back(choice.graph.starts_with("fvm-tet") ? "mesh.element=tetrahedron"
                                                           : "mesh.element=hexahedron");
@@ -46,7 +46,7 @@ run::Case case_of(const SceneChoice& choice, const std::string& integrator) {
       overrides.push_back(std::string("scheme.precision=") + precision);
   }
   if (choice.face_correction) overrides.push_back("scheme.face_correction=1/6");
-  run::Case setup = run::case_from_text(cube, "micro", overrides);
+  cases::Case setup = cases::case_from_text(cube, "micro", overrides);
   for (int k = 0; k < choice.n_branches; ++k)
     setup.material.branches.push_back({0.5, 1e-3 * (k + 1), 0.5, 2e-3 * (k + 1)});
   return setup;
@@ -56,7 +56,7 @@ const scheme::PairGraph& graph_of(const std::string& graph) {
   static std::map<std::string, scheme::PairGraph> graphs;
   const auto found = graphs.find(graph);
   if (found != graphs.end()) return found->second;
-  const run::Case setup = case_of({graph});
+  const cases::Case setup = case_of({graph});
   const auto mesh = harness::mesh_of(setup, 0);
   const std::string method = graph.starts_with("sph") ? "sph" : "fvm";
   return graphs.emplace(graph, harness::method_menu().at(method)(mesh.mesh, setup)).first->second;
@@ -73,7 +73,7 @@ scheme::SweepGraph<3> pairs_of(const SceneChoice& choice) {
 }  // namespace
 
 Scene::Scene(const SceneChoice& choice) : pairs(pairs_of(choice)) {
-  const run::Case setup = case_of(choice);
+  const cases::Case setup = case_of(choice);
   const auto p = physics::mooney_rivlin_parameters(
       {setup.material.shear_modulus, setup.material.lame}, setup.material.zeta_ratio);
   model.material = {p.xi, p.zeta, p.lambda_hat};

@@ -5,10 +5,10 @@
 
 #include "common/physics/materials/mooney_rivlin.hpp"
 #include "common/run/solver.hpp"
-#include "common/scheme/model.hpp"
-#include "common/scheme/relaxation.hpp"
-#include "common/scheme/state.hpp"
-#include "common/scheme/sweep_graph.hpp"
+#include "common/scheme/body/model.hpp"
+#include "common/scheme/body/relaxation.hpp"
+#include "common/scheme/body/state.hpp"
+#include "common/scheme/graph/sweep_graph.hpp"
 
 #include <memory>
 #include <optional>
@@ -26,7 +26,7 @@ struct SceneChoice {
   std::optional<scheme::Arrangement> arrangement = {};  ///< none: as the graph suggests
 };
 
-run::Case case_of(const SceneChoice& choice, const std::string& integrator = "ssp-rk3");
+cases::Case case_of(const SceneChoice& choice, const std::string& integrator = "ssp-rk3");
 
 /// Built once per kind and kept.
 const scheme::PairGraph& graph_of(const std::string& graph);

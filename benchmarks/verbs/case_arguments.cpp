@@ -1,12 +1,12 @@
 #include "benchmarks/verbs/case_arguments.hpp"
 
-#include "benchmarks/harness/backends.hpp"
-#include "benchmarks/harness/breakdowns.hpp"
-#include "benchmarks/harness/case_list.hpp"
-#include "benchmarks/harness/case_mesh.hpp"
-#include "benchmarks/harness/interruption.hpp"
+#include "benchmarks/run/backends.hpp"
+#include "benchmarks/run/breakdowns.hpp"
+#include "benchmarks/run/case_list.hpp"
+#include "benchmarks/run/case_mesh.hpp"
+#include "benchmarks/run/interruption.hpp"
+#include "common/cases/reader.hpp"
 #include "common/parallel/thread_count.hpp"
-#include "common/run/case_reader.hpp"
 
 #include <cstdio>
 #include <filesystem>
@@ -41,9 +41,9 @@ std::string CaseArguments::file() const {
   return harness::find_case(case_name, cases_folder);
 }
 
-run::Case CaseArguments::read() const {
+cases::Case CaseArguments::read() const {
   harness::check_level(level);
-  return run::read_case(file(), overrides);
+  return cases::read_case(file(), overrides);
 }
 
 std::vector<std::string> CaseArguments::methods() const {
@@ -52,12 +52,12 @@ std::vector<std::string> CaseArguments::methods() const {
   return {method};
 }
 
-std::string CaseArguments::output_folder(const run::Case& setup) const {
+std::string CaseArguments::output_folder(const cases::Case& setup) const {
   if (!directory.empty()) return directory;
   return (std::filesystem::path("results") / setup.name).string();
 }
 
-harness::StudyOptions CaseArguments::study_options(const run::Case& setup) const {
+harness::StudyOptions CaseArguments::study_options(const cases::Case& setup) const {
   harness::StudyOptions options;
   options.methods = methods();
   options.levels = {level};
@@ -89,7 +89,7 @@ std::string end_of(const harness::Study& study, const std::string& folder) {
                           : harness::begin_again(folder);
 }
 
-void write_report(const run::Case& setup,
+void write_report(const cases::Case& setup,
                   const harness::Study& study,
                   const std::string& folder,
                   const std::vector<harness::MethodConvergence>& convergence) {

@@ -1,10 +1,10 @@
 #pragma once
 /// What the verbs that run a case ask for alike: the case, its level, overrides, output.
 
-#include "benchmarks/harness/convergence.hpp"
-#include "benchmarks/harness/study.hpp"
+#include "benchmarks/convergence/convergence.hpp"
+#include "benchmarks/study/study.hpp"
 #include "benchmarks/verbs/command_line.hpp"
-#include "common/run/case.hpp"
+#include "common/cases/case.hpp"
 
 #include <string>
 #include <vector>
@@ -34,13 +34,13 @@ struct CaseArguments {
   /// Path of the case file. @throws base::InputError
   std::string file() const;
   /// The case with its overrides. @throws base::InputError
-  run::Case read() const;
+  cases::Case read() const;
   /// Both methods, or the one named. @throws base::InputError for an unknown name
   std::vector<std::string> methods() const;
   /// --out, or results/CASE.
-  std::string output_folder(const run::Case& setup) const;
+  std::string output_folder(const cases::Case& setup) const;
   /// A study of one level with all that was asked.
-  harness::StudyOptions study_options(const run::Case& setup) const;
+  harness::StudyOptions study_options(const cases::Case& setup) const;
 };
 
 /// --threads, with its range.
@@ -56,7 +56,7 @@ void print_breakdowns(const harness::Study& study);
 std::string end_of(const harness::Study& study, const std::string& folder);
 
 /// Writes DIR/report.html and says so. @param convergence  of the runs; empty: of one level
-void write_report(const run::Case& setup,
+void write_report(const cases::Case& setup,
                   const harness::Study& study,
                   const std::string& folder,
                   const std::vector<harness::MethodConvergence>& convergence = {});

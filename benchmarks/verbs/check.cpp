@@ -1,8 +1,8 @@
 /// diptych check: reads a case, builds its graphs and makes one step.
 
-#include "benchmarks/harness/case_check.hpp"
-#include "benchmarks/harness/memory_estimate.hpp"
-#include "benchmarks/harness/progress.hpp"
+#include "benchmarks/run/case_check.hpp"
+#include "benchmarks/run/memory_estimate.hpp"
+#include "benchmarks/terminal/progress.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
 #include "common/parallel/for_chunks.hpp"
@@ -15,7 +15,7 @@ namespace diptych::verbs {
 namespace {
 
 int check(const CaseArguments& arguments) {
-  const run::Case setup = arguments.read();
+  const cases::Case setup = arguments.read();
   parallel::set_threads(arguments.threads);
   for (const std::string& method : arguments.methods()) {
     const auto check = harness::check_case(setup, method, arguments.level);

@@ -1,9 +1,9 @@
 /// diptych compare: both methods on the same nodes, what they cost, how far they are apart.
 
-#include "benchmarks/harness/breakdowns.hpp"
-#include "benchmarks/harness/history_differences.hpp"
-#include "benchmarks/harness/run_table.hpp"
-#include "benchmarks/harness/tables.hpp"
+#include "benchmarks/run/breakdowns.hpp"
+#include "benchmarks/run/history_differences.hpp"
+#include "benchmarks/run/run_table.hpp"
+#include "benchmarks/terminal/tables.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
 
@@ -14,7 +14,7 @@ namespace diptych::verbs {
 namespace {
 
 int compare_methods(const CaseArguments& arguments) {
-  const run::Case setup = arguments.read();
+  const cases::Case setup = arguments.read();
   auto options = arguments.study_options(setup);
   options.shapes = true;
   const harness::Study study = harness::run_study(setup, options);

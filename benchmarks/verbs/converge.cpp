@@ -1,10 +1,10 @@
 /// diptych converge: levels of refinement, errors with observed orders, extrapolated quantities.
 
-#include "benchmarks/harness/breakdowns.hpp"
-#include "benchmarks/harness/case_mesh.hpp"
-#include "benchmarks/harness/interruption.hpp"
-#include "benchmarks/harness/run_table.hpp"
-#include "benchmarks/harness/tables.hpp"
+#include "benchmarks/run/breakdowns.hpp"
+#include "benchmarks/run/case_mesh.hpp"
+#include "benchmarks/run/interruption.hpp"
+#include "benchmarks/run/run_table.hpp"
+#include "benchmarks/terminal/tables.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
 #include "common/base/error.hpp"
@@ -47,7 +47,7 @@ void write_tables(const std::vector<harness::MethodConvergence>& convergence,
 }
 
 /// What is written and printed of the levels that are finished.
-void show_convergence(const run::Case& setup,
+void show_convergence(const cases::Case& setup,
                       const ConvergeArguments& arguments,
                       const harness::Study& study,
                       const std::string& folder) {
@@ -75,7 +75,7 @@ void show_convergence(const run::Case& setup,
 
 int converge(const ConvergeArguments& arguments) {
   if (arguments.levels < 2) throw base::InputError("--levels must be 2 or more");
-  const run::Case setup = arguments.read();
+  const cases::Case setup = arguments.read();
   harness::check_levels(arguments.level, arguments.levels);
   auto options = arguments.study_options(setup);
   options.fields = false;

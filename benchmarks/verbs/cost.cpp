@@ -1,7 +1,7 @@
 /// diptych cost: what each option of the scheme costs per stage, or cost by size.
 
-#include "benchmarks/harness/cost_verb.hpp"
-#include "benchmarks/harness/interruption.hpp"
+#include "benchmarks/cost/cost_verb.hpp"
+#include "benchmarks/run/interruption.hpp"
 #include "benchmarks/verbs/table.hpp"
 #include "common/parallel/thread_count.hpp"
 

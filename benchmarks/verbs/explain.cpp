@@ -2,7 +2,7 @@
 
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
-#include "common/run/case_keys.hpp"
+#include "common/cases/keys.hpp"
 
 #include <memory>
 
@@ -12,7 +12,7 @@ Action declare_explain(CommandLine& line) {
   const auto key = std::make_shared<std::string>();
   line.word("key", *key, "such as mesh.cells; 'all' prints the reference page");
   return [key] {
-    print(*key == "all" ? run::reference_page() : run::explain(*key));
+    print(*key == "all" ? cases::reference_page() : cases::explain(*key));
     return 0;
   };
 }

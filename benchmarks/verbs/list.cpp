@@ -1,10 +1,10 @@
 /// diptych list: the cases of a folder with their titles.
 
-#include "benchmarks/harness/case_list.hpp"
+#include "benchmarks/run/case_list.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
 #include "common/base/error.hpp"
-#include "common/run/case_reader.hpp"
+#include "common/cases/reader.hpp"
 
 #include <cstdio>
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ std::vector<harness::ListedCase> wanted(const ListArguments& arguments) {
   std::vector<harness::ListedCase> cases;
   for (const std::string& word : arguments.words) {
     const std::string file = harness::find_case(word, arguments.cases_folder);
-    cases.push_back({run::case_name(file), file});
+    cases.push_back({cases::case_name(file), file});
   }
   return cases;
 }
@@ -35,7 +35,7 @@ int list(const ListArguments& arguments) {
   size_t n_broken = 0;
   for (const harness::ListedCase& entry : cases) {
     try {
-      print(fmt::format("{:<32} {}\n", entry.name, run::read_case(entry.file).title));
+      print(fmt::format("{:<32} {}\n", entry.name, cases::read_case(entry.file).title));
     } catch (const base::InputError& error) {
       std::fputs(fmt::format("diptych: {}\n", error.what()).c_str(), stderr);
       ++n_broken;

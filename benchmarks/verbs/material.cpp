@@ -1,6 +1,6 @@
 /// diptych material: strain paths on the material of a case alone.
 
-#include "benchmarks/harness/material_report.hpp"
+#include "benchmarks/material/material_report.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
 #include "common/base/registry.hpp"
@@ -20,7 +20,7 @@ struct MaterialArguments : CaseArguments {
 };
 
 int strain_material(const MaterialArguments& arguments) {
-  const run::Case setup = arguments.read();
+  const cases::Case setup = arguments.read();
   harness::MaterialPath path = arguments.material;
   harness::read_path_name(arguments.path, path);
   path.update = base::Registry<harness::Update>("--update")

@@ -1,7 +1,7 @@
 /// diptych regress: cases at a small size against their baselines.
 
-#include "benchmarks/harness/interruption.hpp"
-#include "benchmarks/harness/regress_verb.hpp"
+#include "benchmarks/regression/verb.hpp"
+#include "benchmarks/run/interruption.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
 

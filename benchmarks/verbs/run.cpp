@@ -1,7 +1,7 @@
 /// diptych run: a case with one method or both.
 
-#include "benchmarks/harness/breakdowns.hpp"
-#include "benchmarks/harness/run_table.hpp"
+#include "benchmarks/run/breakdowns.hpp"
+#include "benchmarks/run/run_table.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
 
@@ -12,7 +12,7 @@ namespace diptych::verbs {
 namespace {
 
 int run_methods(const CaseArguments& arguments) {
-  const run::Case setup = arguments.read();
+  const cases::Case setup = arguments.read();
   const auto options = arguments.study_options(setup);
   const harness::Study study = harness::run_study(setup, options);
   for (const auto& summary : study.runs)

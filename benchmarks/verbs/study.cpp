@@ -1,12 +1,12 @@
 /// diptych study: error against cost, or quantities, of a case and its variants; or stability
 /// limits.
 
-#include "benchmarks/harness/breakdowns.hpp"
-#include "benchmarks/harness/interruption.hpp"
-#include "benchmarks/harness/study_verb.hpp"
+#include "benchmarks/run/breakdowns.hpp"
+#include "benchmarks/run/interruption.hpp"
+#include "benchmarks/study/study_verb.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
-#include "common/run/case_reader.hpp"
+#include "common/cases/reader.hpp"
 
 #include <memory>
 
@@ -28,7 +28,7 @@ int study(const StudyArguments& arguments) {
   request.threads = arguments.threads;
   request.quiet = arguments.quiet;
   request.force = arguments.force;
-  request.directory = arguments.output_folder(run::read_case(request.case_file));
+  request.directory = arguments.output_folder(cases::read_case(request.case_file));
   if (arguments.stability) {
     harness::study_stability(request);
     return harness::exit_code_of_study(

@@ -1,8 +1,8 @@
 /// diptych verify: the verification tables, what is asked beside what is measured.
 
-#include "benchmarks/harness/verify_verb.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
+#include "benchmarks/verification/verify_verb.hpp"
 
 #include <memory>
 

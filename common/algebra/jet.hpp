@@ -1,6 +1,6 @@
 #pragma once
 /// A value with its first and second derivatives by n variables (forward mode), exact to rounding.
-/// Test: tests/common/run/motion_test.cpp.
+/// Test: tests/common/exact/motion_test.cpp.
 
 #include "common/algebra/lanes.hpp"
 

@@ -1,19 +1,21 @@
 #pragma once
 /// The solver of one compiled model: the order of operations of a step (physics note 5.5).
 
-#include "common/run/manufactured/manufactured_solution.hpp"
+#include "common/exact/manufactured/manufactured_solution.hpp"
 #include "common/run/solver.hpp"
 #include "common/run/state_access.hpp"
-#include "common/scheme/angular_momentum.hpp"
-#include "common/scheme/balance.hpp"
 #include "common/scheme/boundary/applied_boundary.hpp"
-#include "common/scheme/momentum.hpp"
-#include "common/scheme/strain_rates.hpp"
+#include "common/scheme/budget/angular_momentum.hpp"
+#include "common/scheme/budget/balance.hpp"
+#include "common/scheme/sweeps/momentum.hpp"
+#include "common/scheme/sweeps/strain_rates.hpp"
+#include "common/scheme/sweeps/update.hpp"
 #include "common/scheme/time_step.hpp"
-#include "common/scheme/update.hpp"
 #include "common/time/integrator.hpp"
 
 namespace diptych::run {
+
+using algebra::Mat3;
 
 /// Everything of a case that the solver needs, resolved; see model_menu.cpp.
 struct SolverSetup {
@@ -25,8 +27,8 @@ struct SolverSetup {
   scheme::TimeStepRule time_step;
   bool angular_momentum_projection = false;
   bool energy_budget = true;
-  InitialCase initial;
-  std::shared_ptr<KnownState> known;  ///< exact state of a manufactured solution, or null
+  cases::InitialCase initial;
+  std::shared_ptr<exact::KnownState> known;  ///< exact state of a manufactured solution, or null
 };
 
 template <int Dim, class Material>

@@ -9,13 +9,14 @@ namespace diptych::run {
 
 const scheme::BoundaryPatch& boundary_group(const scheme::PairGraph& graph,
                                             const std::string& name,
-                                            const SourcePlace& where) {
+                                            const functions::SourcePlace& where) {
   std::vector<std::string> names;
   for (const auto& patch : graph.patches) {
     if (patch.name == name) return patch;
     names.push_back(patch.name);
   }
-  throw base::InputError(prefix(where) + "the mesh has no boundary group '" + name + "'" +
+  throw base::InputError(functions::prefix(where) + "the mesh has no boundary group '" + name +
+                         "'" +
                          (names.empty() ? std::string("; it has none: name its physical groups")
                                         : base::suggestion(name, names)));
 }

@@ -1,8 +1,8 @@
 #pragma once
 /// The boundary group that a case names, in the graph of its mesh.
 
-#include "common/run/case.hpp"
-#include "common/scheme/pair_graph.hpp"
+#include "common/cases/case.hpp"
+#include "common/scheme/graph/pair_graph.hpp"
 
 #include <string>
 
@@ -12,6 +12,6 @@ namespace diptych::run {
 ///         has none
 const scheme::BoundaryPatch& boundary_group(const scheme::PairGraph& graph,
                                             const std::string& name,
-                                            const SourcePlace& where);
+                                            const functions::SourcePlace& where);
 
 }  // namespace diptych::run

@@ -1,8 +1,8 @@
 #include "common/run/default_cfl.hpp"
 
 #include "common/run/largest_rates.hpp"
-#include "common/scheme/face_correction.hpp"
-#include "common/scheme/limiters/limiter_menu.hpp"
+#include "common/scheme/dissipation/limiters/limiter_menu.hpp"
+#include "common/scheme/sweeps/face_correction.hpp"
 #include "common/scheme/time_step.hpp"
 
 #include <algorithm>
@@ -13,11 +13,11 @@ namespace diptych::run {
 namespace {
 
 /// c_s/c_p of the undeformed material with its branches at once (physics note 1.4).
-double shear_ratio_of(const MaterialCase& m) {
+double shear_ratio_of(const cases::MaterialCase& m) {
   const double half = 0.5 * m.shear_modulus;
   const double zeta = m.zeta_ratio * half, xi = half - zeta;
   double shear = m.shear_modulus, pressure = m.lame + 2 * m.shear_modulus;
-  for (const BranchCase& b : m.branches) {
+  for (const cases::BranchCase& b : m.branches) {
     shear += 2 * (b.beta_C * xi + b.beta_G * zeta);
     pressure += 4 * b.beta_C * xi + 8 * b.beta_G * zeta;
   }
@@ -52,7 +52,7 @@ double real_extent(const time::Integrator& integrator) {
   return extent;
 }
 
-double default_cfl(const Case& setup,
+double default_cfl(const cases::Case& setup,
                    const scheme::PairGraph& graph,
                    const time::Integrator& integrator) {
   const double kappa_f = setup.scheme.face_correction;

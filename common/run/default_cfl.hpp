@@ -13,13 +13,13 @@
 /// strength. Measured limits and errors: benchmarks/README.md. Test:
 /// tests/common/run/default_cfl_test.cpp
 
-#include "common/run/case.hpp"
-#include "common/scheme/pair_graph.hpp"
+#include "common/cases/case.hpp"
+#include "common/scheme/graph/pair_graph.hpp"
 #include "common/time/integrator.hpp"
 
 namespace diptych::run {
 
-double default_cfl(const Case& setup,
+double default_cfl(const cases::Case& setup,
                    const scheme::PairGraph& graph,
                    const time::Integrator& integrator);
 

@@ -8,7 +8,9 @@ namespace diptych::run {
 
 using algebra::Vec3;
 
-ExactErrors::ExactErrors(const Case& setup, const scheme::PairGraph& graph, const Solver& solver)
+ExactErrors::ExactErrors(const cases::Case& setup,
+                         const scheme::PairGraph& graph,
+                         const Solver& solver)
     : setup_(setup), graph_(graph), solver_(solver) {}
 
 /// F of the exact solution: as given, or I + grad u by an eighth-order central difference whose

@@ -5,8 +5,8 @@
 /// so that an instant at which the exact field passes through zero does not blow the figure up.
 /// F, H, A and S are measured against their difference from I, J against J - 1.
 
+#include "common/cases/case.hpp"
 #include "common/io/run_record.hpp"
-#include "common/run/case.hpp"
 #include "common/run/solver.hpp"
 
 #include <map>
@@ -14,9 +14,11 @@
 
 namespace diptych::run {
 
+using algebra::Mat3;
+
 class ExactErrors {
  public:
-  ExactErrors(const Case& setup, const scheme::PairGraph& graph, const Solver& solver);
+  ExactErrors(const cases::Case& setup, const scheme::PairGraph& graph, const Solver& solver);
 
   /// Whether the case has an exact solution at all.
   bool available() const {
@@ -46,7 +48,7 @@ class ExactErrors {
   Snapshot exact_snapshot(double t) const;
   Mat3 exact_deformation_gradient(const algebra::Vec3& X, double t) const;
 
-  const Case& setup_;
+  const cases::Case& setup_;
   const scheme::PairGraph& graph_;
   const Solver& solver_;
   Snapshot exact_;

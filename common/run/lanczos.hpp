@@ -6,7 +6,7 @@
 #include "common/algebra/field.hpp"
 #include "common/algebra/four.hpp"
 #include "common/parallel/for_chunks.hpp"
-#include "common/scheme/pair_graph.hpp"
+#include "common/scheme/graph/pair_graph.hpp"
 
 #include <algorithm>
 #include <cmath>

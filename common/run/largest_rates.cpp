@@ -4,8 +4,8 @@
 #include "common/algebra/four.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/run/lanczos.hpp"
-#include "common/scheme/classify_rows.hpp"
-#include "common/scheme/dissipation_area.hpp"
+#include "common/scheme/graph/classify_rows.hpp"
+#include "common/scheme/graph/dissipation_area.hpp"
 
 #include <algorithm>
 #include <array>

@@ -11,7 +11,7 @@
 /// fixed order. Reconstruction is left out: the roughest modes have hardly a gradient. Test:
 /// tests/common/run/default_cfl_test.cpp
 
-#include "common/scheme/pair_graph.hpp"
+#include "common/scheme/graph/pair_graph.hpp"
 
 namespace diptych::run {
 

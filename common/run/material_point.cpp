@@ -23,7 +23,7 @@ physics::Deformation<double> deformation(const Mat3& F) {
 template <class Material>
 class PointOf : public MaterialPoint {
  public:
-  PointOf(const Material& material, const MaterialCase& setup)
+  PointOf(const Material& material, const cases::MaterialCase& setup)
       : MaterialPoint(branches_of(setup, material.branch_xi(), material.branch_zeta())),
         material_(material) {}
 
@@ -62,26 +62,26 @@ class PointOf : public MaterialPoint {
   Material material_;
 };
 
-std::unique_ptr<MaterialPoint> make_mooney_rivlin_point(const MaterialCase& m) {
+std::unique_ptr<MaterialPoint> make_mooney_rivlin_point(const cases::MaterialCase& m) {
   const auto p = physics::mooney_rivlin_parameters({m.shear_modulus, m.lame}, m.zeta_ratio);
   const physics::MooneyRivlin material{p.xi, p.zeta, p.lambda_hat};
   return std::make_unique<PointOf<physics::MooneyRivlin>>(material, m);
 }
-std::unique_ptr<MaterialPoint> make_neo_hookean_point(const MaterialCase& m) {
+std::unique_ptr<MaterialPoint> make_neo_hookean_point(const cases::MaterialCase& m) {
   const auto p = physics::mooney_rivlin_parameters({m.shear_modulus, m.lame}, 0);
   const physics::NeoHookean material{p.xi, 0, p.lambda_hat};
   return std::make_unique<PointOf<physics::NeoHookean>>(material, m);
 }
 template <class Material>
-std::unique_ptr<MaterialPoint> make_isochoric_point(const MaterialCase& m) {
+std::unique_ptr<MaterialPoint> make_isochoric_point(const cases::MaterialCase& m) {
   const Material material{m.shear_modulus, m.lame + 2 * m.shear_modulus / 3};
   return std::make_unique<PointOf<Material>>(material, m);
 }
 
 }  // namespace
 
-std::unique_ptr<MaterialPoint> make_material_point(const MaterialCase& material) {
-  using Maker = std::unique_ptr<MaterialPoint> (*)(const MaterialCase&);
+std::unique_ptr<MaterialPoint> make_material_point(const cases::MaterialCase& material) {
+  using Maker = std::unique_ptr<MaterialPoint> (*)(const cases::MaterialCase&);
   const auto menu =
       base::Registry<Maker>("material.model")
           .add("mooney-rivlin", make_mooney_rivlin_point)

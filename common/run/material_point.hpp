@@ -3,8 +3,8 @@
 /// internal variables (14) by the updates of the solver, acoustic tensor (physics note 2).
 /// Test: tests/verification/material_paths_test.cpp.
 
+#include "common/cases/case.hpp"
 #include "common/physics/maxwell_branch.hpp"
-#include "common/run/case.hpp"
 
 #include <memory>
 #include <vector>
@@ -12,6 +12,7 @@
 namespace diptych::run {
 
 using algebra::Mat3;
+using algebra::Vec3;
 using PointBranch = physics::BranchState<double>;  ///< A = C_v^-1, S = G_v^-1
 
 struct PointState {
@@ -51,6 +52,6 @@ class MaterialPoint {
   std::vector<physics::MaxwellBranch> branches_;
 };
 
-std::unique_ptr<MaterialPoint> make_material_point(const MaterialCase& material);
+std::unique_ptr<MaterialPoint> make_material_point(const cases::MaterialCase& material);
 
 }  // namespace diptych::run

@@ -2,7 +2,7 @@
 
 #include "common/run/boundary_group.hpp"
 #include "common/run/default_cfl.hpp"
-#include "common/scheme/limiters/limiter_menu.hpp"
+#include "common/scheme/dissipation/limiters/limiter_menu.hpp"
 
 #include <fmt/format.h>
 
@@ -17,11 +17,11 @@ const base::Registry<SolverMaker>& model_menu() {
   return menu;
 }
 
-std::vector<physics::MaxwellBranch> branches_of(const MaterialCase& material,
+std::vector<physics::MaxwellBranch> branches_of(const cases::MaterialCase& material,
                                                 double xi,
                                                 double zeta) {
   std::vector<physics::MaxwellBranch> branches;
-  for (const BranchCase& b : material.branches) {
+  for (const cases::BranchCase& b : material.branches) {
     branches.push_back({b.beta_C * xi, b.tau_C, b.beta_G * zeta, b.tau_G});
   }
   return branches;
@@ -30,15 +30,16 @@ std::vector<physics::MaxwellBranch> branches_of(const MaterialCase& material,
 namespace {
 
 /// Velocity of a motion; its traction comes from the known state.
-void follow_motion(const std::shared_ptr<const Motion>& motion, scheme::BoundaryValues& values) {
-  values.vector = [motion](const Vec3& X, double t) { return motion->velocity(X, t); };
+void follow_motion(const std::shared_ptr<const exact::Motion>& motion,
+                   scheme::BoundaryValues& values) {
+  values.vector = [motion](const algebra::Vec3& X, double t) { return motion->velocity(X, t); };
   values.known = true;
   values.depends_on_time = true;
 }
 
-scheme::AppliedBoundary boundary_of(const Case& setup, const scheme::PairGraph& graph) {
+scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::PairGraph& graph) {
   std::vector<scheme::PlacedCondition> conditions;
-  for (const BoundaryCase& boundary : setup.boundaries) {
+  for (const cases::BoundaryCase& boundary : setup.boundaries) {
     const auto maker = scheme::boundary_menu().at(boundary.type);
     scheme::BoundaryValues values;
     values.vector = boundary.value;
@@ -57,7 +58,7 @@ scheme::AppliedBoundary boundary_of(const Case& setup, const scheme::PairGraph& 
   return {graph, std::move(conditions), body_force, setup.body_force.depends_on_time()};
 }
 
-scheme::TimeStepRule time_step_of(const Case& setup,
+scheme::TimeStepRule time_step_of(const cases::Case& setup,
                                   const scheme::PairGraph& graph,
                                   const SolverSetup& s) {
   using scheme::Speeds;
@@ -69,7 +70,7 @@ scheme::TimeStepRule time_step_of(const Case& setup,
   return {speeds.at(setup.time.speeds), cfl, scheme::frequency_factor(s.face_correction)};
 }
 
-SolverSetup solver_setup_of(const Case& setup,
+SolverSetup solver_setup_of(const cases::Case& setup,
                             const scheme::PairGraph& graph,
                             const scheme::AppliedBoundary& boundary) {
   using namespace scheme;
@@ -104,7 +105,7 @@ SolverSetup solver_setup_of(const Case& setup,
 
 }  // namespace
 
-std::unique_ptr<Solver> make_solver(const Case& setup, const scheme::PairGraph& graph) {
+std::unique_ptr<Solver> make_solver(const cases::Case& setup, const scheme::PairGraph& graph) {
   const SolverMaker maker = model_menu().at(setup.material.model);
   scheme::AppliedBoundary boundary = boundary_of(setup, graph);
   SolverSetup solver_setup = solver_setup_of(setup, graph, boundary);

@@ -9,22 +9,22 @@
 namespace diptych::run {
 
 /// The Maxwell branches of a case for a material with these moduli.
-std::vector<physics::MaxwellBranch> branches_of(const MaterialCase& material,
+std::vector<physics::MaxwellBranch> branches_of(const cases::MaterialCase& material,
                                                 double xi,
                                                 double zeta);
 
 /// A solver for this material in the graph's dimension.
 template <class Material>
 std::unique_ptr<Solver> solver_of(const Material& material,
-                                  const Case& setup,
+                                  const cases::Case& setup,
                                   const scheme::PairGraph& graph,
                                   SolverSetup solver_setup,
                                   scheme::AppliedBoundary boundary) {
   const auto branches = branches_of(setup.material, material.branch_xi(), material.branch_zeta());
   const scheme::Model<Material> model{material, setup.material.density, branches};
   if (setup.motion) {
-    const auto known = graph.dimension == 2 ? manufactured_solution<2, Material>
-                                            : manufactured_solution<3, Material>;
+    const auto known = graph.dimension == 2 ? exact::manufactured_solution<2, Material>
+                                            : exact::manufactured_solution<3, Material>;
     solver_setup.known = known(setup.motion, model, graph.X, setup.initial.relaxed, setup.time.end);
     boundary.follow(solver_setup.known);
   }
@@ -36,25 +36,25 @@ std::unique_ptr<Solver> solver_of(const Material& material,
                                                    std::move(boundary));
 }
 
-using SolverMaker = std::unique_ptr<Solver> (*)(const Case& setup,
+using SolverMaker = std::unique_ptr<Solver> (*)(const cases::Case& setup,
                                                 const scheme::PairGraph& graph,
                                                 SolverSetup solver_setup,
                                                 scheme::AppliedBoundary boundary);
 
 // one file each in models/, so that they compile side by side
-std::unique_ptr<Solver> make_mooney_rivlin(const Case&,
+std::unique_ptr<Solver> make_mooney_rivlin(const cases::Case&,
                                            const scheme::PairGraph&,
                                            SolverSetup,
                                            scheme::AppliedBoundary);
-std::unique_ptr<Solver> make_neo_hookean(const Case&,
+std::unique_ptr<Solver> make_neo_hookean(const cases::Case&,
                                          const scheme::PairGraph&,
                                          SolverSetup,
                                          scheme::AppliedBoundary);
-std::unique_ptr<Solver> make_isochoric_neo_hookean(const Case&,
+std::unique_ptr<Solver> make_isochoric_neo_hookean(const cases::Case&,
                                                    const scheme::PairGraph&,
                                                    SolverSetup,
                                                    scheme::AppliedBoundary);
-std::unique_ptr<Solver> make_isochoric_neo_hookean_j2(const Case&,
+std::unique_ptr<Solver> make_isochoric_neo_hookean_j2(const cases::Case&,
                                                       const scheme::PairGraph&,
                                                       SolverSetup,
                                                       scheme::AppliedBoundary);

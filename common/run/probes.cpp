@@ -14,7 +14,7 @@ namespace diptych::run {
 
 namespace {
 
-std::int32_t nearest_node(const ProbeCase& probe, const scheme::PairGraph& graph) {
+std::int32_t nearest_node(const cases::ProbeCase& probe, const scheme::PairGraph& graph) {
   std::int64_t nearest = 0;
   for (std::int64_t a = 1; a < graph.n_nodes(); ++a) {
     if ((graph.X[a] - probe.at).norm() < (graph.X[nearest] - probe.at).norm()) nearest = a;
@@ -26,14 +26,14 @@ std::int32_t nearest_node(const ProbeCase& probe, const scheme::PairGraph& graph
     throw base::InputError(fmt::format(
         "{}probe '{}' is {:.3g} m away from the nearest node, at ({:g}, {:g}, {:g}); its point "
         "must be in the body",
-        prefix(probe.where), probe.name, distance, graph.X[nearest][0], graph.X[nearest][1],
-        graph.X[nearest][2]));
+        functions::prefix(probe.where), probe.name, distance, graph.X[nearest][0],
+        graph.X[nearest][1], graph.X[nearest][2]));
   }
   return static_cast<std::int32_t>(nearest);
 }
 
 /// Whether these fields hold all that the quantity of a probe reads.
-bool gives(const Snapshot& fields, const ProbeCase& probe) {
+bool gives(const Snapshot& fields, const cases::ProbeCase& probe) {
   if (probe.kind == "reaction") return false;
   const std::vector<std::string> names = probe.fields->names();
   const std::string text = probe.quantity.text();
@@ -54,13 +54,13 @@ bool gives(const Snapshot& fields, const ProbeCase& probe) {
   return true;
 }
 
-NodeValues node_of(const Snapshot& s, size_t k) {
+cases::NodeValues node_of(const Snapshot& s, size_t k) {
   return {s.u[k], s.v[k], s.F[k], s.P[k], s.J[k]};
 }
 
 }  // namespace
 
-Probes::PlacedProbe Probes::placed(const ProbeCase& probe, const scheme::PairGraph& graph) {
+Probes::PlacedProbe Probes::placed(const cases::ProbeCase& probe, const scheme::PairGraph& graph) {
   PlacedProbe result{probe, {}, {}};
   if (probe.kind == "point") {
     result.nodes = {nearest_node(probe, graph)};
@@ -86,10 +86,10 @@ Probes::PlacedProbe Probes::placed(const ProbeCase& probe, const scheme::PairGra
   return result;
 }
 
-Probes::Probes(const std::vector<ProbeCase>& probes, const scheme::PairGraph& graph) {
+Probes::Probes(const std::vector<cases::ProbeCase>& probes, const scheme::PairGraph& graph) {
   if (probes.empty()) return;
   X_ = graph.X;
-  for (const ProbeCase& probe : probes) {
+  for (const cases::ProbeCase& probe : probes) {
     const PlacedProbe where = placed(probe, graph);
     all_.add(where);
     if (probe.every_step) stepped_.add(where);
@@ -136,7 +136,7 @@ std::vector<std::optional<double>> Probes::exact_values(const Snapshot& exact) c
     std::vector<double> values;
     for (const std::int32_t node : placed.nodes) {
       const auto a = static_cast<size_t>(node);
-      NodeValues fields;
+      cases::NodeValues fields;
       if (!exact.u.empty()) fields.u = exact.u[a];
       if (!exact.v.empty()) fields.v = exact.v[a];
       if (!exact.F.empty()) fields.F = exact.F[a], fields.J = exact.J[a];

@@ -3,17 +3,19 @@
 /// at the solver's time. Only the nodes that the probes need are evaluated.
 /// Test: tests/common/run/probes_test.cpp
 
-#include "common/run/case.hpp"
+#include "common/cases/case.hpp"
 #include "common/run/solver.hpp"
 
 #include <optional>
 
 namespace diptych::run {
 
+using algebra::Vec3;
+
 class Probes {
  public:
   /// @throws base::InputError on a group that the graph lacks, a point outside
-  Probes(const std::vector<ProbeCase>& probes, const scheme::PairGraph& graph);
+  Probes(const std::vector<cases::ProbeCase>& probes, const scheme::PairGraph& graph);
 
   bool empty() const { return all_.probes.empty(); }
   bool has_stepped() const { return !stepped_.probes.empty(); }
@@ -28,7 +30,7 @@ class Probes {
 
  private:
   struct PlacedProbe {
-    ProbeCase probe;
+    cases::ProbeCase probe;
     std::vector<std::int32_t> nodes;  ///< ascending
     std::vector<double> weights;      ///< [nodes] m^2 or m^3
   };
@@ -45,7 +47,7 @@ class Probes {
   static double reduced(const std::string& kind,
                         const std::vector<double>& values,
                         const std::vector<double>& weights);
-  static PlacedProbe placed(const ProbeCase& probe, const scheme::PairGraph& graph);
+  static PlacedProbe placed(const cases::ProbeCase& probe, const scheme::PairGraph& graph);
 };
 
 }  // namespace diptych::run

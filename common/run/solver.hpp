@@ -2,9 +2,10 @@
 /// A body in motion: case and pair graph in, steps out. Type erasure stands here, once per step;
 /// the compiled models behind it are in the menu of model_menu.cpp.
 
-#include "common/run/case.hpp"
-#include "common/scheme/audit.hpp"
-#include "common/scheme/pair_graph.hpp"
+#include "common/cases/case.hpp"
+#include "common/scheme/body/snapshot.hpp"
+#include "common/scheme/budget/audit.hpp"
+#include "common/scheme/graph/pair_graph.hpp"
 
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 namespace diptych::run {
 
 using algebra::Mat3;
+using scheme::Snapshot;
 
 /// What one step did.
 struct StepReport {
@@ -22,15 +24,6 @@ struct StepReport {
   double time = 0;        ///< s, at its end
   double dt = 0;          ///< s
   double least_J = 1;
-};
-
-/// Nodal fields in the numbering of the graph.
-struct Snapshot {
-  double time = 0;
-  std::vector<algebra::Vec3> u, v;      ///< m, m/s
-  std::vector<Mat3> F, H, P;            ///< -, -, Pa
-  std::vector<double> J;                ///< -
-  std::vector<std::vector<Mat3>> A, S;  ///< [branch][node] C_v^-1, G_v^-1
 };
 
 class Solver {
@@ -68,6 +61,6 @@ class Solver {
 
 /// @param graph  kept by reference: must outlive the solver
 /// @throws base::InputError on a boundary group that the graph lacks, an unknown menu entry
-std::unique_ptr<Solver> make_solver(const Case& setup, const scheme::PairGraph& graph);
+std::unique_ptr<Solver> make_solver(const cases::Case& setup, const scheme::PairGraph& graph);
 
 }  // namespace diptych::run

@@ -101,12 +101,12 @@ void put_internal_variables(scheme::State<Dim>& state,
 
 template <int Dim>
 void set_initial_state(const scheme::PairGraph& graph,
-                       const InitialCase& initial,
+                       const cases::InitialCase& initial,
                        double kappa_f,
                        scheme::State<Dim>& state) {
   const std::int64_t n = graph.n_nodes();
   std::vector<Vec3> u(n);
-  const Motion* motion = initial.motion.get();
+  const exact::Motion* motion = initial.motion.get();
   for (std::int64_t a = 0; a < n; ++a)
     u[a] = motion ? motion->displacement(graph.X[a], 0) : initial.displacement(graph.X[a], 0);
   const std::vector<Mat3> gradients = discrete_gradients(graph, u, kappa_f);
@@ -225,12 +225,12 @@ std::string collapse_report(const scheme::State<Dim>& state,
       dt, first_dt, step, time, least, worst, place(graph.X[worst]));
 }
 
-#define DIPTYCH_INSTANTIATE(Dim)                                                            \
-  template void set_initial_state(const scheme::PairGraph&, const InitialCase&, double,     \
-                                  scheme::State<Dim>&);                                     \
-  template std::string hash_of(const scheme::State<Dim>&, const std::vector<std::int32_t>&, \
-                               double);                                                     \
-  template std::string collapse_report(const scheme::State<Dim>&, const scheme::PairGraph&, \
+#define DIPTYCH_INSTANTIATE(Dim)                                                               \
+  template void set_initial_state(const scheme::PairGraph&, const cases::InitialCase&, double, \
+                                  scheme::State<Dim>&);                                        \
+  template std::string hash_of(const scheme::State<Dim>&, const std::vector<std::int32_t>&,    \
+                               double);                                                        \
+  template std::string collapse_report(const scheme::State<Dim>&, const scheme::PairGraph&,    \
                                        std::int64_t, double, double, double);
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)

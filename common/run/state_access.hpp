@@ -2,13 +2,15 @@
 /// A state from outside the hot loops: initial values, snapshot, hash, and reports of a breakdown.
 
 #include "common/run/solver.hpp"
-#include "common/scheme/model.hpp"
-#include "common/scheme/state.hpp"
+#include "common/scheme/body/model.hpp"
+#include "common/scheme/body/state.hpp"
 
 #include <cmath>
 #include <numeric>
 
 namespace diptych::run {
+
+using algebra::Mat3;
 
 /// Reference positions about the centre of volume.
 std::vector<algebra::Vec3> centred(const scheme::PairGraph& graph);
@@ -17,7 +19,7 @@ std::vector<algebra::Vec3> centred(const scheme::PairGraph& graph);
 /// Omega_a (or as given), H and J from F, internal variables virgin or relaxed.
 template <int Dim>
 void set_initial_state(const scheme::PairGraph& graph,
-                       const InitialCase& initial,
+                       const cases::InitialCase& initial,
                        double kappa_f,
                        scheme::State<Dim>& state);
 

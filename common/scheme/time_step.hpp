@@ -8,9 +8,9 @@
 
 #include "common/physics/maxwell_branch.hpp"
 #include "common/physics/wave_speeds.hpp"
-#include "common/scheme/model.hpp"
-#include "common/scheme/pair_graph.hpp"
-#include "common/scheme/state.hpp"
+#include "common/scheme/body/model.hpp"
+#include "common/scheme/body/state.hpp"
+#include "common/scheme/graph/pair_graph.hpp"
 
 namespace diptych::scheme {
 

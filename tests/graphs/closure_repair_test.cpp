@@ -1,8 +1,8 @@
-#include "common/scheme/closure_repair.hpp"
+#include "common/closure/closure_repair.hpp"
 
-#include "common/scheme/class_repair.hpp"
-#include "common/scheme/classify_rows.hpp"
-#include "common/scheme/conjugate_gradients.hpp"
+#include "common/closure/class_repair.hpp"
+#include "common/closure/conjugate_gradients.hpp"
+#include "common/scheme/graph/classify_rows.hpp"
 #include "sph/sph_graph.hpp"
 #include "tests/graphs/graph_checks.hpp"
 
@@ -28,7 +28,7 @@ std::vector<double> sizes(const PairGraph& graph) {
 }
 
 /// The same, one by one.
-scheme::PairWeight from(const std::vector<double>& k) {
+closure::PairWeight from(const std::vector<double>& k) {
   return [&k](std::int64_t, std::int64_t p) { return k[p]; };
 }
 
@@ -36,8 +36,8 @@ TEST(ClosureRepair, ByPairsChangesTheGraphLessThanByRows) {
   const PairGraph open = open_cloud(CellType::quadrilateral, 10, 0.2);
   PairGraph by_pairs = open, by_rows = open;
   const std::vector<double> k = sizes(open);
-  const auto pairs = scheme::repair_closure_pairs(by_pairs, k);
-  const auto rows = scheme::repair_closure_rows(by_rows, scheme::moment_free_weights(open, k));
+  const auto pairs = closure::repair_closure_pairs(by_pairs, k);
+  const auto rows = closure::repair_closure_rows(by_rows, closure::moment_free_weights(open, k));
   EXPECT_GT(pairs.before, 0.1);
   EXPECT_LT(pairs.after, 1e-12);
   EXPECT_LT(rows.after, 1e-12);
@@ -55,15 +55,15 @@ TEST(ClosureRepair, ByPairsIsAProjection) {
   const PairGraph open = open_cloud(CellType::hexahedron, 4, 0.2);
   const std::vector<double> k = sizes(open);
   PairGraph closed = open;
-  scheme::repair_closure_pairs(closed, k);
+  closure::repair_closure_pairs(closed, k);
   PairGraph half = open;
   for (size_t p = 0; p < k.size(); ++p)
     half.C[p] = 0.5 * (open.C[p] + closed.C[p]);
-  scheme::repair_closure_pairs(half, k);
+  closure::repair_closure_pairs(half, k);
   for (size_t p = 0; p < k.size(); ++p) {
     EXPECT_LE((half.C[p] - closed.C[p]).norm(), 1e-10 * closed.C[p].norm() + 1e-13);
   }
-  EXPECT_EQ(scheme::repair_closure_pairs(closed, k).iterations, 0);
+  EXPECT_EQ(closure::repair_closure_pairs(closed, k).iterations, 0);
 }
 
 /// With the diagonal alone the steps grow fourfold from one row to the next.
@@ -71,7 +71,7 @@ TEST(ClosureRepair, TakesAsManyStepsOnFineGridsAsOnCoarse) {
   for (double fraction : {0.0, 0.2}) {
     for (int n : {8, 16, 32, 64}) {
       PairGraph graph = open_cloud(CellType::quadrilateral, n, fraction);
-      const auto repair = scheme::repair_closure_pairs(graph, sizes(graph));
+      const auto repair = closure::repair_closure_pairs(graph, sizes(graph));
       EXPECT_LT(repair.after, 1e-12) << n;
       EXPECT_LT(repair.iterations, 160) << n;
     }
@@ -86,8 +86,8 @@ TEST(ClosureRepair, ByClassesKeepsEqualRowsEqual) {
     const std::vector<double> k = sizes(open);
     PairGraph by_classes = open, by_pairs = open;
     EXPECT_GT(quality(open).closure, 0.1);
-    ASSERT_TRUE(scheme::repair_closure_by_classes(by_classes, from(k))) << name_of(type);
-    scheme::repair_closure_pairs(by_pairs, k);
+    ASSERT_TRUE(closure::repair_closure_by_classes(by_classes, from(k))) << name_of(type);
+    closure::repair_closure_pairs(by_pairs, k);
     EXPECT_LE(quality(by_classes).closure, 1e-13);
     EXPECT_LE(quality(by_classes).linear_exactness, 1e-13);
     const auto n_rows = [](const PairGraph& graph) {
@@ -109,7 +109,7 @@ TEST(ClosureRepair, ByClassesLeavesDisorderToTheRepairByPairs) {
   PairGraph graph = open_cloud(CellType::quadrilateral, 12, 0.2);
   const std::vector<Vec3> C = graph.C;
   const std::vector<double> k = sizes(graph);
-  EXPECT_FALSE(scheme::repair_closure_by_classes(graph, from(k)));
+  EXPECT_FALSE(closure::repair_closure_by_classes(graph, from(k)));
   EXPECT_EQ(graph.C, C);
 }
 
@@ -118,7 +118,7 @@ TEST(ClosureRepair, ByClassesLeavesDisorderToTheRepairByPairs) {
 TEST(ClosureRepair, TellsWhenTheClosureCannotBeReached) {
   PairGraph graph = open_cloud(CellType::quadrilateral, 6, 0.1);
   graph.boundary_area[0] *= 1.5;
-  const auto repair = scheme::repair_closure_pairs(graph, sizes(graph), {1e-13, 200});
+  const auto repair = closure::repair_closure_pairs(graph, sizes(graph), {1e-13, 200});
   EXPECT_GT(repair.after, 1e-3);
   EXPECT_NEAR(repair.after, scheme::quality(graph).closure, 1e-12);
   EXPECT_LT(scheme::quality(graph).linear_exactness, 1e-12);
@@ -126,20 +126,20 @@ TEST(ClosureRepair, TellsWhenTheClosureCannotBeReached) {
 
 TEST(ClosureRepair, GivesTheSameBitsForEveryRun) {
   PairGraph first = open_cloud(CellType::hexahedron, 4, 0.2), second = first;
-  scheme::repair_closure_pairs(first, sizes(first));
-  scheme::repair_closure_pairs(second, sizes(second));
+  closure::repair_closure_pairs(first, sizes(first));
+  closure::repair_closure_pairs(second, sizes(second));
   EXPECT_EQ(first.C, second.C);
 }
 
 TEST(AffinePart, IsTakenOutWholeAndLeavesTheRest) {
   const PairGraph graph = open_cloud(CellType::hexahedron, 3, 0.2);
-  const scheme::AffinePart affine_part(graph.X);
+  const closure::AffinePart affine_part(graph.X);
   const Mat3 slope = Mat3::Random();
-  scheme::Field affine(graph.X.size()), field = random_field(graph, 8);
+  closure::Field affine(graph.X.size()), field = random_field(graph, 8);
   for (size_t a = 0; a < affine.size(); ++a)
     affine[a] = Vec3(1, 2, 3) + slope * graph.X[a];
   affine_part.remove(field);
-  scheme::Field sum = field;
+  closure::Field sum = field;
   for (size_t a = 0; a < sum.size(); ++a)
     sum[a] += affine[a];
   affine_part.remove(sum);

@@ -1,7 +1,7 @@
 #pragma once
 /// Meshes and fields that the tests of the graphs share.
 
-#include "common/scheme/pair_graph.hpp"
+#include "common/scheme/graph/pair_graph.hpp"
 #include "meshes/generators.hpp"
 
 #include <cmath>

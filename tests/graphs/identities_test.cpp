@@ -1,7 +1,7 @@
 /// The exact identities of physics note 3.2, from the C_ab alone, and the two approximation
 /// conditions (linear exactness, closure) on every graph that the two factories make.
 
-#include "common/scheme/dissipation_area.hpp"
+#include "common/scheme/graph/dissipation_area.hpp"
 #include "fvm/fvm_graph.hpp"
 #include "sph/sph_graph.hpp"
 #include "tests/graphs/graph_checks.hpp"
@@ -78,7 +78,7 @@ TEST(EveryGraph, IsExactForLinearFieldsAndClosed) {
 }
 
 /// Only wide derivatives have areas that point backwards, a tenth of all; those pairs dissipate
-/// nothing (common/scheme/dissipation_area.hpp).
+/// nothing (common/scheme/graph/dissipation_area.hpp).
 TEST(EveryGraph, HasAreasFromANodeToItsNeighbourButForWideDerivatives) {
   for (const Scene& scene : scenes()) {
     const auto& graph = scene.graph;

@@ -1,4 +1,4 @@
-#include "common/scheme/pair_graph.hpp"
+#include "common/scheme/graph/pair_graph.hpp"
 
 #include "common/base/error.hpp"
 #include "fvm/fvm_graph.hpp"

@@ -4,7 +4,7 @@
 #include "fvm/sbp_graph.hpp"
 
 #include "common/base/error.hpp"
-#include "common/scheme/sweep_graph.hpp"
+#include "common/scheme/graph/sweep_graph.hpp"
 #include "fvm/fvm_graph.hpp"
 #include "meshes/renumber.hpp"
 #include "tests/graphs/graph_checks.hpp"

@@ -1,6 +1,6 @@
 /// The mesh as VTK reads it: node order and orientation by VTK's definitions of its cell types.
 
-#include "benchmarks/harness/case_mesh.hpp"
+#include "benchmarks/run/case_mesh.hpp"
 
 #include "meshes/generators.hpp"
 

@@ -1,6 +1,6 @@
 /// The shipped data is found beside the program, wherever both have gone.
 
-#include "benchmarks/harness/data_folder.hpp"
+#include "benchmarks/run/data_folder.hpp"
 
 #include "common/base/error.hpp"
 #include "tests/command_line/program.hpp"

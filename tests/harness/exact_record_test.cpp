@@ -1,8 +1,8 @@
 /// Runs of cases with an exact solution record it; differences and errors are on one scale.
 
-#include "benchmarks/harness/run_case.hpp"
-#include "benchmarks/harness/study.hpp"
-#include "common/run/case_reader.hpp"
+#include "benchmarks/run/run_case.hpp"
+#include "benchmarks/study/study.hpp"
+#include "common/cases/reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -61,10 +61,10 @@ group = "x_min"
 direction = [1, 0]
 )toml";
 
-run::Case case_until(const std::string& end) {
+cases::Case case_until(const std::string& end) {
   std::string text = swinging;
   text.replace(text.find("END"), 3, end);
-  return run::case_from_text(text, "scene");
+  return cases::case_from_text(text, "scene");
 }
 
 const io::HistoryColumn* find(const std::vector<io::HistoryColumn>& columns, const char* name) {

@@ -1,11 +1,11 @@
 /// The fields of a frame: names, units, components, numbering of the user's mesh, values by hand;
 /// and what a run of each dimension writes.
 
-#include "benchmarks/harness/frame_fields.hpp"
+#include "benchmarks/run/frame_fields.hpp"
 
-#include "benchmarks/harness/case_list.hpp"
-#include "benchmarks/harness/run_case.hpp"
-#include "common/run/case_reader.hpp"
+#include "benchmarks/run/case_list.hpp"
+#include "benchmarks/run/run_case.hpp"
+#include "common/cases/reader.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -17,8 +17,8 @@ namespace {
 using testing::ElementsAre;
 
 /// Two nodes: one at rest, one stretched to twice its length, 12 Pa on its undeformed area.
-run::Snapshot two_nodes() {
-  run::Snapshot s;
+scheme::Snapshot two_nodes() {
+  scheme::Snapshot s;
   s.u = {{0, 0, 0}, {1, 2, 3}};
   s.v = {{0, 0, 0}, {4, 5, 6}};
   s.F = {run::Mat3::Identity(), Eigen::Vector3d(2, 0.5, 0.5).asDiagonal()};
@@ -64,9 +64,9 @@ void expect_consistent_frame(const std::string& case_name, const char* end) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("diptych-frame-" + case_name);
   std::filesystem::remove_all(folder);
-  const run::Case setup =
-      run::read_case(find_case(case_name),
-                     {"output.fields=true", "output.frames=1", std::string("time.end=") + end});
+  const cases::Case setup =
+      cases::read_case(find_case(case_name),
+                       {"output.fields=true", "output.frames=1", std::string("time.end=") + end});
   RunOptions options;
   options.directory = folder.string();
   options.quiet = true;

@@ -1,11 +1,11 @@
 /// What a run is said to need before it is built, against what building it takes.
 
-#include "benchmarks/harness/memory_estimate.hpp"
+#include "benchmarks/run/memory_estimate.hpp"
 
-#include "benchmarks/harness/case_check.hpp"
-#include "benchmarks/harness/machine_memory.hpp"
+#include "benchmarks/run/case_check.hpp"
+#include "benchmarks/run/machine_memory.hpp"
 #include "common/base/error.hpp"
-#include "common/run/case_reader.hpp"
+#include "common/cases/reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,10 +20,10 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-run::Case cube(const std::string& element, int cells, const std::vector<std::string>& overrides) {
+cases::Case cube(const std::string& element, int cells, const std::vector<std::string>& overrides) {
   const bool plane = element == "triangle" || element == "quadrilateral";
   const std::string n = std::to_string(cells);
-  return run::case_from_text(
+  return cases::case_from_text(
       "[mesh]\nelement = '" + element + "'\ncells = [" + n + ", " + n + (plane ? "" : ", " + n) +
           "]\n[material]\nmodel = 'mooney-rivlin'\ndensity = 1100\nyoungs_modulus = 17e6\n"
           "poissons_ratio = 0.3\nzeta_ratio = 0.5\n[[material.branch]]\nbeta_C = 0.5\ntau_C = "
@@ -47,7 +47,7 @@ class Estimates : public testing::TestWithParam<std::tuple<const char*, Scene>> 
 
 TEST_P(Estimates, AreWithinThirtyPercentOfWhatBuildingTakes) {
   const auto& [method, scene] = GetParam();
-  const run::Case setup = cube(scene.element, scene.cells, scene.overrides);
+  const cases::Case setup = cube(scene.element, scene.cells, scene.overrides);
   const CaseCheck check = check_case(setup, method, 0);
   const MemoryEstimate estimate = estimate_memory(setup, method, 0);
   ASSERT_GE(check.nodes, 20000);
@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(Both,
                          });
 
 template <class Error>
-std::string refusal(const run::Case& setup, int level) {
+std::string refusal(const cases::Case& setup, int level) {
   try {
     require_memory(setup, {"sph", "fvm"}, {0, level});
   } catch (const Error& error) {
@@ -89,7 +89,7 @@ std::string refusal(const run::Case& setup, int level) {
 }
 
 TEST(RequireMemory, RefusesWithNumbersBeforeAnythingIsBuilt) {
-  const run::Case setup = cube("hexahedron", 4, {});
+  const cases::Case setup = cube("hexahedron", 4, {});
   EXPECT_EQ(refusal<base::EnvironmentError>(setup, 1), "accepted");
   // 1024 cells along a side: 1e9 nodes, terabytes
   EXPECT_THAT(

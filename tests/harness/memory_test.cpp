@@ -1,6 +1,6 @@
 /// Memory of a run: what earlier runs hold is none of it.
 
-#include "benchmarks/harness/memory.hpp"
+#include "benchmarks/run/memory.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// The line of progress at every width.
 
-#include "benchmarks/harness/progress.hpp"
+#include "benchmarks/terminal/progress.hpp"
 
 #include <gmock/gmock.h>
 

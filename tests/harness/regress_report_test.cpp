@@ -1,6 +1,6 @@
 /// What a regression says to other programs is read by parsers, whatever cases and messages hold.
 
-#include "benchmarks/harness/regress_report.hpp"
+#include "benchmarks/regression/report.hpp"
 
 #include <gtest/gtest.h>
 

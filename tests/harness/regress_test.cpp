@@ -1,9 +1,9 @@
 /// The regression fires: its comparer on broken records, its checks on seeded mistakes.
 
-#include "benchmarks/harness/regress.hpp"
+#include "benchmarks/regression/regress.hpp"
 
-#include "benchmarks/harness/case_list.hpp"
-#include "benchmarks/harness/regress_table.hpp"
+#include "benchmarks/regression/table.hpp"
+#include "benchmarks/run/case_list.hpp"
 #include "common/base/error.hpp"
 
 #include <gtest/gtest.h>

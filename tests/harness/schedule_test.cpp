@@ -1,6 +1,6 @@
 /// Time left of a command from runs whose cost follows the model.
 
-#include "benchmarks/harness/schedule.hpp"
+#include "benchmarks/terminal/schedule.hpp"
 
 #include <gtest/gtest.h>
 

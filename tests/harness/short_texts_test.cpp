@@ -1,8 +1,8 @@
 /// Numbers in messages and tables have a bounded width, whatever they are.
 
-#include "benchmarks/harness/memory_estimate.hpp"
-#include "benchmarks/harness/progress.hpp"
-#include "benchmarks/harness/run_table.hpp"
+#include "benchmarks/run/memory_estimate.hpp"
+#include "benchmarks/run/run_table.hpp"
+#include "benchmarks/terminal/progress.hpp"
 
 #include <gtest/gtest.h>
 

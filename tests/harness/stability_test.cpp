@@ -1,9 +1,9 @@
 /// The bisection of the largest stable step against limits that are known exactly.
 
-#include "benchmarks/harness/stability.hpp"
+#include "benchmarks/cost/stability.hpp"
 
+#include "common/cases/reader.hpp"
 #include "common/parallel/for_chunks.hpp"
-#include "common/run/case_reader.hpp"
 #include "fvm/fvm_graph.hpp"
 #include "meshes/generators.hpp"
 
@@ -36,8 +36,8 @@ end = 0.1
 
 /// c_p dt / h at the limit.
 double courant_number(const std::string& integrator, const std::string& reconstruction) {
-  const run::Case setup =
-      run::case_from_text(bar, "bar", {"scheme.reconstruction=" + reconstruction});
+  const cases::Case setup =
+      cases::case_from_text(bar, "bar", {"scheme.reconstruction=" + reconstruction});
   const auto mesh = meshes::box(meshes::CellType::quadrilateral, setup.mesh.lower, setup.mesh.upper,
                                 setup.mesh.cells);
   const auto graph = fvm::build_graph(mesh, {});
@@ -46,7 +46,7 @@ double courant_number(const std::string& integrator, const std::string& reconstr
   const StabilityLimit limit = stability_limit(setup, graph, integrator, {},
                                                [&](double, const StabilityTrial&) { ++n_trials; });
   EXPECT_LE(n_trials, 16);
-  const run::MaterialCase& m = setup.material;
+  const cases::MaterialCase& m = setup.material;
   return std::sqrt((m.lame + 2 * m.shear_modulus) / m.density) * limit.dt * 48;
 }
 

@@ -1,10 +1,10 @@
 /// Quantities of a study of two variants, both methods and two levels, by hand.
 
-#include "benchmarks/harness/variant_quantities.hpp"
+#include "benchmarks/study/variant_quantities.hpp"
 
-#include "benchmarks/harness/case_list.hpp"
+#include "benchmarks/run/case_list.hpp"
 #include "common/base/error.hpp"
-#include "common/run/case_reader.hpp"
+#include "common/cases/reader.hpp"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -134,7 +134,7 @@ TEST(VariantQuantities, VerdictSaysHowFarTheMethodsAreApart) {
 }
 
 TEST(VariantQuantities, AreChosenByNameOrProbe) {
-  const run::Case setup = run::read_case(find_case("bending-column-ve"), {});
+  const cases::Case setup = cases::read_case(find_case("bending-column-ve"), {});
   const std::string probe = setup.probes.front().name;
   EXPECT_NO_THROW(check_quantities(setup, {"all", probe, probe + ", least", "least J"}));
   try {
@@ -149,7 +149,7 @@ TEST(VariantQuantities, AreChosenByNameOrProbe) {
 
 // energies that are zero in every run say nothing; a residual of zero does
 TEST(VariantQuantities, LeaveOutByDefaultWhatSaysNothing) {
-  const run::Case setup = run::read_case(find_case("bending-column-ve"), {});
+  const cases::Case setup = cases::read_case(find_case("bending-column-ve"), {});
   StudyRuns runs;
   runs.curves = study().curves;
   const auto chosen = chosen_quantities(setup, {}, runs);

@@ -1,4 +1,4 @@
-#include "benchmarks/harness/variants.hpp"
+#include "benchmarks/study/variants.hpp"
 
 #include "common/base/error.hpp"
 

@@ -1,6 +1,6 @@
 /// Interpolation of error against cost on curves of known powers.
 
-#include "benchmarks/harness/work_precision.hpp"
+#include "benchmarks/study/work_precision.hpp"
 
 #include <cmath>
 #include <gmock/gmock.h>

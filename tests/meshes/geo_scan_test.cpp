@@ -1,7 +1,7 @@
 /// .geo files that run, write or read what a mesh has no need of: each is refused with its line,
 /// before gmsh sees it. What gmsh 4.8 does with those marked "it does" was tried: it obeys.
 
-#include "meshes/geo_scan.hpp"
+#include "meshes/geo/geo_scan.hpp"
 
 #include "meshes/gmsh.hpp"
 #include "tests/meshes/mesh_measures.hpp"

@@ -1,9 +1,9 @@
 /// The jail of the mesher, tried with a shell in it: what the search of the .geo file might miss
 /// can neither write outside its folder nor start a program.
 
-#include "meshes/jail.hpp"
+#include "meshes/geo/jail.hpp"
 
-#include "meshes/child_program.hpp"
+#include "meshes/geo/child_program.hpp"
 #include "tests/meshes/mesh_measures.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 /// The call of the gmsh program. Its failures are played by small scripts of that name, so that
 /// they are tested without gmsh too; what needs the true one is skipped where CMake found none.
 
-#include "meshes/child_program.hpp"
+#include "meshes/geo/child_program.hpp"
 #include "meshes/gmsh.hpp"
 #include "tests/meshes/mesh_measures.hpp"
 

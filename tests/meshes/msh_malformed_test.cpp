@@ -2,7 +2,7 @@
 /// what is wrong and where.
 
 #include "meshes/gmsh.hpp"
-#include "meshes/msh_contents.hpp"
+#include "meshes/msh/contents.hpp"
 #include "tests/meshes/mesh_measures.hpp"
 
 #include <gtest/gtest.h>

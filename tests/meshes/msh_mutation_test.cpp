@@ -3,7 +3,7 @@
 /// allocation) fails; the sanitizer build sees reads past the end.
 
 #include "meshes/gmsh.hpp"
-#include "meshes/msh_contents.hpp"
+#include "meshes/msh/contents.hpp"
 #include "tests/meshes/mesh_measures.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 /// Studies of refinement as tables: what is extrapolated, what is left out, how it is written.
 
-#include "benchmarks/harness/convergence.hpp"
+#include "benchmarks/convergence/convergence.hpp"
 
 #include "tests/report/sample_study.hpp"
 

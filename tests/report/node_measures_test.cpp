@@ -1,6 +1,6 @@
 /// Numbers of the final state, on three nodes of volumes 1, 2 and 1.
 
-#include "benchmarks/harness/node_measures.hpp"
+#include "benchmarks/run/node_measures.hpp"
 
 #include "common/base/error.hpp"
 
@@ -25,13 +25,13 @@ class NodeMeasures : public testing::Test {
     state.time = 0.5;
   }
   double of(const std::string& reduce, const std::string& value, const std::string& where = "1") {
-    const run::Vocabulary names = node_vocabulary({{"two", 2}});
-    const NodeMeasure measure{"m", reduce, run::Expression(value, names, {}),
-                              run::Expression(where, names, {}), ""};
+    const functions::Vocabulary names = node_vocabulary({{"two", 2}});
+    const NodeMeasure measure{"m", reduce, functions::Expression(value, names, {}),
+                              functions::Expression(where, names, {}), ""};
     return measured({measure}, {graph, state, errors}).at("m");
   }
   scheme::PairGraph graph;
-  run::Snapshot state;
+  scheme::Snapshot state;
   std::map<std::string, std::vector<double>> errors{{"velocity", {1, 2, 3}}};
 };
 

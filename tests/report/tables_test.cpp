@@ -1,8 +1,8 @@
 /// Tables for the terminal: aligned, at most 100 columns, with the orders of the sample.
 
-#include "benchmarks/harness/tables.hpp"
+#include "benchmarks/terminal/tables.hpp"
 
-#include "benchmarks/harness/history_differences.hpp"
+#include "benchmarks/run/history_differences.hpp"
 #include "tests/report/sample_study.hpp"
 
 #include <gtest/gtest.h>

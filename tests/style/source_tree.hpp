@@ -34,10 +34,19 @@ inline const std::map<std::string, std::set<std::string>>& permitted_rooms() {
       return set;
     };
     const auto scheme = with(algebra, {"common/parallel", "common/physics"});
-    const auto time = with(scheme, {"common/scheme"});
-    const auto run = with(time, {"common/time", "common/io"});
-    const auto graph = with(time, {"meshes"});
+    const auto above = with(scheme, {"common/scheme"});  // what stands on the scheme
+    const auto exact = with(above, {"common/functions"});
+    const auto cases = with(exact, {"common/exact"});
+    const auto run = with(cases, {"common/time", "common/cases", "common/io"});
+    const auto graph = with(above, {"common/closure", "meshes"});
     const auto all = with(run, {"common/run", "meshes", "sph", "fvm", "postprocess"});
+    const auto terminal = with(all, {"benchmarks/terminal"});
+    const auto runs = with(terminal, {"benchmarks/run"});
+    const auto studies =
+        with(runs, {"benchmarks/convergence", "benchmarks/cost", "benchmarks/probes"});
+    const auto verbs =
+        with(studies, {"benchmarks/study", "benchmarks/verification", "benchmarks/regression",
+                       "benchmarks/material", "benchmarks/verbs"});
     return std::map<std::string, std::set<std::string>>{
         {"common/base", {}},
         {"common/algebra", {"common/base"}},
@@ -45,14 +54,29 @@ inline const std::map<std::string, std::set<std::string>>& permitted_rooms() {
         {"common/physics", algebra},
         {"common/io", algebra},
         {"common/scheme", scheme},
-        {"common/time", time},
+        {"common/closure", above},
+        {"common/time", above},
+        {"common/functions", algebra},
+        {"common/exact", exact},
+        {"common/cases", cases},
         {"common/run", run},
         {"meshes", algebra},
         {"sph", graph},
         {"fvm", graph},
         {"postprocess", with(algebra, {"common/io"})},
-        {"benchmarks", all},
-        {"tests", with(all, {"benchmarks"})}};
+        {"benchmarks/probes", scheme},
+        {"benchmarks/terminal", all},
+        {"benchmarks/run", terminal},
+        {"benchmarks/convergence", runs},
+        {"benchmarks/material", runs},
+        {"benchmarks/cost", with(runs, {"benchmarks/probes"})},
+        {"benchmarks/verification", with(runs, {"benchmarks/probes"})},
+        {"benchmarks/regression", with(runs, {"benchmarks/convergence"})},
+        {"benchmarks/study", studies},
+        {"benchmarks/micro", studies},
+        {"benchmarks/verbs", verbs},
+        {"benchmarks", verbs},
+        {"tests", with(verbs, {"benchmarks", "benchmarks/micro"})}};
   }();
   return rooms;
 }
@@ -60,10 +84,11 @@ inline const std::map<std::string, std::set<std::string>>& permitted_rooms() {
 /// "common/physics" of "common/physics/materials/x.hpp", "meshes" of "meshes/x.cpp"; empty where
 /// the path lies in no room.
 inline std::string room_of(const std::string& path) {
+  std::string longest;  // "benchmarks/run" rather than "benchmarks"
   for (const auto& [room, permitted] : permitted_rooms()) {
-    if (path.rfind(room + "/", 0) == 0) return room;
+    if (path.rfind(room + "/", 0) == 0 && room.size() > longest.size()) longest = room;
   }
-  return "";
+  return longest;
 }
 
 inline bool is_code(const std::string& path) {
@@ -154,18 +179,18 @@ inline const std::vector<Library>& libraries() {
   static const std::vector<Library> table = {
       {R"([a-z_0-9]+)", ".*"},  // the standard library
       {R"((sys/.*|fcntl|malloc|sched|spawn|unistd|signal|poll|dlfcn)\.h)", ".*"},
-      {R"(linux/.*\.h)", R"(meshes/jail\.cpp)"},
+      {R"(linux/.*\.h)", R"(meshes/geo/jail\.cpp)"},
       {R"(fmt/.*)", ".*"},
-      {R"(Eigen/.*)", R"(common/algebra/vectors\.hpp|common/scheme/(class|closure)_repair\.cpp|)"
-                      R"((sph|fvm|meshes|common/run)/.*\.cpp)"},
+      {R"(Eigen/.*)", R"(common/algebra/vectors\.hpp|common/closure/(class|closure)_repair\.cpp|)"
+                      R"((sph|fvm|meshes|common/(run|exact|cases|functions))/.*\.cpp)"},
       {R"(hdf5\.h)", "(tests/)?common/io/.*"},
-      {R"(toml\+\+/.*)", "common/run/.*"},
-      {R"(muParser\.h)", "common/run/.*"},
-      {R"(xxhash\.h)", "common/run/.*"},
+      {R"(toml\+\+/.*)", "common/cases/.*"},
+      {R"(muParser\.h)", "common/functions/.*"},
+      {R"(xxhash\.h)", "common/(run|cases)/.*"},
       {R"((omp|mpi)\.h)", "common/parallel/.*"},
       {R"((metis|gmsh)\.h)", "meshes/.*"},
       {R"(nlohmann/.*)", "(common/io|postprocess|tests|benchmarks)/.*"},
-      {R"(pugixml\.hpp)", "(tests|benchmarks/harness)/.*\\.cpp"},
+      {R"(pugixml\.hpp)", "(tests|benchmarks/regression)/.*\\.cpp"},
       {R"(yaml-cpp/.*)", "tests/.*"},
       {R"((vtk\w+|X11/Xlib)\.h)", "postprocess/pictures/.*"},
       {R"(CLI/.*)", R"((benchmarks|postprocess/pictures)/.*\.cpp)"},

@@ -2,9 +2,9 @@
 /// A shipped case on one method, stepped by hand: fixed steps for orders in time, where the mesh
 /// and with it the error in space stay the same.
 
-#include "benchmarks/harness/backends.hpp"
-#include "benchmarks/harness/case_list.hpp"
-#include "benchmarks/harness/case_mesh.hpp"
+#include "benchmarks/run/backends.hpp"
+#include "benchmarks/run/case_list.hpp"
+#include "benchmarks/run/case_mesh.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
@@ -22,7 +22,7 @@ inline Scene scene_of_case(const std::string& method,
                            int level = 0) {
   parallel::set_threads(1);
   Scene scene;
-  scene.setup = run::read_case(harness::find_case(name), overrides);
+  scene.setup = cases::read_case(harness::find_case(name), overrides);
   const auto mesh = harness::mesh_of(scene.setup, level);
   scene.graph = harness::method_menu().at(method)(mesh.mesh, scene.setup);
   scene.solver = run::make_solver(scene.setup, scene.graph);
@@ -48,7 +48,7 @@ inline std::string usual_step(const std::string& integrator) {
 }
 
 /// Relative L2 distance of velocities or of deformations, the larger of both.
-inline double distance(const run::Snapshot& a, const run::Snapshot& b) {
+inline double distance(const scheme::Snapshot& a, const scheme::Snapshot& b) {
   double v = 0, v_scale = 0, F = 0, F_scale = 0;
   for (size_t k = 0; k < b.v.size(); ++k) {
     v += (a.v[k] - b.v[k]).squaredNorm();
@@ -60,7 +60,7 @@ inline double distance(const run::Snapshot& a, const run::Snapshot& b) {
 }
 
 /// Least eigenvalue of all internal variables C_v^-1, G_v^-1.
-inline double least_internal_eigenvalue(const run::Snapshot& state) {
+inline double least_internal_eigenvalue(const scheme::Snapshot& state) {
   double least = 1e300;
   for (const auto* field : {&state.A, &state.S}) {
     for (const auto& branch : *field) {

@@ -1,7 +1,7 @@
 /// Numerical dissipation: never negative, step by step and, with the sign-preserving limiter, pair
 /// by pair; and small against the physical dissipation, ever more so under refinement.
 
-#include "common/scheme/dissipation.hpp"
+#include "common/scheme/dissipation/dissipation.hpp"
 
 #include "tests/verification/case_scene.hpp"
 

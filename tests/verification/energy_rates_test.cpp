@@ -9,8 +9,8 @@
 #include "common/parallel/for_chunks.hpp"
 #include "common/physics/materials/mooney_rivlin.hpp"
 #include "common/scheme/boundary/applied_boundary.hpp"
-#include "common/scheme/momentum.hpp"
-#include "common/scheme/strain_rates.hpp"
+#include "common/scheme/sweeps/momentum.hpp"
+#include "common/scheme/sweeps/strain_rates.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
 #include <gtest/gtest.h>

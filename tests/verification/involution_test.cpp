@@ -1,7 +1,7 @@
 /// H and J as unknowns of their own (18c,d): how far they leave cof F and det F, how that converges
 /// in time, that the run logs it, and that the unknowns F, FJ, FHJ give one answer within it.
 
-#include "benchmarks/harness/run_case.hpp"
+#include "benchmarks/run/run_case.hpp"
 #include "tests/verification/case_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -84,8 +84,8 @@ TEST_P(Involutions, DriftIsInHistoryAndSummary) {
   options.threads = 1;
   options.quiet = true;
   const auto result = run_case(
-      run::read_case(harness::find_case("spinning-cube"),
-                     {"time.integrator=\"ssp-rk3\"", "mesh.cells=[3, 3, 3]", "output.frames=2"}),
+      cases::read_case(harness::find_case("spinning-cube"),
+                       {"time.integrator=\"ssp-rk3\"", "mesh.cells=[3, 3, 3]", "output.frames=2"}),
       options);
   EXPECT_EQ(result.history.front().involution_H, 0);
   EXPECT_GT(result.history.back().involution_H, 1e-9);

@@ -2,11 +2,11 @@
 /// exact solutions. Caps are the measured errors with half as much on top; all runs are
 /// deterministic, so what fails has changed.
 
-#include "benchmarks/harness/backends.hpp"
-#include "benchmarks/harness/case_check.hpp"
-#include "benchmarks/harness/case_list.hpp"
-#include "benchmarks/harness/run_case.hpp"
-#include "common/run/case_reader.hpp"
+#include "benchmarks/run/backends.hpp"
+#include "benchmarks/run/case_check.hpp"
+#include "benchmarks/run/case_list.hpp"
+#include "benchmarks/run/run_case.hpp"
+#include "common/cases/reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ class Ladder : public testing::TestWithParam<const char*> {
     options.level = level;
     options.threads = 1;
     options.quiet = true;
-    const run::Case setup = run::read_case(find_case(name), overrides);
+    const cases::Case setup = cases::read_case(find_case(name), overrides);
     return run_case(setup, options);
   }
   static double error(const RunResult& result, const std::string& field) {
@@ -41,7 +41,7 @@ TEST(Cases, AreSoundOnBothMethodsAndExplained) {
   EXPECT_GE(cases.size(), 22u);
   for (const auto& [name, title] : cases) {
     EXPECT_FALSE(title.empty()) << name;
-    const run::Case setup = run::read_case(find_case(name));
+    const cases::Case setup = cases::read_case(find_case(name));
     EXPECT_TRUE(
         std::filesystem::exists(std::filesystem::path(setup.file).parent_path() / "README.md"))
         << name;

@@ -1,10 +1,10 @@
 /// Cases of the literature whose answer is known from other codes or from a law of conservation.
 /// Bounds are measured errors with a margin; runs are deterministic.
 
-#include "benchmarks/harness/case_list.hpp"
-#include "benchmarks/harness/run_case.hpp"
+#include "benchmarks/run/case_list.hpp"
+#include "benchmarks/run/run_case.hpp"
 #include "common/base/error.hpp"
-#include "common/run/case_reader.hpp"
+#include "common/cases/reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ class Literature : public testing::TestWithParam<const char*> {
     options.level = level;
     options.threads = 1;
     options.quiet = true;
-    return run_case(run::read_case(find_case(name), overrides), options);
+    return run_case(cases::read_case(find_case(name), overrides), options);
   }
   static bool is_sph() { return std::string(GetParam()) == "sph"; }
 };

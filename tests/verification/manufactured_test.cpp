@@ -2,9 +2,9 @@
 /// errors (measured when the cases were made, plus a tenth), and the energy residual, both methods.
 /// The orders that finer levels reach are in the README of each case.
 
-#include "benchmarks/harness/case_list.hpp"
-#include "benchmarks/harness/study.hpp"
-#include "common/run/case_reader.hpp"
+#include "benchmarks/run/case_list.hpp"
+#include "benchmarks/study/study.hpp"
+#include "common/cases/reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,10 +26,10 @@ void PrintTo(const Expectation& e, std::ostream* out) {
 std::vector<io::RunSummary> runs_of(const Expectation& e) {
   const bool solid = std::string(e.name).find("3d") != std::string::npos;
   const auto setup =
-      run::read_case(harness::find_case(e.name),
-                     {std::string("boundary.0.type=") + e.boundary,
-                      solid ? "mesh.cells=[6, 6, 6]" : "mesh.cells=[14, 14]", "output.frames=2",
-                      "time.cfl=0.8"});  // of the residual below: an error in time
+      cases::read_case(harness::find_case(e.name),
+                       {std::string("boundary.0.type=") + e.boundary,
+                        solid ? "mesh.cells=[6, 6, 6]" : "mesh.cells=[14, 14]", "output.frames=2",
+                        "time.cfl=0.8"});  // of the residual below: an error in time
   harness::StudyOptions options;
   options.methods = {e.method};
   options.levels = {0, 1};
@@ -101,7 +101,7 @@ TEST(ManufacturedEnergy, BudgetClosesAtTheOrderOfTheIntegrator) {
   for (const char* boundary : {"velocity", "traction"}) {
     double residual[2];
     for (const int k : {0, 1}) {
-      const auto setup = run::read_case(
+      const auto setup = cases::read_case(
           harness::find_case("manufactured-swirl-2d"),
           {std::string("boundary.0.type=") + boundary, k == 0 ? "time.cfl=0.8" : "time.cfl=0.4"});
       harness::RunOptions options;

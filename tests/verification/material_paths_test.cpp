@@ -1,7 +1,7 @@
 /// Homogeneous tests of the material against closed forms at finite strain (one C and one G branch)
 /// and against tabulated integrations of the uniaxial tests.
 
-#include "benchmarks/harness/material_path.hpp"
+#include "benchmarks/material/material_path.hpp"
 #include "common/base/error.hpp"
 
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ constexpr double tau_C = 2e-3, tau_G = 1e-3;
 constexpr double mu = 17e6 / 2.6, lambda = 17e6 * 0.3 / (1.3 * 0.4);
 constexpr double xi_a = 0.5 * mu / 4, zeta_a = 0.5 * mu / 4;  // beta = 0.5, xi = zeta = mu/4
 
-run::MaterialCase ve2() {
-  run::MaterialCase m;
+cases::MaterialCase ve2() {
+  cases::MaterialCase m;
   m.density = 1100;
   m.shear_modulus = mu;
   m.lame = lambda;
@@ -28,8 +28,8 @@ run::MaterialCase ve2() {
 }
 
 /// E = 17 MPa, nu = 0.45, beta = 1, both times equal.
-run::MaterialCase ve5(double tau) {
-  run::MaterialCase m;
+cases::MaterialCase ve5(double tau) {
+  cases::MaterialCase m;
   m.density = 1100;
   m.shear_modulus = 17e6 / 2.9;
   m.lame = 17e6 * 0.45 / (1.45 * 0.1);
@@ -46,7 +46,7 @@ MaterialPath path_of(const std::string& name, double end, int n_steps) {
   return path;
 }
 
-std::vector<PathPoint> followed(const run::MaterialCase& material, const MaterialPath& path) {
+std::vector<PathPoint> followed(const cases::MaterialCase& material, const MaterialPath& path) {
   return follow(*run::make_material_point(material), path);
 }
 
@@ -54,7 +54,7 @@ TEST(MaterialPath, StepInShearRelaxesExponentially) {
   MaterialPath path = path_of("shear-step", 3e-3, 7);
   path.amplitude = 0.8;
   const auto material = run::make_material_point(ve2());
-  run::MaterialCase without = ve2();
+  cases::MaterialCase without = ve2();
   without.branches.clear();
   const auto points = follow(*material, path);
   for (const PathPoint& p : points) {
@@ -72,7 +72,7 @@ TEST(MaterialPath, StartOfShearGivesTheMaxwellStresses) {
   // zeta^a D with D = 2 (g tau)^2 [1 - e - (t/tau) e]
   MaterialPath path = path_of("shear-ramp", 5e-3, 200);
   path.rate = 400;
-  run::MaterialCase without = ve2();
+  cases::MaterialCase without = ve2();
   without.branches.clear();
   for (const auto& [update, tolerance] : {std::pair{Update::gauss, 1e-8}, {Update::linear, 3e-4}}) {
     path.update = update;
@@ -167,7 +167,7 @@ TEST(MaterialPath, UpdatesConvergeAtTheirOrders) {
 }
 
 TEST(MaterialPath, ScanFindsTheSlowestWave) {
-  run::MaterialCase elastic = ve2();
+  cases::MaterialCase elastic = ve2();
   elastic.branches.clear();
   const auto material = run::make_material_point(elastic);
   MaterialPath path = path_of("shear-step", 1, 1);
@@ -176,7 +176,7 @@ TEST(MaterialPath, ScanFindsTheSlowestWave) {
   EXPECT_NEAR(scan.least, mu, 1e-6 * mu) << "the shear modulus, undeformed";
   // An isochoric solid under strong extension keeps mu J^(-2/3) but loses the bulk's help: still
   // hyperbolic, since it is polyconvex
-  run::MaterialCase isochoric = elastic;
+  cases::MaterialCase isochoric = elastic;
   isochoric.model = "neo-hookean-isochoric";
   isochoric.zeta_ratio = 0;
   const auto soft = run::make_material_point(isochoric);

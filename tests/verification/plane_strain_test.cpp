@@ -2,7 +2,7 @@
 /// the plane scene under every integrator, and the plane scene stores only what it needs. SPH has
 /// no such layer, its kernel spans several.
 
-#include "benchmarks/harness/run_case.hpp"
+#include "benchmarks/run/run_case.hpp"
 #include "tests/verification/case_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -114,8 +114,8 @@ TEST(PlaneStrain, StoresWhatAPlaneNeeds) {
     options.threads = 1;
     options.quiet = true;
     const auto of = [&](const char* name) {
-      return run_case(run::read_case(harness::find_case(name),
-                                     {text_of("scheme.unknowns", unknowns), "time.max_steps=1"}),
+      return run_case(cases::read_case(harness::find_case(name),
+                                       {text_of("scheme.unknowns", unknowns), "time.max_steps=1"}),
                       options)
           .summary.unknowns_per_node;
     };

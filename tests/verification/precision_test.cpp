@@ -27,9 +27,9 @@ std::ostream& operator<<(std::ostream& out, const PrecisionCase& c) {
 class Precision
     : public testing::TestWithParam<std::tuple<const char*, PrecisionCase, const char*>> {};
 
-run::Snapshot final_state(const std::string& method,
-                          const PrecisionCase& c,
-                          const std::string& precision) {
+scheme::Snapshot final_state(const std::string& method,
+                             const PrecisionCase& c,
+                             const std::string& precision) {
   std::vector<std::string> overrides = c.overrides;
   overrides.push_back(tests::any_step);
   overrides.push_back(text_of("scheme.precision", precision));

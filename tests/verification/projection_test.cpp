@@ -44,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(All,
 TEST_P(Projection, KeepsFTheGradientOfTheMotion) {
   const Scene scene = after(32);
   const auto& graph = scene.graph;
-  const run::Snapshot s = scene.solver->snapshot();
+  const scheme::Snapshot s = scene.solver->snapshot();
   for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
     Mat3 F = Mat3::Identity();
     for (std::int64_t c = graph.row[a]; c < graph.row[a + 1]; ++c) {

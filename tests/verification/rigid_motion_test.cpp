@@ -56,13 +56,13 @@ end = 3e-3
                      t[2]);
 }
 
-run::Snapshot turned_run(const std::string& method,
-                         const Mat3& Q,
-                         std::vector<std::string> overrides) {
+scheme::Snapshot turned_run(const std::string& method,
+                            const Mat3& Q,
+                            std::vector<std::string> overrides) {
   parallel::set_threads(1);
   overrides.push_back(tests::any_step);
   Scene scene;
-  scene.setup = run::case_from_text(turned_text(Q), "scene", overrides);
+  scene.setup = cases::case_from_text(turned_text(Q), "scene", overrides);
   auto mesh = tests::box_of(scene.setup);
   meshes::perturb_interior(mesh, 0.1, 1);
   for (Vec3& X : mesh.nodes)

@@ -2,9 +2,9 @@
 /// levels and errors beside those of the edge stencil. The orders that finer levels reach stand in
 /// the table sbp of benchmarks/verification.
 
-#include "benchmarks/harness/case_list.hpp"
-#include "benchmarks/harness/study.hpp"
-#include "common/run/case_reader.hpp"
+#include "benchmarks/run/case_list.hpp"
+#include "benchmarks/study/study.hpp"
+#include "common/cases/reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ std::vector<io::RunSummary> runs_of(const Expectation& e,
   options.levels = levels;
   options.threads = 1;
   options.quiet = true;
-  return harness::run_study(run::read_case(harness::find_case(e.name), overrides), options).runs;
+  return harness::run_study(cases::read_case(harness::find_case(e.name), overrides), options).runs;
 }
 
 class SummingByParts : public testing::TestWithParam<Expectation> {};

@@ -1,10 +1,10 @@
 /// Shock capturing on the exact finite-strain impact (physics note 7, case `impact`): star state,
 /// place of the front, overshoot, order in L1. All runs are deterministic.
 
-#include "benchmarks/harness/case_list.hpp"
-#include "benchmarks/harness/run_case.hpp"
-#include "common/run/case_reader.hpp"
-#include "common/run/uniaxial_wave.hpp"
+#include "benchmarks/run/case_list.hpp"
+#include "benchmarks/run/run_case.hpp"
+#include "common/cases/reader.hpp"
+#include "common/exact/uniaxial_wave.hpp"
 
 #include <gtest/gtest.h>
 
@@ -33,13 +33,16 @@ class Impact : public testing::TestWithParam<const char*> {
     options.quiet = true;
     overrides.push_back("parameters.v0=" + std::to_string(v));
     overrides.push_back("output.frames=1");
-    const RunResult result = run_case(run::read_case(find_case("impact"), overrides), options);
-    const run::UniaxialWave exact("w", {1100, 17e6 / 2.6, 17e6 * 0.3 / (1.3 * 0.4), 0.5, v});
+    const RunResult result = run_case(cases::read_case(find_case("impact"), overrides), options);
+    const exact::UniaxialWave exact("w", {1100, 17e6 / 2.6, 17e6 * 0.3 / (1.3 * 0.4), 0.5, v});
     return compared(result, exact, v, 40 << level);
   }
 
  private:
-  static Shock compared(const RunResult& result, const run::UniaxialWave& exact, double v, int n) {
+  static Shock compared(const RunResult& result,
+                        const exact::UniaxialWave& exact,
+                        double v,
+                        int n) {
     const double t = result.summary.end_time, front = exact.front_speed() * t;
     Shock shock;
     double P = 0, f = 0, volume = 0, ahead = 0;

@@ -49,9 +49,9 @@ class StiffRelaxation : public testing::TestWithParam<const char*> {
         make_steps(*scene.solver, end, n);
         return scene.solver->snapshot();
       };
-      const run::Snapshot converged = state(32 * n_coarse);
+      const scheme::Snapshot converged = state(32 * n_coarse);
       for (int k = 0; k < 3; ++k) {
-        const run::Snapshot s = state(n_coarse << k);
+        const scheme::Snapshot s = state(n_coarse << k);
         const double e = tests::distance(s, converged);
         EXPECT_TRUE(std::isfinite(e)) << z.first << ' ' << z.second;
         largest[k] = std::max(largest[k], e);
@@ -131,12 +131,12 @@ beta_G = {0}
 tau_G = {1:.17g}
 )";
 
-run::Snapshot end_of_square(const std::string& method,
-                            const std::string& integrator,
-                            double mu,
-                            double lambda,
-                            const std::string& branches,
-                            int dissipation) {
+scheme::Snapshot end_of_square(const std::string& method,
+                               const std::string& integrator,
+                               double mu,
+                               double lambda,
+                               const std::string& branches,
+                               int dissipation) {
   parallel::set_threads(1);
   Scene scene = tests::scene_of(method, fmt::format(fmt::runtime(free_square), mu, lambda, branches,
                                                     integrator, dissipation));

@@ -1,9 +1,9 @@
 /// Observed orders and error caps of the swinging cube (benchmarks A4), both methods. Caps are the
 /// errors measured when the case was made plus a tenth: they hold the accuracy that was reached.
 
-#include "benchmarks/harness/case_list.hpp"
-#include "benchmarks/harness/study.hpp"
-#include "common/run/case_reader.hpp"
+#include "benchmarks/run/case_list.hpp"
+#include "benchmarks/study/study.hpp"
+#include "common/cases/reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ void PrintTo(const Expectation& e, std::ostream* out) {
 class SwingingCube : public testing::TestWithParam<Expectation> {};
 
 TEST_P(SwingingCube, ConvergesAtSecondOrder) {
-  const auto setup = run::read_case(harness::find_case(GetParam().name));
+  const auto setup = cases::read_case(harness::find_case(GetParam().name));
   harness::StudyOptions options;
   options.methods = {GetParam().method};
   options.levels = {1, 2};
@@ -57,8 +57,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(SwingingCube, FaceCorrectionDividesStressErrorByFive) {
   const auto errors = [](const char* method, const char* kappa_f) {
-    const auto setup = run::read_case(harness::find_case("swinging-cube-elastic-hex"),
-                                      {std::string("scheme.face_correction=") + kappa_f});
+    const auto setup = cases::read_case(harness::find_case("swinging-cube-elastic-hex"),
+                                        {std::string("scheme.face_correction=") + kappa_f});
     harness::StudyOptions options;
     options.methods = {method};
     options.levels = {2};
@@ -74,7 +74,7 @@ TEST(SwingingCube, FaceCorrectionDividesStressErrorByFive) {
 }
 
 TEST(SwingingCubeVE2, ViscousDissipationOfTheMethodsAgreesWithinOnePercent) {
-  const auto setup = run::read_case(harness::find_case("swinging-cube-ve2-hex"));
+  const auto setup = cases::read_case(harness::find_case("swinging-cube-ve2-hex"));
   harness::StudyOptions options;
   options.levels = {2};
   options.threads = 1;

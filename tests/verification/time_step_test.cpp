@@ -1,9 +1,9 @@
 /// The time step of a run: speeds of the current state, and what shortens it
 /// (scheme/time_step.hpp).
 
-#include "benchmarks/harness/case_list.hpp"
-#include "benchmarks/harness/run_case.hpp"
-#include "common/run/case_reader.hpp"
+#include "benchmarks/run/case_list.hpp"
+#include "benchmarks/run/run_case.hpp"
+#include "common/cases/reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ io::RunSummary impact(const std::vector<std::string>& overrides) {
   RunOptions options;
   options.threads = 1;
   options.quiet = true;
-  return run_case(run::read_case(find_case("impact"), overrides), options).summary;
+  return run_case(cases::read_case(find_case("impact"), overrides), options).summary;
 }
 
 TEST(TimeStep, FollowsTheStiffeningBodyUnlessLinearised) {

@@ -5,7 +5,7 @@
 
 namespace diptych::run {
 
-std::unique_ptr<Solver> make_isochoric_neo_hookean(const Case& setup,
+std::unique_ptr<Solver> make_isochoric_neo_hookean(const cases::Case& setup,
                                                    const scheme::PairGraph& graph,
                                                    SolverSetup solver_setup,
                                                    scheme::AppliedBoundary boundary) {

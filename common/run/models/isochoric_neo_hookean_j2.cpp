@@ -4,7 +4,7 @@
 
 namespace diptych::run {
 
-std::unique_ptr<Solver> make_isochoric_neo_hookean_j2(const Case& setup,
+std::unique_ptr<Solver> make_isochoric_neo_hookean_j2(const cases::Case& setup,
                                                       const scheme::PairGraph& graph,
                                                       SolverSetup solver_setup,
                                                       scheme::AppliedBoundary boundary) {

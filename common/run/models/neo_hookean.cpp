@@ -4,7 +4,7 @@
 
 namespace diptych::run {
 
-std::unique_ptr<Solver> make_neo_hookean(const Case& setup,
+std::unique_ptr<Solver> make_neo_hookean(const cases::Case& setup,
                                          const scheme::PairGraph& graph,
                                          SolverSetup solver_setup,
                                          scheme::AppliedBoundary boundary) {

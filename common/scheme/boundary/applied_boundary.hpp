@@ -3,11 +3,11 @@
 /// projection on the intersection of what is prescribed, loads as forces. Acts on the state after
 /// every stage and on the force field before every update, and tells the audit what it did.
 
-#include "common/scheme/audit.hpp"
+#include "common/scheme/body/state.hpp"
 #include "common/scheme/boundary/boundary_condition.hpp"
 #include "common/scheme/boundary/known_loads.hpp"
 #include "common/scheme/boundary/rigid_wall.hpp"
-#include "common/scheme/state.hpp"
+#include "common/scheme/budget/audit.hpp"
 
 #include <array>
 #include <vector>

@@ -4,7 +4,7 @@
 /// Adding one: a file here and a line in boundary_menu.cpp.
 
 #include "common/base/registry.hpp"
-#include "common/scheme/pair_graph.hpp"
+#include "common/scheme/graph/pair_graph.hpp"
 
 #include <functional>
 #include <memory>

@@ -14,9 +14,9 @@
 /// shortest waves, and a penalty has a stiffness to choose and shortens the stable step.
 /// Test: tests/common/scheme/rigid_wall_test.cpp
 
-#include "common/scheme/audit.hpp"
+#include "common/scheme/body/state.hpp"
 #include "common/scheme/boundary/boundary_condition.hpp"
-#include "common/scheme/state.hpp"
+#include "common/scheme/budget/audit.hpp"
 
 #include <vector>
 

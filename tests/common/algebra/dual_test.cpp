@@ -1,5 +1,5 @@
 /// Duals against closed forms and against differences; jets are tested with the tape that uses them
-/// (tests/common/run/motion_test.cpp).
+/// (tests/common/exact/motion_test.cpp).
 
 #include "common/algebra/tensor.hpp"
 

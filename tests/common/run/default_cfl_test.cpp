@@ -1,9 +1,9 @@
 #include "common/run/default_cfl.hpp"
 
+#include "common/cases/reader.hpp"
 #include "common/parallel/for_chunks.hpp"
-#include "common/run/case_reader.hpp"
 #include "common/run/largest_rates.hpp"
-#include "common/scheme/face_correction.hpp"
+#include "common/scheme/sweeps/face_correction.hpp"
 #include "fvm/fvm_graph.hpp"
 #include "meshes/generators.hpp"
 #include "sph/sph_graph.hpp"
@@ -31,7 +31,7 @@ end = 1
 )";
 
 double cfl(const std::vector<std::string>& overrides, const char* integrator = "leapfrog") {
-  const Case setup = case_from_text(block, "block", overrides);
+  const cases::Case setup = cases::case_from_text(block, "block", overrides);
   const auto mesh = meshes::box(meshes::CellType::quadrilateral, setup.mesh.lower, setup.mesh.upper,
                                 setup.mesh.cells);
   return default_cfl(setup, fvm::build_graph(mesh, {}), time::integrator_menu().at(integrator));

@@ -1,6 +1,6 @@
 /// The face correction: exact for linear fields, adjoint of its stress side, momentum and torque.
 
-#include "common/scheme/face_correction.hpp"
+#include "common/scheme/sweeps/face_correction.hpp"
 
 #include "tests/common/scheme/scenes.hpp"
 

@@ -135,7 +135,7 @@ TEST_P(RigidWall, EnergyBudgetClosesWithTheStep) {
 TEST_P(RigidWall, NodesStayWithinHalfAStepOfThePlane) {
   Scene s = scene({"time.end=0.02"});
   tests::run_to(*s.solver, s.setup.time.end);
-  const run::Snapshot now = s.solver->snapshot(wall_nodes(s));
+  const scheme::Snapshot now = s.solver->snapshot(wall_nodes(s));
   for (const Vec3& u : now.u)
     EXPECT_LE(std::abs(u.x() + 1e-3), 0.5 * v0 * 1.4e-4);
 }

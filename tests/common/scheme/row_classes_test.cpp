@@ -1,5 +1,5 @@
-#include "common/scheme/classify_rows.hpp"
-#include "common/scheme/sweep_graph.hpp"
+#include "common/scheme/graph/classify_rows.hpp"
+#include "common/scheme/graph/sweep_graph.hpp"
 #include "meshes/renumber.hpp"
 #include "tests/common/scheme/scenes.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Small scenes for tests of the scheme: a case from text, its graph, its solver.
 
-#include "common/run/case_reader.hpp"
+#include "common/cases/reader.hpp"
 #include "common/run/solver.hpp"
 #include "fvm/fvm_graph.hpp"
 #include "meshes/generators.hpp"
@@ -14,7 +14,7 @@
 namespace diptych::tests {
 
 struct Scene {
-  run::Case setup;
+  cases::Case setup;
   scheme::PairGraph graph;
   std::unique_ptr<run::Solver> solver;
 };
@@ -23,7 +23,7 @@ inline scheme::PairGraph graph_of(const std::string& method, const meshes::Mesh&
   return method == "sph" ? sph::build_graph(mesh, {}) : fvm::build_graph(mesh, {});
 }
 
-inline meshes::Mesh box_of(const run::Case& setup) {
+inline meshes::Mesh box_of(const cases::Case& setup) {
   const auto type = setup.mesh.element == "hexahedron"      ? meshes::CellType::hexahedron
                     : setup.mesh.element == "tetrahedron"   ? meshes::CellType::tetrahedron
                     : setup.mesh.element == "quadrilateral" ? meshes::CellType::quadrilateral
@@ -35,7 +35,7 @@ inline Scene scene_of(const std::string& method,
                       const std::string& text,
                       const std::vector<std::string>& overrides = {}) {
   Scene scene;
-  scene.setup = run::case_from_text(text, "scene", overrides);
+  scene.setup = cases::case_from_text(text, "scene", overrides);
   scene.graph = graph_of(method, box_of(scene.setup));
   scene.solver = run::make_solver(scene.setup, scene.graph);
   return scene;

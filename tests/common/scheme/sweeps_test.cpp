@@ -3,8 +3,8 @@
 
 #include "common/parallel/for_chunks.hpp"
 #include "common/physics/materials/mooney_rivlin.hpp"
-#include "common/scheme/compiled_momentum.hpp"
-#include "common/scheme/strain_rates.hpp"
+#include "common/scheme/sweeps/compiled_momentum.hpp"
+#include "common/scheme/sweeps/strain_rates.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,143 @@
+#include "benchmarks/convergence/convergence.hpp"
+
+#include "common/base/error.hpp"
+#include "common/base/text.hpp"
+#include "postprocess/report/orders.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace diptych::harness {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// Columns that are there to judge the run rather than the body, and momenta, most of which are
+/// zero to rounding: looked at on demand.
+bool is_on_demand(const std::string& name) {
+  static const std::set<std::string> names{
+      "time",         "step",         "dt",          "relative energy residual",
+      "involution H", "involution J", "least cell J"};
+  return names.count(name) > 0 || name.rfind("linear momentum ", 0) == 0 ||
+         name.rfind("angular momentum ", 0) == 0;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void check_names(const std::vector<LevelRecord>& records, const std::vector<std::string>& wanted) {
+  std::vector<std::string> known{"all"};
+  for (const LevelRecord& record : records) {
+    for (const auto& column : record.history) {
+      if (!contains(known, column.name)) known.push_back(column.name);
+    }
+  }
+  for (const std::string& name : wanted) {
+    if (!contains(known, name)) {
+      throw base::InputError("--quantity '" + name + "': no column of history.csv has that name" +
+                             base::suggestion(name, known));
+    }
+  }
+}
+
+bool is_wanted(const std::string& name, const std::vector<std::string>& wanted) {
+  if (wanted.empty()) return !is_on_demand(name);
+  return contains(wanted, "all") || contains(wanted, name);
+}
+
+std::vector<Quantity> errors_of(const std::vector<io::RunSummary>& levels) {
+  std::vector<Quantity> errors;
+  for (const std::string& field : report::fields_of(levels)) {
+    const std::string title = report::field_title(field);
+    Quantity l1{title + " error L1", "-", true, {}}, l2{title + " error L2", "-", true, {}},
+        linf{title + " error Linf", "-", true, {}};
+    for (const io::RunSummary& run : levels) {
+      const auto found = run.errors.find(field);
+      const bool has = found != run.errors.end();
+      l1.values.push_back(has ? found->second.l1 : nothing);
+      l2.values.push_back(has ? found->second.l2 : nothing);
+      linf.values.push_back(has ? found->second.linf : nothing);
+    }
+    errors.insert(errors.end(), {l1, l2, linf});
+  }
+  return errors;
+}
+
+double final_value(const LevelRecord& record, const std::string& name) {
+  for (const auto& column : record.history) {
+    if (column.name == name && !column.values.empty()) return column.values.back();
+  }
+  return nothing;
+}
+
+MethodConvergence convergence_of_method(std::vector<LevelRecord> records,
+                                        const std::vector<std::string>& wanted) {
+  std::stable_sort(records.begin(), records.end(),
+                   [](const auto& a, const auto& b) { return a.summary.level < b.summary.level; });
+  MethodConvergence study;
+  study.method = records.front().summary.method;
+  study.case_name = records.front().summary.case_name;
+  for (const LevelRecord& record : records)
+    study.levels.push_back(record.summary);
+  study.errors = errors_of(study.levels);
+  for (const auto& column : records.front().history) {
+    if (!is_wanted(column.name, wanted)) continue;
+    Quantity quantity{column.name, column.unit, false, {}};
+    for (const LevelRecord& record : records)
+      quantity.values.push_back(final_value(record, column.name));
+    const bool is_zero = std::all_of(quantity.values.begin(), quantity.values.end(),
+                                     [](double value) { return value == 0; });
+    if (is_zero) {
+      study.zero.push_back(column.name);
+    } else {
+      study.scalars.push_back(quantity);
+    }
+  }
+  return study;
+}
+
+}  // namespace
+
+std::vector<MethodConvergence> convergence_of(const std::vector<LevelRecord>& records,
+                                              const std::vector<std::string>& wanted) {
+  check_names(records, wanted);
+  std::vector<io::RunSummary> summaries;
+  for (const LevelRecord& record : records)
+    summaries.push_back(record.summary);
+  std::vector<MethodConvergence> studies;
+  for (const std::string& method : report::methods_of(summaries)) {
+    std::vector<LevelRecord> finished;
+    for (const LevelRecord& record : records) {
+      if (record.summary.method == method && record.summary.status == "done")
+        finished.push_back(record);
+    }
+    if (!finished.empty()) studies.push_back(convergence_of_method(finished, wanted));
+  }
+  return studies;
+}
+
+std::optional<report::GridConvergence> estimate(const MethodConvergence& study,
+                                                const Quantity& quantity,
+                                                size_t level) {
+  if (quantity.is_error || level < 2) return std::nullopt;
+  const auto h = [&](size_t i) { return study.levels[i].spacing; };
+  const auto f = [&](size_t i) { return quantity.values[i]; };
+  for (size_t i = level - 2; i <= level; ++i) {
+    if (!std::isfinite(f(i))) return std::nullopt;
+  }
+  if (!(h(level) < h(level - 1) && h(level - 1) < h(level - 2))) return std::nullopt;
+  return report::grid_convergence({h(level), h(level - 1), h(level - 2)},
+                                  {f(level), f(level - 1), f(level - 2)});
+}
+
+double order_of_error(const MethodConvergence& study, const Quantity& quantity, size_t level) {
+  if (level == 0) return nothing;
+  return report::observed_order(quantity.values[level - 1], quantity.values[level],
+                                study.levels[level - 1].spacing, study.levels[level].spacing);
+}
+
+}  // namespace diptych::harness

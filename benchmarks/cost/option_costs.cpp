@@ -1,0 +1,222 @@
+#include "benchmarks/cost/option_costs.hpp"
+
+#include "benchmarks/run/backends.hpp"
+#include "benchmarks/run/case_mesh.hpp"
+#include "benchmarks/run/interruption.hpp"
+#include "benchmarks/terminal/status_line.hpp"
+#include "common/cases/reader.hpp"
+#include "common/parallel/for_chunks.hpp"
+#include "common/run/solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+#include <memory>
+
+namespace diptych::harness {
+
+namespace {
+
+const char* const scene_text = R"toml(
+[mesh]
+element = "{element}"
+lower = [0, 0{third}]
+upper = [1, 1{third_upper}]
+cells = [{n}, {n}{third_cells}]
+[material]
+model = "neo-hookean"
+density = 1100
+youngs_modulus = 17e6
+poissons_ratio = 0.3
+[initial]
+velocity = ["sin(3*y)", "cos(2*x)"{third}]
+[time]
+end = 1
+integrator = "ssp-rk3"
+[scheme]
+unknowns = "F"
+reconstruction = "none"
+energy_budget = false
+)toml";
+
+enum class Work { stage, balance, snapshot };
+
+/// A row before it is measured: what it sets, on top of what the row `against` sets.
+struct Option {
+  const char* name;
+  const char* against;
+  std::vector<std::string> overrides;
+  int n_branches = 0;
+  Work work = Work::stage;
+};
+
+std::vector<Option> options() {
+  const std::string linear = "scheme.reconstruction=linear";
+  const std::vector<std::string> mooney{"material.model=mooney-rivlin", "material.zeta_ratio=0.5"};
+  const auto with = [](std::vector<std::string> all, const std::string& more) {
+    all.push_back(more);
+    return all;
+  };
+  return {
+      {"barest", "", {}},
+      {"J evolved", "", {"scheme.unknowns=FJ"}},
+      {"H and J evolved", "", {"scheme.unknowns=FHJ"}},
+      {"energy budget", "", {"scheme.energy_budget=true"}},
+      {"angular-momentum projection", "", {"scheme.angular_momentum_projection=true"}},
+      {"reconstruction", "", {linear}},
+      {"limiter, on reconstruction", "reconstruction", {linear, "scheme.limiter=sign-preserving"}},
+      {"exact impedance, on reconstruction", "reconstruction", {linear, "scheme.impedance=exact"}},
+      {"face correction, on reconstruction",
+       "reconstruction",
+       {linear, "scheme.face_correction=1/6"}},
+      {"single precision, on reconstruction",
+       "reconstruction",
+       {linear, "scheme.precision=single"}},
+      {"Mooney-Rivlin", "", mooney},
+      {"1 branch, on Mooney-Rivlin", "Mooney-Rivlin", mooney, 1},
+      {"3 branches, on Mooney-Rivlin", "Mooney-Rivlin", mooney, 3},
+      {"1 branch with budget", "1 branch, on Mooney-Rivlin",
+       with(mooney, "scheme.energy_budget=true"), 1},
+      {"leapfrog", "", {"time.integrator=leapfrog"}},
+      {"history row (each)", "", {}, 0, Work::balance},
+      {"fields for a frame (each)", "", {}, 0, Work::snapshot}};
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+std::string text_of(int dimension, int cells) {
+  const bool solid = dimension == 3;
+  const int n = solid ? cells : static_cast<int>(std::lround(std::pow(cells + 1, 1.5))) - 1;
+  std::string text = replaced(scene_text, "{element}", solid ? "hexahedron" : "quadrilateral");
+  text = replaced(text, "{third_upper}", solid ? ", 1" : "");
+  text = replaced(text, "{third_cells}", solid ? fmt::format(", {}", n) : "");
+  text = replaced(text, "{third}", solid ? ", 0" : "");
+  return replaced(text, "{n}", std::to_string(n));
+}
+
+double processor_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// Seconds of one stage, history row or set of fields.
+double measured(run::Solver& solver, Work work) {
+  constexpr int n = 4;
+  const double start = processor_seconds();
+  for (int i = 0; i < n; ++i) {
+    if (work == Work::balance) {
+      solver.balance();
+    } else if (work == Work::snapshot) {
+      solver.snapshot();
+    } else {
+      solver.step(1e6);
+    }
+  }
+  const double each = (processor_seconds() - start) / n;
+  return work == Work::stage ? each / solver.evaluations_per_step() : each;
+}
+
+/// One column: all options in turns. @return ns per node
+std::vector<double> column(const std::string& method,
+                           const std::string& text,
+                           int rounds,
+                           const std::string& name,
+                           StatusLine& status) {
+  const cases::Case bare = cases::case_from_text(text, "costs");
+  const CaseMesh mesh = mesh_of(bare, 0);
+  std::map<std::string, scheme::PairGraph> graphs;  // by precision
+  const auto all = options();
+  std::vector<std::unique_ptr<run::Solver>> solvers;
+  for (const Option& option : all) {
+    cases::Case setup = cases::case_from_text(text, "costs", option.overrides);
+    for (int k = 0; k < option.n_branches; ++k)
+      setup.material.branches.push_back({0.5, 1e-3 * (k + 1), 0.5, 2e-3 * (k + 1)});
+    const std::string& precision = setup.scheme.precision;
+    if (graphs.count(precision) == 0) {
+      graphs.emplace(precision, method_menu().at(method)(mesh.mesh, setup));
+    }
+    solvers.push_back(run::make_solver(setup, graphs.at(precision)));
+    solvers.back()->step(1e6);  // pages and caches
+  }
+  std::vector<double> least(all.size(), std::numeric_limits<double>::infinity());
+  for (int round = 0; round < rounds && !interrupt_requested(); ++round) {
+    status.show(fmt::format("{}: round {} of {}", name, round + 1, rounds));
+    for (size_t i = 0; i < all.size(); ++i)
+      least[i] = std::min(least[i], measured(*solvers[i], all[i].work));
+  }
+  for (double& seconds : least)
+    seconds *= 1e9 / static_cast<double>(graphs.begin()->second.n_nodes());
+  return least;
+}
+
+/// The row with this option, or the barest.
+const CostRow& reference_of(const CostTable& table, const CostRow& row) {
+  const auto found = std::find_if(table.rows.begin(), table.rows.end(),
+                                  [&](const CostRow& r) { return r.option == row.against; });
+  return found == table.rows.end() ? table.rows.front() : *found;
+}
+
+}  // namespace
+
+CostTable measure_option_costs(int cells, int rounds, bool quiet) {
+  CostTable table;
+  for (const Option& option : options())
+    table.rows.push_back({option.name, option.against, {}});
+  StatusLine status(quiet);
+  parallel::set_threads(1);
+  for (const int dimension : {3, 2}) {
+    for (const std::string method : {"sph", "fvm"}) {
+      if (interrupt_requested()) return table;
+      const std::string name = fmt::format("{} {}-D", method == "sph" ? "SPH" : "FVM", dimension);
+      const auto ns = column(method, text_of(dimension, cells), rounds, name, status);
+      table.columns.push_back(name);
+      for (size_t i = 0; i < ns.size(); ++i)
+        table.rows[i].ns.push_back(ns[i]);
+      status.keep(name + " done");
+    }
+  }
+  return table;
+}
+
+std::string cost_text(const CostTable& table) {
+  std::string text = fmt::format("{:<36}", "ns per node and stage, ratio");
+  for (const std::string& column : table.columns)
+    text += fmt::format("{:>16}", column);
+  text += '\n';
+  text.append(36 + 16 * table.columns.size(), '-');
+  text += '\n';
+  for (const CostRow& row : table.rows) {
+    const CostRow& reference = reference_of(table, row);
+    text += fmt::format("{:<36}", row.option);
+    for (size_t k = 0; k < row.ns.size(); ++k)
+      text += fmt::format("{:>9.1f}{:>7.2f}", row.ns[k], row.ns[k] / reference.ns[k]);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string cost_csv(const CostTable& table) {
+  std::string csv = "option,against";
+  for (const std::string& column : table.columns)
+    csv += fmt::format(",{} [ns],{} ratio [-]", column, column);
+  csv += "\n";
+  for (const CostRow& row : table.rows) {
+    const CostRow& reference = reference_of(table, row);
+    csv += fmt::format("\"{}\",\"{}\"", row.option, reference.option);
+    for (size_t k = 0; k < row.ns.size(); ++k)
+      csv += fmt::format(",{:.6g},{:.6g}", row.ns[k], row.ns[k] / reference.ns[k]);
+    csv += "\n";
+  }
+  return csv;
+}
+
+}  // namespace diptych::harness

@@ -1,0 +1,372 @@
+/// Runs a case for the regression: five steps of the canary, level 0, and level 1 where it is
+/// affordable.
+
+#include "benchmarks/convergence/convergence.hpp"
+#include "benchmarks/regression/regress.hpp"
+#include "benchmarks/run/backends.hpp"
+#include "benchmarks/run/interruption.hpp"
+#include "benchmarks/run/provenance.hpp"
+#include "benchmarks/run/quantities.hpp"
+#include "common/base/error.hpp"
+#include "common/cases/reader.hpp"
+#include "common/parallel/for_chunks.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <limits>
+#include <optional>
+
+namespace diptych::harness {
+
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// What rounding is relative to: the canary of a field and probes of a unit that are zero but for
+/// rounding say nothing relative to themselves.
+struct NaturalScales {
+  double length, speed, stress, volume;
+};
+
+NaturalScales natural_scales(const cases::Case& setup, const scheme::PairGraph& graph) {
+  double volume = 0;
+  for (const double Omega : graph.Omega)
+    volume += Omega;
+  const double modulus = setup.material.lame + 2 * setup.material.shear_modulus;
+  return {std::pow(volume / static_cast<double>(graph.n_nodes()), 1.0 / graph.dimension),
+          std::sqrt(modulus / setup.material.density), modulus, volume};
+}
+
+/// Root mean square, and the mean with signs that change from node to node and from component to
+/// component: fields with equal norms differ in it.
+void add_field(RegressFigures& figures,
+               const std::string& name,
+               const std::vector<double>& values,
+               double natural) {
+  double squares = 0, projection = 0;
+  for (size_t i = 0; i < values.size(); ++i) {
+    squares += values[i] * values[i];
+    projection += values[i] * std::cos(1.0 + 0.7 * static_cast<double>(i));
+  }
+  const double n = static_cast<double>(std::max<size_t>(1, values.size()));
+  const double norm = std::sqrt(squares / n);
+  const double scale = std::isfinite(norm) ? std::max(norm, natural) : natural;
+  figures[name + " norm"] = {norm, scale};
+  figures[name + " projection"] = {projection / n, scale};
+}
+
+std::vector<double> flat(const std::vector<algebra::Vec3>& field,
+                         const std::vector<std::int32_t>& order) {
+  std::vector<double> values(3 * field.size());
+  for (size_t a = 0; a < field.size(); ++a)
+    for (int i = 0; i < 3; ++i)
+      values[3 * order[a] + i] = field[a][i];
+  return values;
+}
+
+std::vector<double> flat(const std::vector<run::Mat3>& field,
+                         const std::vector<std::int32_t>& order) {
+  std::vector<double> values(9 * field.size());
+  for (size_t a = 0; a < field.size(); ++a)
+    for (int k = 0; k < 9; ++k)
+      values[9 * order[a] + k] = field[a](k / 3, k % 3);
+  return values;
+}
+
+std::vector<double> flat(const std::vector<double>& field, const std::vector<std::int32_t>& order) {
+  std::vector<double> values(field.size());
+  for (size_t a = 0; a < field.size(); ++a)
+    values[order[a]] = field[a];
+  return values;
+}
+
+/// Five steps of a stated fraction of the graph's bound, whatever the integrator's default is.
+NaturalScales measure_canary(const cases::Case& setup,
+                             const std::string& method,
+                             MethodFigures& figures) {
+  const CaseMesh mesh = mesh_of(setup, 0);
+  const scheme::PairGraph graph = method_menu().at(method)(mesh.mesh, setup);
+  const auto solver = run::make_solver(setup, graph);
+  for (int i = 0; i < 5; ++i) {
+    if (solver->time() >= setup.time.end) {
+      throw base::InputError(
+          fmt::format("{} {}: time.end = {:.6g} s comes after {} steps, the canary makes five; "
+                      "take a longer time for the size, such as time.end={:.2g}",
+                      setup.name, method, setup.time.end, i, 10 * setup.time.end / i));
+    }
+    solver->step(setup.time.end);
+  }
+  const scheme::Snapshot s = solver->snapshot();
+  const NaturalScales natural = natural_scales(setup, graph);
+  figures.state = solver->state_hash(mesh.order);
+  figures.canary["time"] = {s.time, s.time};
+  add_field(figures.canary, "displacement", flat(s.u, mesh.order), natural.length);
+  add_field(figures.canary, "velocity", flat(s.v, mesh.order), natural.speed);
+  add_field(figures.canary, "F", flat(s.F, mesh.order), 1);
+  add_field(figures.canary, "H", flat(s.H, mesh.order), 1);
+  add_field(figures.canary, "J", flat(s.J, mesh.order), 1);
+  add_field(figures.canary, "stress", flat(s.P, mesh.order), natural.stress);
+  for (size_t k = 0; k < s.A.size(); ++k) {
+    if (!s.A[k].empty())
+      add_field(figures.canary, fmt::format("A{}", k + 1), flat(s.A[k], mesh.order), 1);
+  }
+  for (size_t k = 0; k < s.S.size(); ++k) {
+    if (!s.S[k].empty())
+      add_field(figures.canary, fmt::format("S{}", k + 1), flat(s.S[k], mesh.order), 1);
+  }
+  return natural;
+}
+
+/// Below a millionth of it a value is rounding.
+double floor_of(const std::string& unit, const NaturalScales& natural, double energy) {
+  if (unit == "m") return 1e-6 * natural.length;
+  if (unit == "m/s") return 1e-6 * natural.speed;
+  if (unit == "Pa") return 1e-6 * natural.stress;
+  if (unit == "J" || unit == "J/m") return 1e-6 * energy;
+  return 0;
+}
+
+/// Largest energy that the body has held, or that was brought in.
+double energy_scale(const std::vector<io::HistoryRow>& history) {
+  double scale = 0;
+  for (const io::HistoryRow& row : history)
+    scale = std::max({scale, row.energy.kinetic + std::abs(row.energy.strain),
+                      std::abs(row.energy.external_work)});
+  return scale;
+}
+
+constexpr const char* fall_of_viscous = "fall of viscous dissipation";
+constexpr const char* fall_of_numerical = "fall of numerical dissipation";
+
+/// Largest decrease of a sum of dissipation between two output times, over the energy.
+double fall_of(const std::vector<io::HistoryRow>& history, double io::EnergySummary::*dissipation) {
+  double fall = 0;
+  for (size_t i = 1; i < history.size(); ++i) {
+    const double change = history[i].energy.*dissipation - history[i - 1].energy.*dissipation;
+    if (!std::isfinite(change)) return std::numeric_limits<double>::quiet_NaN();
+    fall = std::max(fall, -change);
+  }
+  const double scale = energy_scale(history);
+  return scale > 0 ? fall / scale : fall;
+}
+
+void add_quantities(const RunResult& run, const NaturalScales& natural, RegressFigures& figures) {
+  const io::RunSummary& s = run.summary;
+  const double energy = energy_scale(run.history);
+  const auto exact = [&](const char* name, std::int64_t n) {
+    figures[name] = {static_cast<double>(n), static_cast<double>(n)};
+  };
+  exact("nodes", s.nodes);
+  exact("pairs", s.pairs);
+  exact("steps", s.steps);
+  figures["end time"] = {s.end_time, s.end_time};
+  figures["least J"] = {s.min_jacobian, 1};
+  figures["involution H"] = {s.involution_H, 1};
+  figures["involution J"] = {s.involution_J, 1};
+  // a strain energy is what terms of the size of the modulus leave: it is known to eps times that,
+  // and so is the budget
+  const double cancelled = std::sqrt(eps) * natural.stress * natural.volume;
+  figures["energy residual"] = {s.energy.relative_residual,
+                                energy > 0 ? std::max(1.0, cancelled / energy) : 1};
+  figures[fall_of_viscous] = {fall_of(run.history, &io::EnergySummary::viscous_dissipation), 1};
+  figures[fall_of_numerical] = {fall_of(run.history, &io::EnergySummary::numerical_dissipation), 1};
+  const auto add_energy = [&](const char* name, double value) {
+    figures[name] = {value, std::max(std::abs(value), 1e-6 * energy)};
+  };
+  add_energy("kinetic energy", s.energy.kinetic);
+  figures["strain energy"] = {s.energy.strain,
+                              std::max({std::abs(s.energy.strain), 1e-6 * energy, cancelled})};
+  add_energy("viscous dissipation", s.energy.viscous_dissipation);
+  add_energy("numerical dissipation", s.energy.numerical_dissipation);
+  add_energy("external work", s.energy.external_work);
+  for (const io::QuantitySummary& q : s.quantities) {
+    const double scale =
+        std::max({std::abs(q.least), std::abs(q.greatest), floor_of(q.unit, natural, energy)});
+    figures[q.name + ", final"] = {q.final_value, scale};
+    figures[q.name + ", least"] = {q.least, scale};
+    figures[q.name + ", greatest"] = {q.greatest, scale};
+    if (q.n_periods > 0) figures[q.name + ", period"] = {q.period, q.period};
+  }
+}
+
+void add_errors(const io::RunSummary& summary, RegressFigures& figures) {
+  // relative errors below 1e-4 are compared as if they were of that size: an exact field has an
+  // error of rounding, which is 1e-15 here and 2e-15 there
+  const auto add = [&](const std::string& name, double value) {
+    figures[name] = {value, std::max(value, 1e-4)};
+  };
+  for (const auto& [field, norms] : summary.errors) {
+    add(field + " L1", norms.l1);
+    add(field + " L2", norms.l2);
+    add(field + " Linf", norms.linf);
+  }
+}
+
+/// Nothing but tractions and pressures acts on it.
+bool is_free(const cases::Case& setup) {
+  return !setup.motion &&
+         std::all_of(setup.boundaries.begin(), setup.boundaries.end(),
+                     [](const auto& b) { return b.type == "traction" || b.type == "pressure"; });
+}
+
+std::vector<RegressCheck> conservation_of(const cases::Case& setup, const RunResult& run) {
+  const io::RunSummary& s = run.summary;
+  const double rounding = eps * static_cast<double>(10 + s.steps);  // one a step
+  const std::string name = "conservation";
+  std::vector<RegressCheck> checks{
+      checked(name, "linear momentum drift", s.linear_momentum_drift, rounding)};
+  RegressCheck angular =
+      checked(name, "angular momentum drift", s.angular_momentum_drift, rounding);
+  if (!is_free(setup)) {
+    angular.verdict = Verdict::skipped;
+    angular.note = "the body is supported";
+  } else if (!setup.scheme.angular_momentum_projection) {
+    angular.verdict = Verdict::skipped;
+    angular.note = "without angular_momentum_projection the scheme does not conserve it";
+  }
+  checks.push_back(angular);
+  if (setup.scheme.energy_budget) {
+    checks.push_back(checked(name, "energy residual", std::abs(s.energy.relative_residual), 0.02));
+    checks.push_back(checked(name, fall_of_viscous,
+                             fall_of(run.history, &io::EnergySummary::viscous_dissipation),
+                             rounding));
+    RegressCheck numerical =
+        checked(name, fall_of_numerical,
+                fall_of(run.history, &io::EnergySummary::numerical_dissipation), rounding);
+    // pair by pair only one limiter gives a sign; else the fall is kept as a quantity
+    if (numerical.verdict == Verdict::failed && std::isfinite(numerical.measured) &&
+        setup.scheme.limiter != "sign-preserving") {
+      numerical.verdict = Verdict::known;
+      numerical.note = "limiter " + setup.scheme.limiter + " gives pairs no sign";
+    }
+    checks.push_back(numerical);
+  } else {
+    RegressCheck budget{
+        name, "energy budget", Verdict::skipped, 0, 0, "scheme.energy_budget = false"};
+    checks.push_back(budget);
+  }
+  return checks;
+}
+
+/// Overrides with later ones in place of those of the same key.
+std::vector<std::string> overriding(const std::vector<std::string>& set,
+                                    const std::vector<std::string>& later) {
+  const auto key = [](const std::string& entry) { return entry.substr(0, entry.find('=')); };
+  std::vector<std::string> result;
+  for (const std::string& entry : set) {
+    const bool replaced = std::any_of(later.begin(), later.end(), [&](const std::string& other) {
+      return key(other) == key(entry);
+    });
+    if (!replaced) result.push_back(entry);
+  }
+  result.insert(result.end(), later.begin(), later.end());
+  return result;
+}
+
+LevelRecord record_of(const cases::Case& setup, const RunResult& run) {
+  return {run.summary, io::history_columns_from_csv(
+                           io::history_csv(run.history, probe_columns(setup, false)), setup.name)};
+}
+
+/// Error bar of level 1, and the value there.
+struct BarredValue {
+  double value, bar;
+};
+
+std::map<std::string, BarredValue> barred(const MethodConvergence& study,
+                                          const std::map<std::string, double>& floors) {
+  std::map<std::string, BarredValue> values;
+  for (const Quantity& q : study.scalars) {
+    const double h[2] = {study.levels[1].spacing, study.levels[0].spacing};
+    const double f[2] = {q.values[1], q.values[0]};
+    const auto floor = floors.find(q.name);
+    const double size = std::max(std::abs(f[0]), floor == floors.end() ? 0.0 : floor->second);
+    // no figure is known better than the regression keeps it
+    values[q.name] = {f[0], report::two_grid_error_bar(h, f) + std::sqrt(eps) * size};
+  }
+  return values;
+}
+
+void add_agreement(const cases::Case& setup,
+                   const std::vector<LevelRecord>& records,
+                   double energy,
+                   const NaturalScales& natural,
+                   RegressMeasurement& measurement) {
+  std::map<std::string, double> floors{{"min jacobian", 1.0}};
+  for (const char* name : {"kinetic energy", "strain energy", "viscous dissipation",
+                           "numerical dissipation", "external work"})
+    floors[name] = energy;
+  for (const cases::ProbeCase& probe : setup.probes)
+    floors[probe.name] = floor_of(probe.unit, natural, energy);
+  const auto studies = convergence_of(records, {});
+  std::map<std::string, std::map<std::string, BarredValue>> values;
+  for (const MethodConvergence& study : studies) {
+    if (study.levels.size() == 2) values[study.method] = barred(study, floors);
+  }
+  const double nothing = std::numeric_limits<double>::quiet_NaN();  // agrees with no value
+  for (const std::string method : {"sph", "fvm"}) {
+    for (const auto& [name, value] : values[method])
+      measurement.agreement.emplace(name, AgreementFigure{nothing, nothing, 0});
+  }
+  for (auto& [name, figure] : measurement.agreement) {
+    const auto sph = values["sph"].find(name), fvm = values["fvm"].find(name);
+    if (sph == values["sph"].end() || fvm == values["fvm"].end()) continue;
+    figure = {sph->second.value, fvm->second.value, sph->second.bar + fvm->second.bar};
+  }
+  if (measurement.agreement.empty()) measurement.no_agreement = "no level 1 of both methods";
+}
+
+}  // namespace
+
+RegressMeasurement measure_regress(const std::string& case_file,
+                                   const RegressBaseline& size,
+                                   const std::vector<std::string>& overrides,
+                                   int threads) {
+  parallel::set_threads(threads);
+  const std::vector<std::string> set = overriding(size.set, overrides);
+  const cases::Case setup = cases::read_case(case_file, set);
+  const cases::Case canary =
+      cases::read_case(case_file, overriding(overriding(size.set, {"time.cfl=0.3"}), overrides));
+  RegressMeasurement measurement;
+  std::vector<LevelRecord> records;
+  double energy = 0;
+  NaturalScales natural{};
+  for (const std::string& method : method_menu().names()) {
+    MethodMeasurement& now = measurement.methods[method];
+    RunOptions options;
+    options.method = method;
+    options.threads = threads;
+    options.fields = false;
+    options.quiet = true;
+    const auto start = std::chrono::steady_clock::now();
+    try {
+      natural = measure_canary(canary, method, now.figures);
+      for (options.level = 0; options.level < size.levels; ++options.level) {
+        const RunResult run = run_case(setup, options);
+        if (interrupt_requested()) return measurement;
+        records.push_back(record_of(setup, run));
+        if (options.level > 0) continue;
+        add_errors(run.summary, now.figures.errors);
+        add_quantities(run, natural, now.figures.quantities);
+        now.conservation = conservation_of(setup, run);
+        energy = std::max(energy, energy_scale(run.history));
+      }
+    } catch (const base::BreakdownError& error) {
+      now.failure = error.what();
+    } catch (const base::Interruption&) {
+      return measurement;  // while a mesh was made
+    }
+    now.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  if (size.levels < 2) {
+    measurement.no_agreement = "one level only: " + size.one_level_because;
+  } else {
+    add_agreement(setup, records, energy, natural, measurement);
+  }
+  return measurement;
+}
+
+}  // namespace diptych::harness

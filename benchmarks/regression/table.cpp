@@ -1,0 +1,238 @@
+#include "benchmarks/regression/table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+
+namespace diptych::harness {
+
+namespace {
+
+constexpr size_t most_lines = 6;  ///< failures, or changes, that are shown one by one
+
+size_t count(const std::vector<RegressCheck>& checks, Verdict verdict) {
+  return std::count_if(checks.begin(), checks.end(),
+                       [&](const RegressCheck& check) { return check.verdict == verdict; });
+}
+
+/// How far up to its bound, or beyond it; infinite where a number is missing.
+double load(const RegressCheck& check) {
+  const double ratio = check.measured == 0 ? 0 : check.measured / check.bound;
+  return std::isfinite(ratio) ? ratio : std::numeric_limits<double>::infinity();
+}
+
+std::string figure_text(const RegressCheck& check) {
+  if (!std::isfinite(check.measured)) return check.figure + ": " + check.note;
+  return fmt::format("{} {:.2g} of {:.2g}", check.figure, check.measured, check.bound);
+}
+
+/// Failures first, then what is nearest to its bound.
+std::vector<RegressCheck> sorted(std::vector<RegressCheck> checks) {
+  std::stable_sort(checks.begin(), checks.end(), [](const auto& a, const auto& b) {
+    const bool a_failed = a.verdict == Verdict::failed, b_failed = b.verdict == Verdict::failed;
+    return a_failed != b_failed ? a_failed : load(a) > load(b);
+  });
+  return checks;
+}
+
+std::string counts_text(const std::vector<RegressCheck>& checks) {
+  std::string text;
+  const auto add = [&](Verdict verdict, const char* word) {
+    const size_t n = count(checks, verdict);
+    if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, word);
+  };
+  add(Verdict::failed, "FAILED");
+  add(Verdict::met, "met");
+  add(Verdict::known, "known");
+  return text.empty() ? "skipped" : text;
+}
+
+std::string line_of(const RegressRow& row) {
+  std::vector<RegressCheck> judged;
+  for (const RegressCheck& check : row.checks) {
+    if (check.verdict != Verdict::skipped) judged.push_back(check);
+  }
+  std::string worst;
+  if (!judged.empty()) {
+    const RegressCheck first = sorted(judged).front();
+    // what no number shows stands in full below
+    worst = std::isfinite(first.measured) ? figure_text(first) : first.figure;
+  } else if (!row.checks.empty()) {
+    worst = row.checks.front().note;
+  }
+  return fmt::format("{:<29} {:<4} {:<16} {}\n", row.case_name, row.method, counts_text(row.checks),
+                     worst);
+}
+
+std::string failures_of(const RegressRow& row) {
+  std::string text;
+  std::vector<RegressCheck> failed;
+  for (const RegressCheck& check : sorted(row.checks)) {
+    if (check.verdict == Verdict::failed) failed.push_back(check);
+  }
+  for (size_t i = 0; i < failed.size() && i < most_lines; ++i) {
+    text += "    FAILED " + failed[i].name + ": " + figure_text(failed[i]);
+    if (std::isfinite(failed[i].measured) && !failed[i].note.empty())
+      text += " (" + failed[i].note + ")";
+    text += "\n";
+  }
+  if (failed.size() > most_lines)
+    text += fmt::format("    and {} more\n", failed.size() - most_lines);
+  return text;
+}
+
+/// Reasons, each with the number of checks that were left out for it.
+std::string skips_of(const std::vector<RegressRow>& rows) {
+  std::map<std::string, size_t> reasons;
+  for (const RegressRow& row : rows) {
+    for (const RegressCheck& check : row.checks) {
+      if (check.verdict == Verdict::skipped && !check.figure.empty())
+        ++reasons[check.figure + ": " + check.note];
+    }
+  }
+  std::string text;
+  for (const auto& [reason, n] : reasons)
+    text += fmt::format("skipped {} times: {}\n", n, reason);
+  return text;
+}
+
+size_t count_failed(const std::vector<RegressRow>& rows, base::ExitCode code) {
+  size_t n = 0;
+  for (const RegressRow& row : rows) {
+    n += std::count_if(row.checks.begin(), row.checks.end(), [&](const RegressCheck& check) {
+      return check.verdict == Verdict::failed && check.code == code;
+    });
+  }
+  return n;
+}
+
+/// Kinds of failure: the code of each, the first that applies is that of the whole.
+struct FailureKind {
+  base::ExitCode code;
+  const char *one, *several;
+};
+constexpr std::array<FailureKind, 4> failure_kinds{
+    {{base::ExitCode::environment, "failure of the environment", "failures of the environment"},
+     {base::ExitCode::wrong_input, "file that cannot be used", "files that cannot be used"},
+     {base::ExitCode::breakdown, "breakdown", "breakdowns"},
+     {base::ExitCode::bound_not_met, "check failed", "checks failed"}}};
+
+struct Change {
+  std::string name;
+  double old, now, relative;
+};
+
+void add_changes(std::vector<Change>& changes,
+                 const std::string& where,
+                 const RegressFigures& old,
+                 const RegressFigures& now) {
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [name, figure] : now) {
+    const auto found = old.find(name);
+    if (found == old.end()) {
+      changes.push_back(
+          {where + name, nothing, figure.value, std::numeric_limits<double>::infinity()});
+    } else if (found->second.value != figure.value) {
+      changes.push_back({where + name, found->second.value, figure.value,
+                         std::abs(figure.value - found->second.value) / found->second.scale});
+    }
+  }
+  for (const auto& [name, figure] : old) {
+    if (now.count(name) == 0)
+      changes.push_back(
+          {where + name, figure.value, nothing, std::numeric_limits<double>::infinity()});
+  }
+}
+
+/// What is run from now on.
+std::string size_text(const RegressBaseline& now) {
+  std::string set;
+  for (const std::string& entry : now.set)
+    set += " --set " + entry;
+  return fmt::format("  size:{}, {}\n", set.empty() ? " the case as it stands" : set,
+                     now.levels == 1 ? "level 0 only: " + now.one_level_because : "levels 0 and 1");
+}
+
+std::string value_text(double value) {
+  return std::isfinite(value) ? fmt::format("{:.9g}", value) : "none";
+}
+
+}  // namespace
+
+std::string regress_table(const std::vector<RegressRow>& rows) {
+  std::string text = fmt::format("{:<29} {:<4} {:<16} {}\n", "case", "", "checks",
+                                 "nearest to its bound, or worst beyond");
+  std::array<size_t, 4> total{};
+  for (const RegressRow& row : rows) {
+    text += line_of(row) + failures_of(row);
+    for (const Verdict verdict : {Verdict::met, Verdict::known, Verdict::failed, Verdict::skipped})
+      total.at(static_cast<size_t>(verdict)) += count(row.checks, verdict);
+  }
+  return text + skips_of(rows) +
+         fmt::format("{} checks met, {} failed; {} beyond their bounds as recorded, {} skipped\n",
+                     total[0], total[2], total[1], total[3]);
+}
+
+bool has_failed(const std::vector<RegressRow>& rows) {
+  return exit_code_of(rows) != base::ExitCode::done;
+}
+
+base::ExitCode exit_code_of(const std::vector<RegressRow>& rows) {
+  for (const FailureKind& kind : failure_kinds) {
+    if (count_failed(rows, kind.code) > 0) return kind.code;
+  }
+  return base::ExitCode::done;
+}
+
+std::string failures_in_words(const std::vector<RegressRow>& rows) {
+  std::string text;
+  for (const FailureKind& kind : failure_kinds) {
+    const size_t n = count_failed(rows, kind.code);
+    if (n == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, n == 1 ? kind.one : kind.several);
+  }
+  return text;
+}
+
+std::string difference_text(const RegressBaseline& old, const RegressBaseline& now) {
+  std::string text = now.case_name + ": ";
+  if (old.methods.empty()) {
+    text += "first baseline\n";
+  } else {
+    text += fmt::format("{} of {} ({}) -> {} of {} ({})\n", old.commit, old.date, old.reason,
+                        now.commit, now.date, now.reason);
+  }
+  text += size_text(now);
+  std::vector<Change> changes;
+  if (!old.methods.empty()) {
+    for (const auto& [method, figures] : now.methods) {
+      const auto found = old.methods.find(method);
+      const MethodFigures before = found == old.methods.end() ? MethodFigures{} : found->second;
+      add_changes(changes, method + " canary, ", before.canary, figures.canary);
+      add_changes(changes, method + " error, ", before.errors, figures.errors);
+      add_changes(changes, method + " ", before.quantities, figures.quantities);
+    }
+    std::stable_sort(changes.begin(), changes.end(),
+                     [](const auto& a, const auto& b) { return a.relative > b.relative; });
+    text += changes.empty() ? "  no figure differs\n" : "";
+  }
+  for (size_t i = 0; i < changes.size() && i < most_lines; ++i) {
+    text += fmt::format("  {}: {} -> {} ({:.1e})\n", changes[i].name, value_text(changes[i].old),
+                        value_text(changes[i].now), changes[i].relative);
+  }
+  if (changes.size() > most_lines)
+    text += fmt::format("  and {} more that differ less\n", changes.size() - most_lines);
+  for (const auto& [name, excess] : now.disagreement) {
+    const auto found = old.disagreement.find(name);
+    const std::string before =
+        found == old.disagreement.end() ? "within" : fmt::format("{:.3g}", found->second);
+    text += fmt::format("  methods differ by more than their error bars: {}, {} -> {:.3g}\n", name,
+                        before, excess);
+  }
+  return text;
+}
+
+}  // namespace diptych::harness

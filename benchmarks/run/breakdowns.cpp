@@ -1,0 +1,63 @@
+#include "benchmarks/run/breakdowns.hpp"
+
+#include "benchmarks/run/interruption.hpp"
+#include "common/base/error.hpp"
+#include "postprocess/report/orders.hpp"
+
+#include <cstdio>
+#include <fmt/format.h>
+
+namespace diptych::harness {
+
+namespace {
+
+std::string place_of(const report::Breakdown& one) {
+  if (!one.place) return "-";
+  return fmt::format("({:.5g}, {:.5g}, {:.5g})", (*one.place)[0], (*one.place)[1], (*one.place)[2]);
+}
+
+std::string first_line(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
+
+}  // namespace
+
+report::Breakdown breakdown_of(const io::RunSummary& run) {
+  const io::RunFailure failure = run.failure.value_or(io::RunFailure{});
+  return {run.method,
+          run.level,
+          failure.time.value_or(run.end_time),
+          failure.step.value_or(run.steps),
+          failure.node.value_or(-1),
+          failure.message,
+          failure.place};
+}
+
+std::string breakdown_table(const std::vector<report::Breakdown>& breakdowns) {
+  if (breakdowns.empty()) return "";
+  const std::string head = fmt::format("{:<12}{:>6}{:>13}{:>10}{:>10}  {}", "broke down", "level",
+                                       "time [s]", "step", "node", "place [m]");
+  std::string text = head + "\n" + std::string(80, '-') + "\n";
+  for (const report::Breakdown& one : breakdowns) {
+    text += fmt::format("{:<12}{:>6}{:>13.6g}{:>10}{:>10}  {}\n", report::method_title(one.method),
+                        one.level, one.time, one.step,
+                        one.node < 0 ? "-" : std::to_string(one.node), place_of(one));
+  }
+  for (const report::Breakdown& one : breakdowns)
+    text += fmt::format("{} level {}: {}\n", one.method, one.level, one.message);
+  return text;
+}
+
+int exit_code_of_study(const std::vector<report::Breakdown>& breakdowns,
+                       const std::string& to_go_on) {
+  if (const int code = exit_code_of_study(to_go_on); code != 0) return code;
+  for (const report::Breakdown& one : breakdowns) {
+    std::fputs(fmt::format("diptych: {} level {} broke down: {}\n", one.method, one.level,
+                           first_line(one.message))
+                   .c_str(),
+               stderr);
+  }
+  return breakdowns.empty() ? 0 : static_cast<int>(base::ExitCode::breakdown);
+}
+
+}  // namespace diptych::harness

@@ -1,0 +1,37 @@
+#pragma once
+/// The energy budget of a run over time, relative to what it has held.
+
+#include "common/io/run_record.hpp"
+#include "common/scheme/budget/audit.hpp"
+#include "common/scheme/budget/balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych::harness {
+
+/// Budget of a run relative to the largest energy that it has held.
+class EnergyRecord {
+ public:
+  explicit EnergyRecord(const scheme::Balance& initial)
+      : initial_(initial.kinetic + initial.strain), scale_(initial_) {}
+
+  io::EnergySummary at(const scheme::Balance& now, const scheme::Audit& audit) {
+    io::EnergySummary e;
+    e.kinetic = now.kinetic;
+    e.strain = now.strain;
+    e.external_work = audit.external_work;
+    e.numerical_dissipation = audit.numerical_dissipation;
+    e.viscous_dissipation = audit.viscous_dissipation;
+    scale_ = std::max({scale_, now.kinetic + now.strain, std::abs(audit.external_work)});
+    const double residual = now.kinetic + now.strain - initial_ - audit.external_work +
+                            audit.numerical_dissipation + audit.viscous_dissipation;
+    e.relative_residual = scale_ > 0 ? residual / scale_ : residual;
+    return e;
+  }
+
+ private:
+  double initial_, scale_;
+};
+
+}  // namespace diptych::harness

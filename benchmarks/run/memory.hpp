@@ -1,0 +1,36 @@
+#pragma once
+/// Memory of the process as the system counts it (Linux), and what a run gives back.
+
+#include "common/scheme/graph/pair_graph.hpp"
+
+#include <cstdint>
+
+namespace diptych::harness {
+
+/// Largest resident set since the last reset, bytes.
+std::int64_t peak_rss_bytes();
+void reset_peak_rss();
+
+/// Resident set after what has been freed has gone back to the system, bytes.
+std::int64_t settled_memory();
+
+/// Memory of one run of a program that may make several: without what earlier ones still hold, such
+/// as a state at the end that is to be compared with. Test: tests/harness/memory_test.cpp
+class RunMemory {
+ public:
+  /// The run begins here.
+  RunMemory();
+  /// Largest resident set since, bytes.
+  std::int64_t peak() const { return peak_rss_bytes() - held_; }
+  /// Resident set now, bytes.
+  std::int64_t settled() const { return settled_memory() - held_; }
+
+ private:
+  std::int64_t held_;  ///< by earlier runs
+};
+
+/// Frees rows, neighbours, reverse pairs and C_ab, which the solver has made its own of. Nodes,
+/// volumes and boundary stay; n_pairs() is 0 from now on.
+void release_pairs(scheme::PairGraph& graph);
+
+}  // namespace diptych::harness

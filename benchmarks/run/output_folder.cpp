@@ -1,0 +1,224 @@
+#include "benchmarks/run/output_folder.hpp"
+
+#include "benchmarks/run/backends.hpp"
+#include "benchmarks/run/resumption.hpp"
+#include "benchmarks/run/run_folder.hpp"
+#include "common/base/error.hpp"
+#include "common/cases/copy.hpp"
+#include "common/io/atomic_file.hpp"
+#include "common/io/run_record.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <optional>
+#include <system_error>
+
+namespace diptych::harness {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Folders in a folder, sorted; none where it cannot be read.
+std::vector<fs::path> folders_in(const fs::path& directory) {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->is_directory(error) && !entry->is_symlink(error)) folders.push_back(entry->path());
+  }
+  std::sort(folders.begin(), folders.end());
+  return folders;
+}
+
+/// level_<L> folders of a folder.
+std::vector<fs::path> level_folders(const fs::path& directory) {
+  std::vector<fs::path> levels;
+  for (const fs::path& folder : folders_in(directory)) {
+    const std::string name = folder.filename().string();
+    const bool is_level = name.starts_with("level_") && name.size() > 6 &&
+                          name.find_first_not_of("0123456789", 6) == std::string::npos;
+    if (is_level) levels.push_back(folder);
+  }
+  return levels;
+}
+
+/// The folders of both methods that hold a run.
+std::vector<fs::path> runs_in(const fs::path& directory) {
+  std::vector<fs::path> runs;
+  for (const std::string& method : method_menu().names()) {
+    if (is_run_folder((directory / method).string())) runs.push_back(directory / method);
+  }
+  return runs;
+}
+
+/// All folders of runs in the output folder of a command.
+std::vector<fs::path> all_runs(const fs::path& directory) {
+  std::vector<fs::path> all = runs_in(directory);
+  const auto add = [&all](const std::vector<fs::path>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  for (const fs::path& above : {directory, directory / "earlier"}) {
+    for (const fs::path& level : level_folders(above))
+      add(runs_in(level));
+  }
+  for (const fs::path& run : folders_in(directory / "runs")) {
+    if (is_run_folder(run.string())) all.push_back(run);
+  }
+  return all;
+}
+
+std::optional<io::SummaryOwner> owner_of(const fs::path& run) {
+  return io::summary_owner(io::read_file((run / "summary.json").string()));
+}
+
+void remove_if_empty(const fs::path& folder) {
+  std::error_code ignored;  // one that is not empty, or not there, stays as it is
+  if (fs::is_empty(folder, ignored)) fs::remove(folder, ignored);
+}
+
+[[noreturn]] void fail(const fs::path& path, const char* what, const std::error_code& error) {
+  throw base::EnvironmentError(fmt::format("{}: results of an earlier run cannot be {}: {}",
+                                           path.string(), what, error.message()));
+}
+
+/// Moves the finished run of `from` to `to`, in the place of what an earlier one left there.
+void move_run(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  if (fs::exists(to, error)) remove_run(to.string());
+  fs::create_directories(to.parent_path(), error);
+  if (!error) fs::rename(from, to, error);
+  if (error) fail(from, "set aside", error);
+}
+
+/// Whether some command of diptych has put its results into this folder: a table or page there is
+/// then its own, and not somebody else's of the same name.
+bool is_output_folder(const fs::path& directory) {
+  const fs::path copy = directory / "case.toml";
+  std::error_code error;
+  return !all_runs(directory).empty() ||
+         (fs::is_regular_file(copy, error) && cases::is_case_copy(io::read_file(copy.string())));
+}
+
+bool contains(const std::vector<std::string>& paths, const fs::path& path) {
+  return std::find(paths.begin(), paths.end(), path.string()) != paths.end();
+}
+
+bool is_finished(const fs::path& run) {
+  const std::string text = io::read_file((run / "summary.json").string());
+  return text.find("\"status\": \"done\"") != std::string::npos;
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(std::string directory,
+                           const cases::Case& setup,
+                           OutputKind kind,
+                           bool force)
+    : directory_(std::move(directory)), setup_(setup), kind_(kind) {
+  if (directory_.empty()) return;
+  for (const fs::path& run : all_runs(directory_)) {
+    const auto owner = owner_of(run);
+    if (!owner) continue;
+    const bool is_same =
+        owner->case_file.empty() ? owner->case_name == setup.name : owner->case_file == setup.file;
+    if (is_same) continue;
+    of_another_case_ = true;
+    if (force) return;
+    throw base::InputError(fmt::format(
+        "{}: holds results of another case, {}{}; give another --out, or --force to replace them",
+        directory_, owner->case_name,
+        owner->case_file.empty() ? "" : " (" + owner->case_file + ")"));
+  }
+}
+
+void OutputFolder::prepare() {
+  if (prepared_ || directory_.empty()) return;
+  prepared_ = true;
+  io::make_directory(directory_);
+  if (of_another_case_) remove_everything();
+  if (is_output_folder(directory_)) remove_pages();
+  if (kind_ == OutputKind::runs || kind_ == OutputKind::levels) {
+    remove_runs();
+    set_levels_aside();
+  }
+  write_case_copy((fs::path(directory_) / "case.toml").string(), setup_);
+}
+
+void OutputFolder::remove_everything() const {
+  const fs::path directory = directory_;
+  for (const fs::path& run : all_runs(directory))
+    remove_run(run.string());
+  for (const fs::path& above : {directory, directory / "earlier"}) {
+    for (const fs::path& level : level_folders(above))
+      remove_if_empty(level);
+  }
+  remove_if_empty(directory / "earlier");
+  remove_if_empty(directory / "runs");
+  for (const char* name :
+       {"report.html", "convergence.csv", "convergence.tex", "work_precision.csv",
+        "work_precision.html", "quantities.csv", "quantities.html", "stability.csv"}) {
+    std::error_code error;
+    fs::remove(directory / name, error);
+    if (error) fail(directory / name, "removed", error);
+  }
+}
+
+/// Tables and pages that this command writes itself, perhaps not today.
+void OutputFolder::remove_pages() const {
+  std::vector<const char*> names{"report.html", "convergence.csv", "convergence.tex"};
+  if (kind_ == OutputKind::study)
+    names = {"work_precision.csv", "work_precision.html", "quantities.csv", "quantities.html"};
+  if (kind_ == OutputKind::stability) names = {"stability.csv"};
+  for (const char* name : names) {
+    const fs::path page = fs::path(directory_) / name;
+    std::error_code error;
+    fs::remove(page, error);
+    if (error) fail(page, "removed", error);
+  }
+}
+
+void OutputFolder::remove_runs() const {
+  for (const fs::path& run : runs_in(directory_))
+    remove_run(run.string());
+}
+
+void OutputFolder::set_levels_aside() const {
+  for (const fs::path& level : level_folders(directory_)) {
+    for (const fs::path& run : runs_in(level)) {
+      if (contains(taken_over_, run)) continue;
+      if (is_finished(run) && !contains(asked_, run)) {
+        move_run(run, fs::path(directory_) / "earlier" / level.filename() / run.filename());
+      } else {
+        remove_run(run.string());
+      }
+    }
+    remove_if_empty(level);
+  }
+}
+
+void OutputFolder::ask_for(const std::vector<int>& levels,
+                           const std::vector<std::string>& methods,
+                           bool fresh) {
+  if (directory_.empty()) return;
+  const fs::path directory = directory_, earlier = directory / "earlier";
+  for (const int level : levels) {
+    const std::string name = fmt::format("level_{}", level);
+    for (const std::string& method : methods) {
+      asked_.push_back((directory / name / method).string());
+      if (fresh) continue;
+      RunOptions options;
+      options.method = method;
+      options.level = level;
+      options.directory = (earlier / name / method).string();
+      if (finished_run(setup_, options)) move_run(options.directory, asked_.back());
+      options.directory = asked_.back();
+      if (finished_run(setup_, options)) taken_over_.push_back(asked_.back());
+    }
+    remove_if_empty(earlier / name);
+  }
+  remove_if_empty(earlier);
+}
+
+}  // namespace diptych::harness

@@ -1,0 +1,52 @@
+#pragma once
+/// The output folder of a command: whose results lie in it, and what of them goes before new ones
+/// are written, so that nothing of an earlier run is ever taken for a part of this one. Only what
+/// diptych itself has made is touched. Test: tests/command_line/output_folder_test.cpp
+
+#include "common/cases/case.hpp"
+
+#include <string>
+#include <vector>
+
+namespace diptych::harness {
+
+/// What a command is about to put there.
+enum class OutputKind {
+  runs,      ///< of `run` and `compare`: DIR/<method>, report.html
+  levels,    ///< of `converge`: DIR/level_<L>/<method>, convergence.*, report.html
+  study,     ///< of `study`: DIR/runs, work_precision.*
+  stability  ///< of `study --stability`: stability.csv
+};
+
+class OutputFolder {
+ public:
+  /// @param setup  kept by reference
+  /// @throws base::InputError where results of another case lie there and `force` is false
+  OutputFolder(std::string directory, const cases::Case& setup, OutputKind kind, bool force);
+
+  /// Of a convergence study: its runs are these. Those that are finished stay where they are, and
+  /// are brought back from where they were set aside, unless all are to be run again.
+  /// @throws base::EnvironmentError
+  void ask_for(const std::vector<int>& levels, const std::vector<std::string>& methods, bool fresh);
+
+  /// Before the first file is written; later calls do nothing. Removes what earlier commands of
+  /// this kind left, sets finished levels aside that are not taken over now, in DIR/earlier, and
+  /// leaves a copy of the case in DIR/case.toml, unless a case file of the user stands there. Of
+  /// another case everything goes.
+  /// @throws base::EnvironmentError
+  void prepare();
+
+ private:
+  void remove_everything() const;
+  void remove_pages() const;
+  void remove_runs() const;
+  void set_levels_aside() const;
+
+  std::string directory_;
+  const cases::Case& setup_;
+  OutputKind kind_;
+  std::vector<std::string> asked_, taken_over_;  ///< folders of runs
+  bool of_another_case_ = false, prepared_ = false;
+};
+
+}  // namespace diptych::harness

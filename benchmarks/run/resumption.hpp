@@ -1,0 +1,26 @@
+#pragma once
+/// Runs that need not be made again: a folder whose summary says that the same program has finished
+/// the same run there. Anything else, an unfinished run or an unreadable file, is no result.
+/// Test: tests/command_line/resumption_test.cpp
+
+#include "benchmarks/run/run_case.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace diptych::harness {
+
+/// Hash of all that a run is given: case file, overrides, the bytes of its mesh file, measures.
+std::string input_hash(const cases::Case& setup, const std::vector<NodeMeasure>& measures);
+
+/// Summary and history of the finished run in options.directory, where method, level, input and
+/// program are those that a run with these options would have.
+struct FinishedRun {
+  io::RunSummary summary;
+  std::vector<io::HistoryRow> history;
+  std::vector<io::HistoryColumn> exact;  ///< empty where the case has no exact solution
+};
+std::optional<FinishedRun> finished_run(const cases::Case& setup, const RunOptions& options);
+
+}  // namespace diptych::harness

@@ -1,0 +1,53 @@
+#include "benchmarks/run/run_table.hpp"
+
+#include "benchmarks/run/quantities.hpp"
+
+#include <fmt/format.h>
+
+namespace diptych::harness {
+
+namespace {
+
+/// Six digits; the least of no values is 1e300.
+std::string least_text(double J) {
+  return J < 1e299 ? fmt::format("{:.6g}", J) : "not measured";
+}
+
+}  // namespace
+
+std::string inverted_cells_warning(const io::RunSummary& s) {
+  if (!s.inverted_from) return "";
+  return fmt::format(
+      "  WARNING: {} level {}: from t = {:.4g} s on cells are inside out (up to {}, least cell J "
+      "{:.3g}):\n  the body has passed through itself between nodes; do not use what comes after\n",
+      s.method, s.level, *s.inverted_from, s.most_inverted_cells, s.least_cell_J);
+}
+
+std::string run_table(const io::RunSummary& s) {
+  std::string text =
+      fmt::format("{} level {}: {} nodes, {} pairs ({:.3g} a node), {} unknowns a node\n", s.method,
+                  s.level, s.nodes, s.pairs, s.mean_neighbours, s.unknowns_per_node);
+  text += fmt::format(
+      "  {} steps of {}, dt {:.3g} to {:.3g} s; {:.3g} s in the loop, {:.3g} ns per node and stage "
+      "({} {})\n",
+      s.steps, s.integrator, s.dt_min, s.dt_max, s.loop_seconds, s.nanoseconds_per_node_stage,
+      s.threads, s.threads == 1 ? "thread" : "threads");
+  if (!s.errors.empty()) {
+    text += "  relative L2 errors:";
+    for (const auto& [name, norms] : s.errors)
+      text += fmt::format("  {} {:.3e}", name, norms.l2);
+    text += "\n";
+  }
+  text += fmt::format(
+      "  energy: kinetic {:.4g}, strain {:.4g}, work {:.4g}, viscous {:.4g}, numerical {:.4g} J; "
+      "residual {:.1e}\n",
+      s.energy.kinetic, s.energy.strain, s.energy.external_work, s.energy.viscous_dissipation,
+      s.energy.numerical_dissipation, s.energy.relative_residual);
+  for (const io::QuantitySummary& quantity : s.quantities)
+    text += "  " + quantity_line(quantity) + "\n";
+  text += fmt::format("  status {}, least J {} (cells {}), state {}\n", s.status,
+                      least_text(s.min_jacobian), least_text(s.least_cell_J), s.state_hash);
+  return text + inverted_cells_warning(s);
+}
+
+}  // namespace diptych::harness

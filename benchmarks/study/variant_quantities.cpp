@@ -1,0 +1,123 @@
+#include "benchmarks/study/variant_quantities.hpp"
+
+#include "common/base/error.hpp"
+#include "common/base/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace diptych::harness {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The probe of "tip displacement, period"; the name itself where it is of no probe.
+std::string probe_of(const std::string& name) {
+  return name.substr(0, name.rfind(", "));
+}
+
+std::vector<RunQuantity> quantities_of_probe(const io::QuantitySummary& probe) {
+  const bool swings = probe.n_periods > 0;
+  return {{probe.name + ", end", probe.unit, probe.final_value},
+          {probe.name + ", least", probe.unit, probe.least},
+          {probe.name + ", greatest", probe.unit, probe.greatest},
+          {probe.name + ", period", "s", swings ? probe.period : nothing},
+          {probe.name + ", amplitude", probe.unit, swings ? probe.amplitude : nothing}};
+}
+
+/// What every run has, whatever its case.
+std::vector<RunQuantity> common_quantities(const WorkPoint& point) {
+  const io::RunSummary& run = point.run;
+  const std::string joule = run.dimension == 2 ? "J/m" : "J";
+  return {{"kinetic energy", joule, run.energy.kinetic},
+          {"strain energy", joule, run.energy.strain},
+          {"external work", joule, run.energy.external_work},
+          {"viscous dissipation", joule, run.energy.viscous_dissipation},
+          {"numerical dissipation", joule, run.energy.numerical_dissipation},
+          {"energy residual", "-", run.energy.relative_residual},
+          {"least J", "-", run.min_jacobian},
+          {"seconds", "s", point.least},
+          {"steps", "-", static_cast<double>(run.steps)},
+          {"nodes", "-", static_cast<double>(run.nodes)}};
+}
+
+/// Names that --quantity may give, without those of whole probes.
+std::vector<std::string> names_of_case(const cases::Case& setup) {
+  std::vector<std::string> names;
+  for (const cases::ProbeCase& probe : setup.probes) {
+    io::QuantitySummary empty;
+    empty.name = probe.name;
+    for (const RunQuantity& q : quantities_of_probe(empty)) {
+      const bool of_oscillation = q.name.ends_with(", period") || q.name.ends_with(", amplitude");
+      if (probe.oscillation || !of_oscillation) names.push_back(q.name);
+    }
+  }
+  for (const RunQuantity& q : common_quantities({}))
+    names.push_back(q.name);
+  return names;
+}
+
+bool is_shown_by_default(const std::string& name, const StudyRuns& runs) {
+  if (name == "steps" || name == "nodes") return false;
+  bool any = false, any_not_zero = false;
+  for (const WorkCurve& curve : runs.curves) {
+    for (const WorkPoint& point : curve.points) {
+      for (const RunQuantity& q : quantities_of_run(point)) {
+        if (q.name != name || !std::isfinite(q.value)) continue;
+        any = true;
+        any_not_zero = any_not_zero || q.value != 0;
+      }
+    }
+  }
+  const bool is_energy =
+      name.ends_with(" energy") || name.ends_with(" dissipation") || name == "external work";
+  return any && (any_not_zero || !is_energy);
+}
+
+}  // namespace
+
+std::vector<RunQuantity> quantities_of_run(const WorkPoint& point) {
+  std::vector<RunQuantity> all;
+  for (const io::QuantitySummary& probe : point.run.quantities) {
+    for (const RunQuantity& q : quantities_of_probe(probe))
+      all.push_back(q);
+  }
+  for (const RunQuantity& q : common_quantities(point))
+    all.push_back(q);
+  return all;
+}
+
+void check_quantities(const cases::Case& setup, const std::vector<std::string>& wanted) {
+  std::vector<std::string> known = names_of_case(setup);
+  for (const cases::ProbeCase& probe : setup.probes)
+    known.push_back(probe.name);
+  known.emplace_back("all");
+  for (const std::string& name : wanted) {
+    if (!contains(known, name)) {
+      throw base::InputError("--quantity '" + name + "' is none of " + setup.name +
+                             base::suggestion(name, known));
+    }
+  }
+}
+
+std::vector<std::string> chosen_quantities(const cases::Case& setup,
+                                           const std::vector<std::string>& wanted,
+                                           const StudyRuns& runs) {
+  std::vector<std::string> chosen;
+  for (const std::string& name : names_of_case(setup)) {
+    const bool is_chosen = wanted.empty() ? is_shown_by_default(name, runs)
+                                          : contains(wanted, "all") || contains(wanted, name) ||
+                                                contains(wanted, probe_of(name));
+    if (is_chosen) chosen.push_back(name);
+  }
+  return chosen;
+}
+
+}  // namespace diptych::harness

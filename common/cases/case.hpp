@@ -1,0 +1,172 @@
+#pragma once
+/// A case as plain structs: what a case file says once every key has been checked. Units are SI
+/// unless the user keeps another consistent system; each key's unit stands in the table of
+/// case_keys.cpp, from which `diptych explain` and the reference page are made.
+
+#include "common/algebra/vectors.hpp"
+#include "common/cases/probe_fields.hpp"
+#include "common/exact/manufactured/motion.hpp"
+#include "common/functions/expressions.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace diptych::cases {
+
+using algebra::Vec3;
+
+/// [mesh]: a box of the generator, a Gmsh .msh file, or a .geo file meshed by the gmsh program.
+struct MeshCase {
+  std::string generator = "box";       ///< "box" where no file is given
+  std::string file;                    ///< resolved path of a .msh or .geo file, or empty
+  std::string element = "hexahedron";  ///< hexahedron, tetrahedron, quadrilateral, triangle
+  Vec3 lower = Vec3::Zero();           ///< m
+  Vec3 upper = Vec3::Ones();           ///< m
+  std::array<int, 3> cells{4, 4, 4};   ///< at level 0; level L has cells * 2^L
+  double size = 0;                     ///< m, element size at level 0 for .geo files (h / 2^L)
+  double perturbation = 0;             ///< interior nodes moved at random, fraction of spacing
+  std::uint64_t seed = 1;              ///< of that random shift
+};
+
+/// One Maxwell branch: xi^alpha = beta_C xi, zeta^alpha = beta_G zeta.
+struct BranchCase {
+  double beta_C = 0;  ///< > 0, or 0 where absent
+  double tau_C = 1;   ///< s, > 0
+  double beta_G = 0;
+  double tau_G = 1;
+};
+
+/// [material]. lame and shear follow from the pair of constants the user gave.
+struct MaterialCase {
+  std::string model = "mooney-rivlin";  ///< entry of the material menu
+  double density = 0;                   ///< kg/m^3, > 0
+  double shear_modulus = 0;             ///< Pa, mu > 0
+  double lame = 0;                      ///< Pa, lambda
+  double zeta_ratio = 0;  ///< zeta / (xi + zeta) in [0, 1): 0 neo-Hookean, 0.5 xi = zeta
+  std::vector<BranchCase> branches;
+};
+
+/// [[boundary]]
+struct BoundaryCase {
+  std::vector<std::string> groups;  ///< mesh groups
+  std::string type;  ///< entry of the boundary menu: traction, pressure, fixed, velocity, symmetry,
+                     ///< skew-symmetry
+  functions::VectorExpression value;  ///< traction (Pa, dead, per reference area) or velocity (m/s)
+  bool manufactured = false;          ///< traction or velocity of the manufactured motion instead
+  functions::Expression pressure;     ///< Pa, follower pressure
+  Vec3 point = Vec3::Zero();          ///< m, of a rigid wall
+  Vec3 normal = Vec3::Zero();         ///< of a rigid wall, towards the body
+  functions::SourcePlace where;  ///< of the table, for messages about groups that the mesh lacks
+};
+
+/// [initial]. With a manufactured motion displacement and velocity are its own.
+struct InitialCase {
+  functions::VectorExpression displacement;  ///< m; F is its discrete gradient unless given below
+  functions::VectorExpression velocity;      ///< m/s
+  std::optional<functions::TensorExpression> deformation_gradient;
+  std::shared_ptr<const exact::Motion> motion;  ///< of [manufactured], or null
+  bool relaxed = false;  ///< internal variables: "virgin" (A = S = I) or "relaxed" (at equilibrium)
+  double velocity_noise = 0;  ///< m/s, greatest random addition to v: not a key, for studies
+};
+
+/// [time]
+struct TimeCase {
+  double end = 0;                      ///< s, > 0
+  std::string integrator = "ssp-rk3";  ///< entry of the integrator menu
+  double cfl = 0;                ///< fraction of the graph bound; 0: default of the integrator
+  std::string speeds = "exact";  ///< of the time step: exact, bound or linearised
+  std::int64_t max_steps = 0;    ///< 0: none
+};
+
+/// [output]
+struct OutputCase {
+  int frames = 10;     ///< output instants after t = 0, evenly spaced, last at end
+  bool fields = true;  ///< write field files
+};
+
+/// [[probe]]
+struct ProbeCase {
+  std::string name, unit;
+  std::string kind;                     ///< point, mean, integral, least, greatest, reaction
+  functions::Expression quantity;       ///< of the fields of `fields` and of place and time
+  std::shared_ptr<ProbeFields> fields;  ///< what the expression reads
+  Vec3 at = Vec3::Zero();               ///< m
+  std::vector<std::string> groups;      ///< empty: the body
+  Vec3 direction = Vec3::Zero();        ///< of a reaction
+  bool every_step = false;
+  bool oscillation = false;  ///< read period and decrement
+  functions::SourcePlace where;
+
+  std::string column() const { return name + " [" + unit + "]"; }
+};
+
+/// [[reference]]: values of a probe from elsewhere, which a report draws as points.
+struct ReferenceCase {
+  std::string probe;                          ///< name of a probe of the case
+  std::string source;                         ///< where they are from
+  std::vector<std::array<double, 2>> points;  ///< s, unit of the probe
+};
+
+/// [scheme]
+struct SchemeCase {
+  std::string unknowns = "FHJ";           ///< F, FJ or FHJ
+  std::string reconstruction = "linear";  ///< none or linear
+  std::string limiter = "none";           ///< entry of the limiter menu
+  std::string impedance = "isotropic";    ///< isotropic or exact
+  double dissipation = 1;                 ///< multiplies D_ab, >= 0
+  double face_correction = 0;             ///< kappa_f of physics note 3.8, 0: none
+  std::string precision = "double";       ///< double, mixed or single: scheme::Precision
+  bool angular_momentum_projection = false;
+  bool energy_budget = true;
+};
+
+/// [sph]
+struct SphCase {
+  std::string kernel = "cubic-spline";
+  double kappa = 1.2;   ///< h_a = kappa Omega_a^(1/d)
+  bool closure = true;  ///< minimum-norm gamma repair of physics note 3.3
+};
+
+/// [fvm]
+struct FvmCase {
+  std::string stencil = "edge";  ///< edge (nodal quadrature), integral (2 int N_a grad N_b dV) or
+                                 ///< sbp (operators that sum by parts, on boxes)
+  int order = 4;                 ///< of sbp, inside: 2, 4 or 6
+};
+
+/// [exact]: solution the run is measured against. Missing fields are derived from displacement.
+struct ExactCase {
+  std::optional<functions::VectorExpression> displacement;          ///< m
+  std::optional<functions::VectorExpression> velocity;              ///< m/s
+  std::optional<functions::TensorExpression> deformation_gradient;  ///< -
+  std::optional<functions::TensorExpression> stress;                ///< Pa, first Piola-Kirchhoff
+};
+
+struct Case {
+  std::string name;  ///< folder or file name of the case
+  std::string file;  ///< absolute path; of a copy that a run left, that of its original
+  std::string text;  ///< file as read; of a copy, that of its original
+  std::string hash;  ///< of text and overrides
+  std::string title;
+  std::vector<std::string> overrides;  ///< "key=value" of --set and of a copy
+  MeshCase mesh;
+  MaterialCase material;
+  InitialCase initial;
+  std::vector<BoundaryCase> boundaries;
+  functions::VectorExpression body_force;       ///< N/m^3 per reference volume
+  std::shared_ptr<const exact::Motion> motion;  ///< of [manufactured], or null
+  TimeCase time;
+  OutputCase output;
+  std::vector<ProbeCase> probes;
+  std::vector<ReferenceCase> references;
+  SchemeCase scheme;
+  SphCase sph;
+  FvmCase fvm;
+  ExactCase exact;
+};
+
+}  // namespace diptych::cases

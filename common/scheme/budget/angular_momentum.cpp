@@ -1,0 +1,91 @@
+#include "common/scheme/budget/angular_momentum.hpp"
+
+#include "common/parallel/for_chunks.hpp"
+
+#include <algorithm>
+
+namespace diptych::scheme {
+
+using algebra::n_lanes;
+
+namespace {
+
+struct Moments {
+  double mass = 0;
+  Vec3 first = Vec3::Zero();             ///< sum m x
+  Vec3 momentum = Vec3::Zero();          ///< sum m v
+  Mat3 second = Mat3::Zero();            ///< sum m x (x) x
+  Vec3 angular_momentum = Vec3::Zero();  ///< sum x cross m v
+};
+
+template <int Dim>
+Vec3 position(const State<Dim>& state, const std::vector<Vec3>& X, std::int64_t a) {
+  Vec3 x = X[a];
+  for (int i = 0; i < Dim; ++i)
+    x[i] += state.u.at(a, i);
+  return x;
+}
+
+}  // namespace
+
+template <int Dim>
+double project_angular_momentum(State<Dim>& state,
+                                const SweepGraph<Dim>& graph,
+                                const std::vector<Vec3>& X_centred,
+                                double rho_R,
+                                const Vec3& wanted) {
+  const auto for_nodes = [&](const auto& work) {
+    parallel::for_chunks(graph.n_blocks,
+                         [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
+                           const std::int64_t last = std::min(end * n_lanes, graph.n_nodes);
+                           for (std::int64_t a = begin * n_lanes; a < last; ++a)
+                             work(a, chunk);
+                         });
+  };
+  std::vector<Moments> parts(parallel::n_chunks_of(graph.n_blocks));
+  for_nodes([&](std::int64_t a, std::int64_t chunk) {
+    const double m = rho_R * graph.Omega[a];
+    const Vec3 x = position(state, X_centred, a);
+    Vec3 v = Vec3::Zero();
+    for (int i = 0; i < Dim; ++i)
+      v[i] = state.v.at(a, i);
+    parts[chunk].mass += m;
+    parts[chunk].first += m * x;
+    parts[chunk].momentum += m * v;
+    parts[chunk].second += m * x * x.transpose();
+    parts[chunk].angular_momentum += m * x.cross(v);
+  });
+  Moments sum;
+  for (const Moments& part : parts) {
+    sum.mass += part.mass;
+    sum.first += part.first;
+    sum.momentum += part.momentum;
+    sum.second += part.second;
+    sum.angular_momentum += part.angular_momentum;
+  }
+  const Vec3 centre = sum.first / sum.mass;
+  const Mat3 second = sum.second - sum.mass * centre * centre.transpose();
+  Mat3 K = second.trace() * Mat3::Identity() - second;
+  Vec3 missing = wanted - sum.angular_momentum;
+  if constexpr (Dim == 2) {  // only the moment about z exists
+    K = Mat3::Identity() * K(2, 2);
+    missing[0] = missing[1] = 0;
+  }
+  const Vec3 lambda = K.ldlt().solve(missing);
+  // of v + lambda x (x - centre): the first moment of the change is zero
+  const Vec3 spin = sum.angular_momentum - centre.cross(sum.momentum);
+  const double gain = lambda.dot(spin) + 0.5 * lambda.dot(missing);
+  for_nodes([&](std::int64_t a, std::int64_t) {
+    const Vec3 change = lambda.cross(position(state, X_centred, a) - centre);
+    for (int i = 0; i < Dim; ++i)
+      state.v.add(a, i, change[i]);
+  });
+  return gain;
+}
+
+template double project_angular_momentum(
+    State<2>&, const SweepGraph<2>&, const std::vector<Vec3>&, double, const Vec3&);
+template double project_angular_momentum(
+    State<3>&, const SweepGraph<3>&, const std::vector<Vec3>&, double, const Vec3&);
+
+}  // namespace diptych::scheme

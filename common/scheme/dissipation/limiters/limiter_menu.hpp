@@ -1,0 +1,13 @@
+#pragma once
+/// The limiters of the reconstruction by name. Adding one: a header beside this one, a value of
+/// PairLimiter and its line in momentum.hpp, a line here.
+
+#include "common/base/registry.hpp"
+#include "common/scheme/dissipation/dissipation.hpp"
+
+namespace diptych::scheme {
+
+/// none, barth-jespersen, venkatakrishnan, sign-preserving
+const base::Registry<PairLimiter>& limiter_menu();
+
+}  // namespace diptych::scheme

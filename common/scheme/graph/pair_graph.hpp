@@ -1,0 +1,78 @@
+#pragma once
+/// The pair graph: all that the scheme knows of a discretisation (design idea 1). A backend (sph,
+/// fvm) is a factory of this object; it is built once, on the host, in double precision.
+///
+/// Equations: the pseudo-area vectors C_ab of (18a-d), (19); closure of physics note 3.3:
+///   -1/2 sum_b (C_ab - C_ba) = A_a N_a.
+/// Tests: tests/graphs.
+
+#include "common/algebra/vectors.hpp"
+#include "common/scheme/graph/row_classes.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace diptych::scheme {
+
+using algebra::Mat3;
+using algebra::Vec3;
+
+/// A named part of the boundary as nodes with their share of its area.
+struct BoundaryPatch {
+  std::string name;
+  std::vector<std::int32_t> nodes;  ///< ascending
+  std::vector<Vec3> area;  ///< [nodes] m^2 (m per unit thickness in 2-D): int_patch N_a N dA
+};
+
+/// Of what sweeps read and write; set-up is always in double precision.
+enum class Precision {
+  full,   ///< all in double, but for |S_ab| and S_ab, which only scale the dissipation
+  mixed,  ///< C_ab in single, all else in double
+  single  ///< C_ab and the state in single; sums over pairs in single, pointwise physics in double
+};
+
+struct PairGraph {
+  int dimension = 3;
+  std::vector<Vec3> X;                 ///< [n_nodes] m, reference positions
+  std::vector<double> Omega;           ///< [n_nodes] m^3 (m^2 in 2-D), all > 0
+  std::vector<Vec3> boundary_area;     ///< [n_nodes] m^2, A_a N_a over the whole boundary
+  std::vector<BoundaryPatch> patches;  ///< one per boundary group of the mesh, same order
+  std::vector<std::int64_t> row;       ///< [n_nodes + 1]
+  std::vector<std::int32_t>
+      neighbour;                      ///< [n_pairs] ascending in each row, without the node itself
+  std::vector<std::int64_t> reverse;  ///< [n_pairs] index of pair (b,a)
+  std::vector<Vec3> C;                ///< [n_pairs] m^2, C_ab of the directed pair (a,b)
+  /// Where the factory knows them, which takes that rows stand in their common order; else empty.
+  RowClasses classes;
+  Precision precision = Precision::full;  ///< see set_precision
+
+  std::int64_t n_nodes() const { return static_cast<std::int64_t>(X.size()); }
+  std::int64_t n_pairs() const { return static_cast<std::int64_t>(neighbour.size()); }
+};
+
+/// Figures of merit of a graph, for the log, the record and the tests. All are relative:
+/// lengths to h_a = Omega_a^(1/d), areas to h_a^(d-1).
+struct GraphQuality {
+  double linear_exactness = 0;  ///< max |sum_b 1/2 (X_b - X_a) (x) C_ab / Omega_a - I|
+  double closure = 0;           ///< max |-1/2 sum_b (C_ab - C_ba) - A_a N_a| / h_a^(d-1)
+  double mean_neighbours = 0;
+  int least_neighbours = 0;
+};
+
+GraphQuality quality(const PairGraph& graph);
+
+/// Checks structure (sorted rows, reverse pairs, finite numbers, positive volumes).
+/// @throws base::InputError that names the node and its place
+void validate(const PairGraph& graph);
+
+/// Below full: rounds every C_ab to single precision, in which sweeps then keep it. Forces of pairs
+/// stay exactly opposite and dual to the strain rates (single: to rounding); closure and linear
+/// exactness hold to 1e-7.
+/// @throws base::InputError where squares of areas leave the range of single precision
+void set_precision(PairGraph& graph, Precision precision);
+
+/// Fills graph.reverse from rows and neighbours (which must be structurally symmetric).
+void link_reverse_pairs(PairGraph& graph);
+
+}  // namespace diptych::scheme

@@ -1,0 +1,8 @@
+#include "common/scheme/sweeps/compiled_momentum.hpp"
+
+namespace diptych::scheme {
+
+template MomentumFunction<2> momentum_sweep_of<2, Impedance::isotropic, true>(
+    const DissipationKind&);
+
+}  // namespace diptych::scheme

@@ -1,0 +1,83 @@
+#pragma once
+/// The momentum sweeps that are compiled, by instruction set and kind of dissipation: for the files
+/// that compile them (sweeps/momentum_*.cpp) and for tests.
+
+#include "common/algebra/versions.hpp"
+#include "common/scheme/sweeps/momentum_rows.hpp"
+#include "common/scheme/sweeps/momentum_runs.hpp"
+
+namespace diptych::scheme {
+
+template <InstructionSet isa, class Real, int Dim, DissipationKind kind, bool has_H>
+DIPTYCH_INLINE void forces_in(const MomentumSweep<Dim>& sweep,
+                              std::int64_t begin,
+                              std::int64_t end,
+                              std::int64_t chunk) {
+  const algebra::FlushToZero flush(sweep.state.shape.single);
+  double power = 0, rate = 0;
+  if (sweep.graph.shape.arrangement == Arrangement::runs) {
+    for (std::int64_t b = begin; b < end;)
+      power += add_forces_of_next<Real, Dim, kind, has_H>(sweep, b, end);
+  } else {
+    for (std::int64_t b = begin; b < end; ++b)
+      power += forces_on_block<isa, Real, Dim, kind, has_H>(sweep, b, rate);
+  }
+  sweep.numerical_power[chunk] = power;
+  sweep.largest_rate[chunk] = rate;
+}
+
+template <int Dim, DissipationKind kind, bool has_H>
+struct MomentumKernel {
+  /// In the precision of the state.
+  template <InstructionSet isa>
+  DIPTYCH_INLINE static void run(const MomentumSweep<Dim>& sweep,
+                                 std::int64_t begin,
+                                 std::int64_t end,
+                                 std::int64_t chunk) {
+    if constexpr (has_single_precision(kind)) {
+      if (sweep.state.shape.single) {
+        forces_in<isa, float, Dim, kind, has_H>(sweep, begin, end, chunk);
+        return;
+      }
+    }
+    forces_in<isa, double, Dim, kind, has_H>(sweep, begin, end, chunk);
+  }
+};
+template <int Dim, DissipationKind kind, bool has_H>
+using MomentumVersions = algebra::Versions<MomentumKernel<Dim, kind, has_H>,
+                                           const MomentumSweep<Dim>&,
+                                           std::int64_t,
+                                           std::int64_t,
+                                           std::int64_t>;
+
+/// The sweep of one kind for this processor.
+template <int Dim, DissipationKind kind, bool has_H>
+MomentumFunction<Dim> momentum_sweep() {
+  return algebra::version_here<MomentumVersions<Dim, kind, has_H>>();
+}
+
+/// Sweeps of linear reconstruction with one impedance, by limiter.
+template <int Dim, Impedance impedance, bool has_H>
+MomentumFunction<Dim> limited_sweep(PairLimiter limiter) {
+  using enum PairLimiter;
+  constexpr auto linear = Reconstruction::linear;
+  switch (limiter) {
+    case sign_preserving:
+      return momentum_sweep<Dim, {linear, sign_preserving, impedance}, has_H>();
+    case barth_jespersen:
+      return momentum_sweep<Dim, {linear, barth_jespersen, impedance}, has_H>();
+    case venkatakrishnan:
+      return momentum_sweep<Dim, {linear, venkatakrishnan, impedance}, has_H>();
+    default:
+      return momentum_sweep<Dim, {linear, none, impedance}, has_H>();
+  }
+}
+
+template <int Dim, Impedance impedance, bool has_H>
+MomentumFunction<Dim> momentum_sweep_of(const DissipationKind& kind) {
+  constexpr DissipationKind plain{Reconstruction::none, PairLimiter::none, impedance};
+  if (kind.reconstruction == Reconstruction::none) return momentum_sweep<Dim, plain, has_H>();
+  return limited_sweep<Dim, impedance, has_H>(kind.limiter);
+}
+
+}  // namespace diptych::scheme

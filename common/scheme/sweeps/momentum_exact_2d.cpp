@@ -1,8 +1,0 @@
-#include "common/scheme/compiled_momentum.hpp"
-
-namespace diptych::scheme {
-
-template MomentumFunction<2> momentum_sweep_of<2, Impedance::exact, true>(const DissipationKind&);
-template MomentumFunction<2> momentum_sweep_of<2, Impedance::exact, false>(const DissipationKind&);
-
-}  // namespace diptych::scheme

@@ -1,8 +1,0 @@
-#include "common/scheme/compiled_momentum.hpp"
-
-namespace diptych::scheme {
-
-template MomentumFunction<3> momentum_sweep_of<3, Impedance::isotropic, true>(
-    const DissipationKind&);
-
-}  // namespace diptych::scheme

@@ -1,0 +1,211 @@
+#pragma once
+/// The momentum sweep of runs: every pair once, for both of its nodes. Part of momentum.hpp.
+
+#include "common/scheme/sweeps/pair_forces.hpp"
+
+namespace diptych::scheme {
+
+/// sums[0..] += value
+template <class T>
+DIPTYCH_INLINE void add_to(algebra::Element<T>* sums, const T& value) {
+  algebra::store(sums, algebra::load_as<T>(sums) + value);
+}
+
+/// Geometry of a chunk of one block, or of two blocks side by side.
+template <int Dim, class T>
+struct MutualFaces {
+  Vector<T> C_ab{}, C_ba{};
+  T area;
+};
+
+/// A block whose pairs with nodes above it are being worked; of WideSingles two blocks, whose pairs
+/// are at the same offsets.
+template <int Dim, class T>
+struct WorkedBlock {
+  static constexpr int n_blocks = algebra::width_of<T> / n_lanes;
+  std::int64_t b = 0, chunk = 0;
+  typename GeometryArray<MutualGeometry, Dim>::Cursor geometry[n_blocks];
+  NodeSums<Dim, T> sums;
+
+  DIPTYCH_INLINE void begin(const MutualPairs<Dim>& mutual, std::int64_t block) {
+    b = block;
+    chunk = mutual.row[block];
+    if (chunk == mutual.row[block + 1]) return;
+    for (int k = 0; k < n_blocks; ++k)
+      geometry[k] = {mutual.geometry, mutual.first[block + k]};
+  }
+};
+
+template <int Dim, class T>
+DIPTYCH_INLINE void next_faces(typename GeometryArray<MutualGeometry, Dim>::Cursor (&geometry)[1],
+                               MutualFaces<Dim, T>& faces) {
+  geometry[0].next([&](const auto& of_chunk) DIPTYCH_INLINE_LAMBDA {
+    faces.area = algebra::load_as<T>(of_chunk.area);
+    for (int i = 0; i < Dim; ++i) {
+      faces.C_ab[i] = algebra::load_as<T>(of_chunk.C_ab[i]);
+      faces.C_ba[i] = algebra::load_as<T>(of_chunk.C_ba[i]);
+    }
+  });
+}
+template <int Dim>
+DIPTYCH_INLINE void next_faces(typename GeometryArray<MutualGeometry, Dim>::Cursor (&geometry)[2],
+                               MutualFaces<Dim, algebra::WideSingles>& faces) {
+  MutualFaces<Dim, algebra::SingleLanes> half[2];
+  for (int k = 0; k < 2; ++k) {
+    typename GeometryArray<MutualGeometry, Dim>::Cursor one[1] = {geometry[k]};
+    next_faces(one, half[k]);
+    geometry[k] = one[0];
+  }
+  faces.area = algebra::joined(half[0].area, half[1].area);
+  for (int i = 0; i < Dim; ++i) {
+    faces.C_ab[i] = algebra::joined(half[0].C_ab[i], half[1].C_ab[i]);
+    faces.C_ba[i] = algebra::joined(half[0].C_ba[i], half[1].C_ba[i]);
+  }
+}
+
+/// Forces of the next n chunks of a block, added to its sums and taken from those of the others.
+template <class T, int Dim, DissipationKind kind, bool has_H>
+DIPTYCH_INLINE void work_chunks(const MomentumSweep<Dim>& sweep,
+                                std::int64_t n,
+                                WorkedBlock<Dim, T>& block) {
+  using Real = algebra::Element<T>;
+  using Record = NodeRecord<Dim>;
+  const SweepGraph<Dim>& graph = sweep.graph;
+  const std::int64_t stride = sweep.state.T.component_stride();
+  Real* const own_sums = sweep.state.T.template origin<Real>() + block.b * n_lanes;
+  WorkedBlock<Dim, T> work = block;
+  NodeSums<Dim, T>& sums = work.sums;
+  const std::int64_t end = work.chunk + n;
+  for (; work.chunk < end; ++work.chunk) {
+    const std::int64_t offset = graph.mutual.offset.data()[work.chunk];
+    const RunPairs<T> pairs(sweep.state.records, work.b, offset);
+    const RunPairs<T> positions(graph.X, work.b, offset);
+    MutualFaces<Dim, T> faces;
+    next_faces(work.geometry, faces);
+    PairFace<Dim, T> face;
+    face.area = faces.area;
+    for (int i = 0; i < Dim; ++i)
+      face.S[i] = faces.C_ab[i] - faces.C_ba[i];
+    const Vector<T> plain = plain_jump<Dim>(RunPairs<T>(sweep.state.v, work.b, offset), 0);
+    const Vector<T> D = dissipation_of<Dim, kind, has_H>(sweep, face, pairs, positions, plain);
+    Real* const their_sums = own_sums + offset;
+#pragma GCC unroll 3
+    for (int i = 0; i < Dim; ++i) {
+      T force = D[i];
+#pragma GCC unroll 3
+      for (int j = 0; j < Dim; ++j) {
+        const int ij = Record::P + i * Dim + j;
+        force += pairs.own(ij) * faces.C_ab[j];
+        force -= pairs.neighbour(ij) * faces.C_ba[j];
+      }
+      sums.force[i] += force;
+      add_to<T>(their_sums + i * stride, -force);
+      sums.power += plain[i] * D[i];
+    }
+    if (sweep.with_bound) {
+      sums.rate += rate_of<Dim, T>(faces.C_ab, pairs);
+      add_to<T>(their_sums + Dim * stride, rate_of<Dim, T>(faces.C_ba, pairs));
+    }
+  }
+  block = work;
+}
+
+/// Chunks from c on, before `end`, whose offsets are consecutive: they read the same cache lines.
+template <int Dim>
+DIPTYCH_INLINE std::int64_t consecutive_offsets(const MutualPairs<Dim>& mutual,
+                                                std::int64_t c,
+                                                std::int64_t end) {
+  const std::int32_t* offset = mutual.offset.data();
+  std::int64_t n = 1;
+  while (c + n < end && offset[c + n] == offset[c] + n)
+    ++n;
+  return n;
+}
+
+/// Nodes between two pairs of a block beyond which the records of the nearer have left the second
+/// cache since the farther read them.
+inline constexpr std::int64_t far_apart = 2000;
+
+/// Blocks that are worked together at most: more find no more lines in the first cache.
+inline constexpr int most_blocks_together = 4;
+
+/// Forces of the pairs of blocks b, b + 1, .. b + n_blocks - 1, which are at the same offsets, with
+/// nodes above them, added to both: together, since their neighbours share cache lines.
+/// @param n_blocks  as many as most_blocks_together at most; of WideSingles even
+/// @return their numerical dissipation  [W]
+template <class T, int Dim, DissipationKind kind, bool has_H>
+DIPTYCH_INLINE double add_forces_of_blocks(const MomentumSweep<Dim>& sweep,
+                                           std::int64_t b,
+                                           int n_blocks) {
+  using Real = algebra::Element<T>;
+  using Worked = WorkedBlock<Dim, T>;
+  const MutualPairs<Dim>& mutual = sweep.graph.mutual;
+  const int n = n_blocks / Worked::n_blocks;
+  Worked blocks[most_blocks_together / Worked::n_blocks];
+  for (int k = 0; k < n; ++k)
+    blocks[k].begin(mutual, b + k * Worked::n_blocks);
+  const std::int64_t last = mutual.row[b + 1];
+  while (blocks[0].chunk < last) {
+    const std::int64_t n_chunks = consecutive_offsets(mutual, blocks[0].chunk, last);
+    for (int k = 0; k < n; ++k)
+      work_chunks<T, Dim, kind, has_H>(sweep, n_chunks, blocks[k]);
+  }
+  double power = 0;
+  const std::int64_t stride = sweep.state.T.component_stride();
+  for (int k = 0; k < n; ++k) {
+    const NodeSums<Dim, T>& sums = blocks[k].sums;
+    Real* const own_sums = sweep.state.T.template origin<Real>() + blocks[k].b * n_lanes;
+    for (int i = 0; i < Dim; ++i)
+      add_to<T>(own_sums + i * stride, sums.force[i]);
+    if (sweep.with_bound) add_to<T>(own_sums + Dim * stride, sums.rate);
+    power += 0.5 * algebra::lane_sum(sums.power);
+  }
+  return power;
+}
+
+/// Asks for what the pairs of the next blocks will be the first to read, in every layer of
+/// neighbours that has left the second cache.
+template <class Real, int Dim, bool exact>
+DIPTYCH_INLINE void prefetch_layers(const MomentumSweep<Dim>& sweep, std::int64_t b, int n_blocks) {
+  const MutualPairs<Dim>& mutual = sweep.graph.mutual;
+  const std::int64_t last = mutual.row[b + 1];
+  for (std::int64_t c = mutual.row[b]; c < last; ++c) {
+    const std::int64_t offset = mutual.offset.data()[c];
+    if (c + 1 < last && mutual.offset.data()[c + 1] - offset < far_apart) continue;
+    for (int k = 0; k < n_blocks; ++k) {
+      prefetch_ahead<Real, NodeRecord<Dim>::n(exact)>(sweep.state.records, b + k, offset);
+      prefetch_ahead<Real, Dim>(sweep.state.v, b + k, offset);
+      prefetch_ahead<Real, Dim>(sweep.graph.X, b + k, offset);
+    }
+  }
+}
+
+/// Runs: forces of the pairs of the next blocks of [b, end) with nodes above them, added to both.
+/// @return their numerical dissipation [W]; moves b on
+template <class Real, int Dim, DissipationKind kind, bool has_H>
+DIPTYCH_INLINE double add_forces_of_next(const MomentumSweep<Dim>& sweep,
+                                         std::int64_t& b,
+                                         std::int64_t end) {
+  const MutualPairs<Dim>& mutual = sweep.graph.mutual;
+  int n_blocks = 1;
+  while (n_blocks < most_blocks_together && b + n_blocks < end &&
+         same_offsets(mutual.row, mutual.offset, b + n_blocks - 1))
+    ++n_blocks;
+  prefetch_layers<Real, Dim, kind.impedance == Impedance::exact>(sweep, b, n_blocks);
+  double power = 0;
+  const std::int64_t first = b;
+  b += n_blocks;
+  if constexpr (std::is_same_v<Real, float>) {
+    const int n_wide = n_blocks / 2 * 2;
+    if (n_wide > 0) {
+      power += add_forces_of_blocks<algebra::WideSingles, Dim, kind, has_H>(sweep, first, n_wide);
+    }
+    if (n_wide == n_blocks) return power;
+    return power +
+           add_forces_of_blocks<algebra::SingleLanes, Dim, kind, has_H>(sweep, first + n_wide, 1);
+  } else {
+    return add_forces_of_blocks<Lanes, Dim, kind, has_H>(sweep, first, n_blocks);
+  }
+}
+
+}  // namespace diptych::scheme

@@ -1,0 +1,163 @@
+#pragma once
+/// What the momentum sweep makes of eight pairs, in rows and in runs alike: the jump of the
+/// velocities, reconstructed and limited, 2 D_ab, and the rate of the graph CFL. Part of
+/// momentum.hpp.
+
+#include "common/scheme/body/pointwise.hpp"
+#include "common/scheme/sweeps/momentum.hpp"
+#include "common/scheme/sweeps/pair_access.hpp"
+
+namespace diptych::scheme {
+
+/// Sums of nodes over their pairs. T, here and below: Lanes, SingleLanes or WideSingles.
+template <int Dim, class T>
+struct NodeSums {
+  T force[Dim] = {};  ///< 2 T; in rows without P_a sum C_ab
+  T power{};          ///< sum (v_b - v_a) . |S| Z jump
+  T rate{};           ///< sum |C_ab| z_ab
+};
+
+/// Mean response of the pair from the records of its nodes, for the exact impedance.
+template <int Dim, class Pairs>
+DIPTYCH_INLINE void mean_state(const Pairs& pairs,
+                               physics::Response<Lanes>& r,
+                               physics::Deformation<Lanes>& X) {
+  using Record = NodeRecord<Dim>;
+  const auto mean = [&](int c)
+                        DIPTYCH_INLINE_LAMBDA { return 0.5 * (pairs.neighbour(c) + pairs.own(c)); };
+  X.F = Tensor<Lanes>{};
+  X.H = Tensor<Lanes>{};
+  for (int i = 0; i < Dim; ++i) {
+    for (int j = 0; j < Dim; ++j) {
+      const double one = i == j ? 1 : 0;
+      X.F(i, j) = mean(Record::F + i * Dim + j) + one;
+      X.H(i, j) = mean(Record::H + i * Dim + j) + one;
+    }
+  }
+  if constexpr (Dim == 2) X.F(2, 2) = Lanes{} + 1.0;
+  r.A_tot = SymmetricTensor<Lanes>{};
+  r.S_tot = SymmetricTensor<Lanes>{};
+  for (int k = 0; k < algebra::Layout<Dim>::n_A; ++k)
+    r.A_tot.s[algebra::order_of_A<Dim>[k]] = mean(Record::A_tot + k);
+  for (int k = 0; k < algebra::Layout<Dim>::n_S; ++k)
+    r.S_tot.s[algebra::order_of_S<Dim>[k]] = mean(Record::S_tot + k);
+  r.W_JJ = mean(Record::W_JJ);
+  r.W_FJ = mean(Record::W_FJ);
+}
+
+/// L X_ab of both nodes, or only their sum where the limiter needs no more.
+template <int Dim, class T>
+struct Slopes {
+  Vector<T> sum{}, a{}, b{};
+};
+
+/// v_b^rec - v_a^rec, limited.  @param h  along the normal of the pair in space
+template <int Dim, PairLimiter limiter, class T>
+DIPTYCH_INLINE Vector<T> reconstructed_jump(const Vector<T>& plain,
+                                            const Slopes<Dim, T>& slopes,
+                                            const Vector<T>& h) {
+  Vector<T> jump{};
+  for (int i = 0; i < Dim; ++i)
+    jump[i] = plain[i] - 0.5 * slopes.sum[i];
+  if constexpr (limiter == PairLimiter::none) return jump;
+  T h_h{};
+  for (int i = 0; i < Dim; ++i)
+    h_h += h[i] * h[i];
+  const T inverse = algebra::inverse_or_zero(algebra::square_root(h_h));
+  Vector<T> n{};
+  for (int i = 0; i < Dim; ++i)
+    n[i] = h[i] * inverse;
+  if constexpr (limiter == PairLimiter::sign_preserving) limit_sign_preserving<Dim>(jump, plain, n);
+  if constexpr (limiter == PairLimiter::barth_jespersen)
+    return slope_limited_jump<BarthJespersen, Dim>(plain, slopes.a, slopes.b, n);
+  if constexpr (limiter == PairLimiter::venkatakrishnan)
+    return slope_limited_jump<Venkatakrishnan, Dim>(plain, slopes.a, slopes.b, n);
+  return jump;
+}
+
+/// What the dissipation of eight pairs needs of their geometry; the length of S is free.
+template <int Dim, class T>
+struct PairFace {
+  Vector<T> S{};  ///< along S_ab
+  T area;         ///< m^2, |S_ab|
+};
+
+/// 2 D_ab of eight pairs.
+/// @param pairs      of the records
+/// @param positions  pairs of X
+/// @param plain      v_b - v_a
+template <int Dim, DissipationKind kind, bool has_H, class Pairs, class Positions, class T>
+DIPTYCH_INLINE Vector<T> dissipation_of(const MomentumSweep<Dim>& sweep,
+                                        const PairFace<Dim, T>& face,
+                                        const Pairs& pairs,
+                                        const Positions& positions,
+                                        const Vector<T>& plain) {
+  using Record = NodeRecord<Dim>;
+  Vector<T> h{};
+  Slopes<Dim, T> slopes;
+#pragma GCC unroll 3
+  for (int i = 0; i < Dim; ++i) {
+    h[i] = face.S[i] + face.S[i];  // records hold H - I
+#pragma GCC unroll 3
+    for (int j = 0; j < Dim; ++j) {
+      const int ij = i * Dim + j;
+      h[i] += (pairs.neighbour(Record::H + ij) + pairs.own(Record::H + ij)) * face.S[j];
+      if constexpr (kind.reconstruction == Reconstruction::linear) {
+        const T X = positions.neighbour(j) - positions.own(j);
+        if constexpr (limits_slopes(kind.limiter)) {
+          slopes.a[i] += pairs.own(Record::L + ij) * X;
+          slopes.b[i] += pairs.neighbour(Record::L + ij) * X;
+        } else {
+          slopes.sum[i] += (pairs.neighbour(Record::L + ij) + pairs.own(Record::L + ij)) * X;
+        }
+      }
+    }
+  }
+  const Vector<T> jump = reconstructed_jump<Dim, kind.limiter>(plain, slopes, h);
+  Vector<T> D{};
+  if constexpr (kind.impedance == Impedance::isotropic) {
+    D = isotropic_impedance_times<Dim, T>(
+        0.5 * (pairs.neighbour(Record::z_p) + pairs.own(Record::z_p)),
+        0.5 * (pairs.neighbour(Record::z_s) + pairs.own(Record::z_s)), h, jump);
+  } else {
+    physics::Response<Lanes> response;
+    physics::Deformation<Lanes> X;
+    mean_state<Dim>(pairs, response, X);
+    Lanes S2{};
+    for (int i = 0; i < Dim; ++i)
+      S2 += face.S[i] * face.S[i];
+    const Lanes inverse = algebra::inverse_or_zero(algebra::square_root(S2));
+    Vector<Lanes> N{};
+    for (int i = 0; i < Dim; ++i)
+      N[i] = face.S[i] * inverse;
+    if constexpr (Dim == 2) N[1] = face.area > 0 ? N[1] : Lanes{};
+    N[0] = face.area > 0 ? N[0] : Lanes{} + 1.0;  // padding: any unit vector, its area is zero
+    D = algebra::product(physics::impedance<has_H>(response, X, sweep.rho_R, N), jump);
+  }
+  for (int i = 0; i < Dim; ++i)
+    D[i] *= static_cast<algebra::Element<T>>(sweep.factor) * face.area;
+  return D;
+}
+
+/// |C| max(z_p,a, z_p,b) of eight pairs.
+template <int Dim, class T, class Pairs>
+DIPTYCH_INLINE T rate_of(const Vector<T>& C, const Pairs& pairs) {
+  using Record = NodeRecord<Dim>;
+  T C2{};
+  for (int i = 0; i < Dim; ++i)
+    C2 += C[i] * C[i];
+  return algebra::square_root(C2) *
+         algebra::larger(pairs.neighbour(Record::z_p), T{} + pairs.own(Record::z_p));
+}
+
+/// v_b - v_a of eight pairs.
+/// @param pairs  with v from component c
+template <int Dim, class Pairs>
+DIPTYCH_INLINE auto plain_jump(const Pairs& pairs, int c) {
+  Vector<typename Pairs::T> plain{};
+  for (int i = 0; i < Dim; ++i)
+    plain[i] = pairs.neighbour(c + i) - pairs.own(c + i);
+  return plain;
+}
+
+}  // namespace diptych::scheme
