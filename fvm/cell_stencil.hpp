@@ -1,8 +1,8 @@
 #pragma once
 /// Rows and pseudo-area vectors of a mesh from its cells:
 ///   C_ab = 2 sum_q w_q N_a(X_q) grad N_b(X_q)
-/// over the points q of a quadrature rule: the vertex rule gives the edge stencil of physics note
-/// 3.8, the exact rule 2 int N_a grad N_b dV of physics note 4.1.
+/// over the points q of a quadrature rule: the vertex rule gives the edge stencil of notes 4.2, the
+/// exact rule 2 int N_a grad N_b dV of notes 4.1.
 
 #include "common/scheme/graph/pair_graph.hpp"
 #include "meshes/mesh.hpp"

@@ -12,7 +12,7 @@
 ///
 /// A boundary group that covers a part of a side has, at its edge, the part of H of its faces:
 /// exact where that is no nearer to the edge of the side than the boundary block; else it is
-/// refused. Source: physics note 10.3. Test: tests/graphs/sbp_graph_test.cpp
+/// refused. Source: notes 4.3. Test: tests/graphs/sbp_graph_test.cpp
 
 #include "common/scheme/graph/pair_graph.hpp"
 #include "meshes/mesh.hpp"

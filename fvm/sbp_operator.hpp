@@ -9,7 +9,7 @@
 /// leaves one number free, here Q_45 = 203/288: beside the value at which the error of x^4 in the
 /// block, weighted with H, is least (0.70491; 11.3008 there and here), with the norm of
 /// H^(-1/2) Q H^(-1/2) at 2.1081 (2.129 where Q_05 is zero, 3.6 at Q_45 = 0.625).
-/// What is left of linear reconstructions in D_ab (physics note 3.4) is symmetric and positive on
+/// What is left of linear reconstructions in D_ab (notes 3.4) is symmetric and positive on
 /// order 2 alone: on a line, per c/h, the least eigenvalue of its symmetric part is -0.007 with
 /// order 4, which the rest of the boundary's damping outweighs, and -0.36 with order 6, where waves
 /// grow. Test: tests/graphs/sbp_operator_test.cpp, in exact fractions.

@@ -2,7 +2,7 @@
 /// Nodal volumes and boundary area vectors of a mesh, the measure that both methods share.
 ///
 /// Equations, in two forms:
-///   exact:  Omega_a = int N_a dV, A_a N_a = oint N_a N dA                      (physics note 4.1)
+///   exact:  Omega_a = int N_a dV, A_a N_a = oint N_a N dA                      (notes 4.1)
 ///   vertex: both by the vertex rule of the edge stencil, the volumes scaled to the exact total and
 ///           the areas balanced (see the source).
 /// Both satisfy sum_a A_aN_a = 0 and sum_a X_a (x) A_aN_a = sum_a Omega_a I, without which no

@@ -18,7 +18,7 @@ using algebra::Mat3;
 
 inline constexpr int max_cell_nodes = 8;
 
-/// vertex: weights at the cell's nodes (physics note 3.8); exact: integrates N_a grad N_b, N_a and,
+/// vertex: weights at the cell's nodes (notes 4.2); exact: integrates N_a grad N_b, N_a and,
 /// on faces, N_a N exactly on every cell with the given corners, however distorted: the cofactor of
 /// the Jacobian has degree 2 in its own direction, so two Gauss points (degree 3) are enough.
 enum class Quadrature { vertex, exact };

@@ -1,6 +1,6 @@
 #pragma once
 /// Pair coefficients of a particle cloud: the corrected gradient of paper (19) and the weights of
-/// the boundary closure (physics notes 3.1, 3.3).
+/// the boundary closure (notes 3.1, 3.3).
 
 #include "common/scheme/graph/pair_graph.hpp"
 #include "sph/kernels/kernel.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 /// Total Lagrangian SPH as a pair graph: paper (19) with linear gradient correction and the
-/// exact boundary closure of physics note 3.3, by the least change of the C_ab or by gamma.
+/// exact boundary closure of notes 3.3, by the least change of the C_ab or by gamma.
 
 #include "common/scheme/graph/pair_graph.hpp"
 #include "meshes/mesh.hpp"

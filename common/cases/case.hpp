@@ -118,7 +118,7 @@ struct SchemeCase {
   std::string limiter = "none";           ///< entry of the limiter menu
   std::string impedance = "isotropic";    ///< isotropic or exact
   double dissipation = 1;                 ///< multiplies D_ab, >= 0
-  double face_correction = 0;             ///< kappa_f of physics note 3.8, 0: none
+  double face_correction = 0;             ///< kappa_f of notes 3.8, 0: none
   std::string precision = "double";       ///< double, mixed or single: scheme::Precision
   bool angular_momentum_projection = false;
   bool energy_budget = true;
@@ -128,7 +128,7 @@ struct SchemeCase {
 struct SphCase {
   std::string kernel = "cubic-spline";
   double kappa = 1.2;   ///< h_a = kappa Omega_a^(1/d)
-  bool closure = true;  ///< minimum-norm gamma repair of physics note 3.3
+  bool closure = true;  ///< repair of the closure, notes 3.3
 };
 
 /// [fvm]

@@ -1,11 +1,11 @@
 #pragma once
 /// Closure repair: the least change of the C_ab after which
-///   -1/2 sum_b (C_ab - C_ba) = A_a N_a                                   (physics note 3.3)
+///   -1/2 sum_b (C_ab - C_ba) = A_a N_a                                   (notes 3.3)
 /// holds at every node, while every row stays exact for linear fields. Serves both factories.
 ///
 /// Two corrections, both with the row condition sum_b (X_b - X_a) (x) dC_ab = 0:
 ///   rows:  dC_ab = -2 w_ab gamma_a, one vector gamma_a per node, of least norm (the gamma
-///          correction of Bonet and Kulasegaram in the form of physics note 3.3);
+///          correction of Bonet and Kulasegaram in the form of notes 3.3);
 ///   pairs: the least weighted change sum |dC_ab|^2 / k_ab of all; its solution is
 ///          dC_ab = 1/2 k_ab [lambda_b - lambda_a - (grad lambda)_a (X_b - X_a)],
 ///          with grad lambda the k-weighted linear fit over the row of a.

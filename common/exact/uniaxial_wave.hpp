@@ -1,5 +1,5 @@
 #pragma once
-/// Exact finite-strain impact and pull in uniaxial strain (physics note 7): the half space x >= 0
+/// Exact finite-strain impact and pull in uniaxial strain (notes 7): the half space x >= 0
 /// of the elastic Mooney-Rivlin solid moves at velocity v along x and its face x = 0 is held from
 /// t = 0 on. With P(f) = b (f - 1/f) + lambda_hat (f - 1), b = mu (1 + zeta_ratio), P' > 0, P'' <
 /// 0:

@@ -1,6 +1,6 @@
 #pragma once
-/// Waves of small amplitude along x in a bar of the linear generalised Zener solid (physics note
-/// 1.4) that starts at rest with virgin branches:
+/// Waves of small amplitude along x in a bar of the linear generalised Zener solid (notes 1.4) that
+/// starts at rest with virgin branches:
 ///
 ///     rho u_tt = sigma_x,   sigma_bar = M(s) u_x_bar,   M(s) = M + sum_a M_a s tau_a/(1 + s tau_a)
 ///

@@ -1,6 +1,6 @@
 #pragma once
 /// Functions of time for cases with a known answer. ZenerMode: the amplitude q(t) of one standing
-/// mode of the linear generalised Zener solid (physics note 1.4), which shear waves of any size and
+/// mode of the linear generalised Zener solid (notes 1.4), which shear waves of any size and
 /// small waves of every kind follow:
 ///
 ///     rho q'' + k2 [M q + sum_a M_a (q - q_a)] = 0,    q_a' = (q - q_a) / tau_a

@@ -1,7 +1,7 @@
 #pragma once
 /// A Maxwell branch (5), (6) with internal variables A = C_v^-1 and S = G_v^-1:
 ///   W^a = xi^a (C:A - 3 - 2 ln J - ln det A) + zeta^a (G:S - 3 - 4 ln J - ln det S),
-/// its conjugate stresses (11), and its dissipation (12) with (13) corrected (physics note 1.1):
+/// its conjugate stresses (11), and its dissipation (12) with (13) corrected (notes 1.1):
 ///   Sigma_A = xi^a (C - A^-1), Sigma_S = zeta^a (G - S^-1),
 ///   D = xi^a/tau_C [tr(CA) + tr((CA)^-1) - 6] + zeta^a/tau_G [tr(GS) + tr((GS)^-1) - 6] >= 0.
 /// Conditions: tau > 0, xi^a >= 0, zeta^a >= 0, A and S symmetric positive definite.

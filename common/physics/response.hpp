@@ -1,6 +1,6 @@
 #pragma once
 /// What a material answers to a deformation at frozen internal variables: conjugate stresses (7),
-/// and the coefficients of the acoustic tensor (physics note 2). Materials and Maxwell branches
+/// and the coefficients of the acoustic tensor (notes 2). Materials and Maxwell branches
 /// add to it; stress and wave speeds are read off it.
 
 #include "common/physics/deformation.hpp"

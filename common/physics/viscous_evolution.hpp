@@ -2,7 +2,7 @@
 /// Evolution of the internal variables (14): A' = (C^-1 - A)/tau, S' = (G^-1 - S)/tau. Both updates
 /// are convex combinations of symmetric positive definite tensors, hence symmetric positive
 /// definite for every dt/tau; both are exact for a constant deformation and keep the first-order
-/// lag as tau -> 0 (physics note 5). Weights depend on dt/tau only: once per branch and step.
+/// lag as tau -> 0 (notes 5). Weights depend on dt/tau only: once per branch and step.
 /// Tests: tests/common/physics/viscous_evolution_test.cpp.
 
 #include "common/physics/deformation.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-/// Acoustic tensor, wave speeds and impedance, exact with all branches (physics note 2). Reference
+/// Acoustic tensor, wave speeds and impedance, exact with all branches (notes 2). Reference
 /// speeds: time steps and dissipation need no division by a stretch.
 ///
 ///   Q(N) = (a0 + tr M) I - M + W_JJ h(x)h + W_FJ (f(x)h + h(x)f),   f = F N, h = H N,

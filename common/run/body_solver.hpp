@@ -1,5 +1,5 @@
 #pragma once
-/// The solver of one compiled model: the order of operations of a step (physics note 5.5).
+/// The solver of one compiled model: the order of operations of a step (notes 5.5).
 
 #include "common/exact/manufactured/manufactured_solution.hpp"
 #include "common/run/solver.hpp"

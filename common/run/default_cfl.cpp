@@ -12,7 +12,7 @@ namespace diptych::run {
 
 namespace {
 
-/// c_s/c_p of the undeformed material with its branches at once (physics note 1.4).
+/// c_s/c_p of the undeformed material with its branches at once (notes 1.4).
 double shear_ratio_of(const cases::MaterialCase& m) {
   const double half = 0.5 * m.shear_modulus;
   const double zeta = m.zeta_ratio * half, xi = half - zeta;

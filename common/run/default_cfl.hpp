@@ -1,5 +1,5 @@
 #pragma once
-/// The step of a case that gives no time.cfl, as a factor on the graph bound (physics note 2.1).
+/// The step of a case that gives no time.cfl, as a factor on the graph bound (notes 2.1).
 /// The bound overstates what limits a step by 1.0 to 2.5, by the weights of the pairs; so the
 /// largest frequency omega and the largest rate d of the dissipation are estimated once, on the
 /// undeformed body (largest_rates.hpp), and dt is the smaller of

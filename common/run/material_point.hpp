@@ -1,6 +1,6 @@
 #pragma once
 /// One point of a case's material, without a body: stress (9), energy (4)-(6), dissipation (12),
-/// internal variables (14) by the updates of the solver, acoustic tensor (physics note 2).
+/// internal variables (14) by the updates of the solver, acoustic tensor (notes 2).
 /// Test: tests/verification/material_paths_test.cpp.
 
 #include "common/cases/case.hpp"
@@ -35,9 +35,9 @@ class MaterialPoint {
   /// A' and S' of (14) at this state  [1/s]
   std::vector<PointBranch> branch_rates(const PointState& X) const;
 
-  /// Branches after dt while F goes from X.F to F_end: LIN of physics note 5.2.
+  /// Branches after dt while F goes from X.F to F_end: LIN of notes 5.2.
   std::vector<PointBranch> relaxed_linear(const PointState& X, const Mat3& F_end, double dt) const;
-  /// The same by GEXP of note 5.3, from the rates of F at both ends  [1/s].
+  /// The same by GEXP of notes 5.3, from the rates of F at both ends  [1/s].
   std::vector<PointBranch> relaxed_gauss(const PointState& X,
                                          const Mat3& rate_begin,
                                          const Mat3& F_end,

@@ -1,9 +1,9 @@
 #pragma once
-/// Largest stable time step (physics note 2.1), from the graph and the wave speeds:
+/// Largest stable time step (notes 2.1), from the graph and the wave speeds:
 ///   dt = cfl / rate,  rate = max_a sum_b |C_ab| c_ab / (2 Omega_a),  c_ab = max(c_p,a, c_p,b),
 /// the Gershgorin bound of the dissipation operator, h/c on a line of nodes. The face correction
 /// raises the largest frequency and so shortens it (frequency_factor); what the dissipation allows
-/// is in the default cfl (run/default_cfl.hpp). Relaxation does not enter (physics note 5). Tests:
+/// is in the default cfl (run/default_cfl.hpp). Relaxation does not enter (notes 5). Tests:
 /// tests/verification/time_step_test.cpp
 
 #include "common/physics/maxwell_branch.hpp"

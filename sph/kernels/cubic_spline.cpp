@@ -1,5 +1,5 @@
 /// Cubic B-spline, support 2h: f = 2/3 - q^2 + q^3/2 (q <= 1), (2-q)^3/6 (q <= 2)
-/// (Monaghan and Lattanzio 1985; physics note 3.1).
+/// (Monaghan and Lattanzio 1985; notes 3.1).
 
 #include "sph/kernels/kernel.hpp"
 

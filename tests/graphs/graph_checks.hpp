@@ -72,7 +72,7 @@ inline Vec3 force(const scheme::PairGraph& graph, const std::vector<Mat3>& P, st
   return sum;
 }
 
-/// min_a Omega_a / (1/2 sum_b |C_ab|), the length in the graph's CFL bound (physics note 2.1).
+/// min_a Omega_a / (1/2 sum_b |C_ab|), the length in the graph's CFL bound (notes 2.1).
 inline double graph_bound(const scheme::PairGraph& graph) {
   double least = HUGE_VAL;
   for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {

@@ -1,4 +1,4 @@
-/// The exact identities of physics note 3.2, from the C_ab alone, and the two approximation
+/// The exact identities of notes 3.2, from the C_ab alone, and the two approximation
 /// conditions (linear exactness, closure) on every graph that the two factories make.
 
 #include "common/scheme/graph/dissipation_area.hpp"

@@ -37,12 +37,12 @@ TEST(SphGraph, HasTheNeighboursOfTheLattice) {
     const int centre = 4 + 9 * (4 + 9 * 4);
     return graph.row[centre + 1] - graph.row[centre];
   };
-  EXPECT_EQ(inner_neighbours(1.2), 56);  // physics note 2.1
+  EXPECT_EQ(inner_neighbours(1.2), 56);  // notes 2.1
   EXPECT_EQ(inner_neighbours(1.5), 92);
   EXPECT_EQ(inner_neighbours(1.01), 32);  // support just above two spacings
 }
 
-/// Without the repair the layers at the boundary carry the wrong areas (physics note 3.3, O(1)).
+/// Without the repair the layers at the boundary carry the wrong areas (notes 3.3, O(1)).
 TEST(SphGraph, IsNotClosedWithoutTheRepair) {
   sph::Options options;
   options.closure = false;

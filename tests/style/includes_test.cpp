@@ -51,6 +51,14 @@ TEST_F(SourceTree, FilesAreShortAndHeadersOpenWithADescription) {
 TEST_F(SourceTree, NothingIsLeftUnfinished) {
   EXPECT_EQ(complaints(unfinished_work), "");
 }
+TEST_F(SourceTree, CitesSectionsThatThePhysicsNotesHave) {
+  std::ifstream page(std::string(DIPTYCH_SOURCE_DIR) + "/common/physics/notes.md");
+  const std::string text(std::istreambuf_iterator<char>(page), {});
+  const std::set<std::string> sections = section_numbers(text);
+  EXPECT_EQ(complaints([&](const auto& file) { return cited_notes(file, sections); }), "");
+  // a rule that found no citation would pass for every page
+  EXPECT_NE(complaints([](const auto& file) { return cited_notes(file, {}); }), "");
+}
 
 // ---- the rules themselves
 TEST(Rooms, AreFoundFromThePath) {
@@ -140,6 +148,25 @@ TEST(UnfinishedWork, IsFoundAsAWord) {
               ElementsAre(HasSubstr("sph/a.cpp:1")));
   EXPECT_EQ(unfinished_work({"sph/a.cpp", "\n// " + fix_me + "\n"}).size(), 1U);
   EXPECT_THAT(unfinished_work({"sph/a.cpp", "int " + to_do + "S_of_others;\n"}), IsEmpty());
+}
+
+TEST(CitedNotes, AreTheNumbersOfHeadings) {
+  EXPECT_THAT(section_numbers("# Notes\n\n## 3 Scheme\n\n3.2 of text\n\n### 3.10 Closure\n#4\n"),
+              ElementsAre("3", "3.10"));
+}
+
+TEST(CitedNotes, AreFoundWithTheirLine) {
+  const std::string cite = std::string("no") + "tes";  // this file cites nothing
+  const auto citing = [](const std::string& text) {
+    return cited_notes({"sph/a.cpp", text}, {"3", "3.10"});
+  };
+  EXPECT_THAT(citing("/// As in " + cite + " 3.10 (and " + cite + " 3).\n"), IsEmpty());
+  EXPECT_THAT(citing("\n// " + cite + " 3.1.\n"),
+              ElementsAre(HasSubstr("sph/a.cpp:2: common/physics/notes.md has no section 3.1")));
+  EXPECT_THAT(citing("// (" + cite + " 3.10, 3.2 and 3.4)\n"),
+              ElementsAre(HasSubstr("section 3.2"), HasSubstr("section 3.4")));
+  EXPECT_THAT(citing("/// (" + cite + "\n/// 4.1)\n"), ElementsAre(HasSubstr("section 4.1")));
+  EXPECT_THAT(citing("/// foot" + cite + " 9, " + cite + " of 9 cells\n"), IsEmpty());
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #pragma once
 /// The rules of the source tree that a machine can check: which room may include which, which room
-/// a third-party library is included in, and the shape of a file. Functions of a file's path and
-/// text alone, so that the checks can themselves be checked. Each check answers a list of
-/// complaints, "path:line: what is wrong", empty where all is well.
+/// a third-party library is included in, the shape of a file, and what it cites. Functions of a
+/// file's path and text alone, so that the checks can themselves be checked. Each check answers a
+/// list of complaints, "path:line: what is wrong", empty where all is well.
 
 #include <algorithm>
 #include <filesystem>
@@ -254,6 +254,39 @@ inline Complaints unfinished_work(const SourceFile& file) {
     ++n;
     if (std::regex_search(line, note))
       complaints.push_back(place(file, n) + "finish it, or write an issue");
+  }
+  return complaints;
+}
+
+/// Numbers of the sections of a page: "3.3" of its heading "### 3.3 Closure at the boundary".
+inline std::set<std::string> section_numbers(const std::string& page) {
+  static const std::regex heading(R"(#+ (\d+(\.\d+)*) .*)");
+  std::set<std::string> numbers;
+  std::istringstream stream(page);
+  std::smatch match;
+  for (std::string line; std::getline(stream, line);) {
+    if (std::regex_match(line, match, heading)) numbers.insert(match[1].str());
+  }
+  return numbers;
+}
+
+/// Sections of the physics notes that a file cites, as "notes 3.3" or "notes 3.1, 3.3", are there.
+/// A line may end between word and number.
+/// @param sections  of common/physics/notes.md
+inline Complaints cited_notes(const SourceFile& file, const std::set<std::string>& sections) {
+  static const std::regex citation(R"(\bnotes?[\s/]+(\d+(\.\d+)*((,| and)[\s/]+\d+\.\d+)*))");
+  static const std::regex number(R"(\d+(\.\d+)*)");
+  const std::string& text = file.text;
+  const std::sregex_iterator end{};
+  Complaints complaints;
+  for (std::sregex_iterator cited(text.begin(), text.end(), citation); cited != end; ++cited) {
+    const auto line = 1 + std::count(text.begin(), text.begin() + cited->position(), '\n');
+    const std::string list = cited->str(1);
+    for (std::sregex_iterator n(list.begin(), list.end(), number); n != end; ++n) {
+      if (sections.count(n->str()) > 0) continue;
+      complaints.push_back(place(file, static_cast<int>(line)) +
+                           "common/physics/notes.md has no section " + n->str());
+    }
   }
   return complaints;
 }

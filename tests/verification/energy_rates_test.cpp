@@ -1,4 +1,4 @@
-/// The semi-discrete energy balance (physics note 6) at one instant of a random body that carries
+/// The semi-discrete energy balance (notes 6) at one instant of a random body that carries
 /// every type of boundary condition and a body force at once:
 ///   dK/dt + dW/dt = power of loads + power of constraints - D_num - D_visc.
 /// The left side is worked out here from the accelerations and, by differentiation of the energy

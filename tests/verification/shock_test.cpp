@@ -1,4 +1,4 @@
-/// Shock capturing on the exact finite-strain impact (physics note 7, case `impact`): star state,
+/// Shock capturing on the exact finite-strain impact (notes 7, case `impact`): star state,
 /// place of the front, overshoot, order in L1. All runs are deterministic.
 
 #include "benchmarks/run/case_list.hpp"

@@ -1,4 +1,4 @@
-/// Relaxation of any stiffness (physics note 5): the error in time of the shear wave at 70 %
+/// Relaxation of any stiffness (notes 5): the error in time of the shear wave at 70 %
 /// strain, on a fixed mesh against the converged solution of the same mesh, for dt/tau from 1e-8 to
 /// 1e8. The claim is uniform: the largest error over all tau falls at the order, whatever a single
 /// tau does where dt passes through it. Then both limits of tau, and the step, which must not know

@@ -1,7 +1,7 @@
 #pragma once
 /// n-point Gauss rule of the exponential weight, for the exact solution of (14):
 ///   A(t+dt) = old A(t) + sum w_i B(t + theta_i dt),   A' = (B - A)/tau,
-/// exact for B of degree 2n - 1 in time, for every dt/tau (physics note 5.3 with more points; the
+/// exact for B of degree 2n - 1 in time, for every dt/tau (notes 5.3 with more points; the
 /// scheme itself uses two). Test: tests/common/exact/manufactured_test.cpp.
 
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 /// What one evaluation does with the internal variables (14): weights of every branch for the time
-/// that has passed since the beginning of the step (physics note 5.5).
+/// that has passed since the beginning of the step (notes 5.5).
 
 #include "common/physics/maxwell_branch.hpp"
 #include "common/physics/viscous_evolution.hpp"

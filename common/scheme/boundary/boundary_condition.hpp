@@ -1,5 +1,5 @@
 #pragma once
-/// Boundary conditions (physics note 3.6). A condition acts on a patch: it constrains velocity
+/// Boundary conditions (notes 3.6). A condition acts on a patch: it constrains velocity
 /// components of its nodes (strongly, after every stage), or loads its nodes with forces, or both.
 /// Adding one: a file here and a line in boundary_menu.cpp.
 

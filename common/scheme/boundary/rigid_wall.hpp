@@ -1,5 +1,5 @@
 #pragma once
-/// Frictionless contact of nodes with fixed rigid planes (physics note 4.3), by impulses.
+/// Frictionless contact of nodes with fixed rigid planes (notes 3.6), by impulses.
 ///
 /// A node is open or closed. Within a step a closed node keeps v_n = 0 and an open one is free; at
 /// the end of the step

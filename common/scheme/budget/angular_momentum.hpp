@@ -1,5 +1,5 @@
 #pragma once
-/// Angular-momentum projection (physics note 3.7): the smallest change of the velocities, in the
+/// Angular-momentum projection (notes 3.7): the smallest change of the velocities, in the
 /// mass-weighted norm, that gives a free body a wanted angular momentum and keeps its linear
 /// momentum: v_a += lambda x (x_a - x_c), x_c the centre of mass, lambda = K^-1 (wanted - L).
 

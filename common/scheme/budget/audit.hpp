@@ -1,6 +1,6 @@
 #pragma once
 /// The audit: integrals over time of what enters and leaves a body, evolved with the same scheme
-/// and the same weights as the state (physics note 6), so that their residuals converge at its
+/// and the same weights as the state (notes 6), so that their residuals converge at its
 /// order:
 ///   K + W - (K + W)_0 = external work - numerical dissipation - viscous dissipation.
 

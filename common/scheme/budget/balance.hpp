@@ -1,5 +1,5 @@
 #pragma once
-/// Energies, momenta and involution drifts of a state (physics note 6).
+/// Energies, momenta and involution drifts of a state (notes 6).
 
 #include "common/parallel/for_chunks.hpp"
 #include "common/scheme/body/pointwise.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-/// Godunov-type dissipation D_ab of (18a), for eight pairs at once (physics note 3.4):
+/// Godunov-type dissipation D_ab of (18a), for eight pairs at once (notes 3.4):
 ///   D_ab = 1/2 |S_ab| Z_ab (v_b^rec - v_a^rec),  S_ab = 1/2 (C_ab - C_ba),
 /// so D_ab = -D_ba. Entropy production of the pair: (v_b - v_a) . D_ab.
 /// Impedance: isotropic, Z = z_p n(x)n + z_s (I - n(x)n) with n along (H_a + H_b) S_ab and the node

@@ -2,7 +2,7 @@
 /// The pair graph: all that the scheme knows of a discretisation (design idea 1). A backend (sph,
 /// fvm) is a factory of this object; it is built once, on the host, in double precision.
 ///
-/// Equations: the pseudo-area vectors C_ab of (18a-d), (19); closure of physics note 3.3:
+/// Equations: the pseudo-area vectors C_ab of (18a-d), (19); closure of notes 3.3:
 ///   -1/2 sum_b (C_ab - C_ba) = A_a N_a.
 /// Tests: tests/graphs.
 

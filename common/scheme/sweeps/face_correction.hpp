@@ -1,5 +1,5 @@
 #pragma once
-/// Face correction with its exact adjoint (physics note 3.8, point 4). The face value 1/2 (v_a +
+/// Face correction with its exact adjoint (notes 3.8). The face value 1/2 (v_a +
 /// v_b) of the strain rates becomes 1/2 (v_a + v_b) + kappa_f (L_a - L_b) X_ab, which gives
 ///   L'_a = L_a + kappa_f/Omega_a sum_b [(L_a - L_b) X_ab] (x) S_ab,
 /// and the force takes, instead of P,

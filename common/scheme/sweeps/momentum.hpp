@@ -11,7 +11,7 @@
 /// and momentum_runs.hpp, what is compiled in compiled_momentum.hpp.
 ///
 /// Also per node: numerical dissipation 1/2 sum_b (v_b - v_a).D_ab, and on demand the graph CFL
-/// rate sum_b |C_ab| c_ab / (2 Omega_a) with c_ab = max(c_p,a, c_p,b) (physics note 2.1).
+/// rate sum_b |C_ab| c_ab / (2 Omega_a) with c_ab = max(c_p,a, c_p,b) (notes 2.1).
 ///
 /// Cost in 3-D (linear reconstruction, isotropic): about 75 multiply-adds for a directed pair of
 /// rows, about 90 for both directions in runs, on 280 bytes of the neighbour; geometry at most 44

@@ -1,5 +1,5 @@
 /// Energy and stress of every material with branches: sign, convexity, objectivity, isotropy, and
-/// the Kirchhoff stress in its compact form (physics note 1.2).
+/// the Kirchhoff stress in its compact form (notes 1.2).
 
 #include "tests/common/physics/body.hpp"
 

@@ -247,7 +247,7 @@ TEST(Relaxation, LinearIsOfSecondAndGaussOfFourthOrder) {
 }
 
 TEST(Relaxation, ErrorsStaySmallFromSlowToStiffBranches) {
-  // error caps: twice what was measured at the first writing, same size as the table of the note
+  // error caps: twice what was measured at the first writing, same size as in notes 5.3
   struct Cap {
     double tau, linear_8, gauss_8, linear_128;
   };

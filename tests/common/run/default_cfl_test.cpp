@@ -66,7 +66,7 @@ TEST(LargestRates, KnowTheFrequencyOfALatticeWithItsBoundary) {
 }
 
 // All components together: on a lattice of finite volumes no faster than one alone, at boundaries
-// of SPH, where nu is near one half, by a third and more (physics note 10.2 has 1.49).
+// of SPH, where nu is near one half, by a third and more (notes 10.2 has 1.49).
 TEST(LargestRates, CountTheDivergenceWhereItIsTheFastest) {
   const auto lattice = squares(24, 24);
   const LargestRates edge(lattice);

@@ -1,4 +1,4 @@
-/// The pair sweeps on random states: exact identities of physics note 3.2 with the dissipation in
+/// The pair sweeps on random states: exact identities of notes 3.2 with the dissipation in
 /// place, and agreement of the compiled forms.
 
 #include "common/parallel/for_chunks.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-/// Sign-preserving limiter (physics note 3.4): a reconstructed jump is split along n and across it;
+/// Sign-preserving limiter (notes 3.4): a reconstructed jump is split along n and across it;
 /// each part is replaced by its projection on that part of the plain jump, kept between nothing and
 /// all of it. Every pair then dissipates with any impedance that has the eigenvector n, isotropic
 /// or exact; affine fields are untouched (their jump is zero). It is a guard of the entropy, not a
