@@ -2,7 +2,7 @@
 
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
-#include "benchmarks/verification/verify_verb.hpp"
+#include "benchmarks/verifier/verify_verb.hpp"
 
 #include <memory>
 

@@ -45,7 +45,7 @@ inline const std::map<std::string, std::set<std::string>>& permitted_rooms() {
     const auto studies =
         with(runs, {"benchmarks/convergence", "benchmarks/cost", "benchmarks/probes"});
     const auto verbs =
-        with(studies, {"benchmarks/study", "benchmarks/verification", "benchmarks/regression",
+        with(studies, {"benchmarks/study", "benchmarks/verifier", "benchmarks/regression",
                        "benchmarks/material", "benchmarks/verbs"});
     return std::map<std::string, std::set<std::string>>{
         {"common/base", {}},
@@ -70,13 +70,13 @@ inline const std::map<std::string, std::set<std::string>>& permitted_rooms() {
         {"benchmarks/convergence", runs},
         {"benchmarks/material", runs},
         {"benchmarks/cost", with(runs, {"benchmarks/probes"})},
-        {"benchmarks/verification", with(runs, {"benchmarks/probes"})},
+        {"benchmarks/verifier", with(runs, {"benchmarks/probes"})},
         {"benchmarks/regression", with(runs, {"benchmarks/convergence"})},
         {"benchmarks/study", studies},
         {"benchmarks/micro", studies},
         {"benchmarks/verbs", verbs},
         {"benchmarks", verbs},
-        {"tests", with(verbs, {"benchmarks", "benchmarks/micro"})}};
+        {"tests", with(verbs, {"common/closure", "benchmarks", "benchmarks/micro"})}};
   }();
   return rooms;
 }

@@ -1,4 +1,4 @@
-#include "benchmarks/verification/verify_verb.hpp"
+#include "benchmarks/verifier/verify_verb.hpp"
 
 #include "common/base/error.hpp"
 #include "common/io/run_record.hpp"

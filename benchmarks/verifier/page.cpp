@@ -2,7 +2,7 @@
 
 #include "benchmarks/run/provenance.hpp"
 #include "benchmarks/terminal/progress.hpp"
-#include "benchmarks/verification/verification.hpp"
+#include "benchmarks/verifier/verification.hpp"
 #include "postprocess/report/orders.hpp"
 
 #include <algorithm>

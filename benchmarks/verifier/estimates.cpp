@@ -1,7 +1,7 @@
 /// What the levels of a table say of the values on an infinitely fine mesh, and whether the methods
 /// agree there.
 
-#include "benchmarks/verification/verification.hpp"
+#include "benchmarks/verifier/verification.hpp"
 #include "postprocess/report/grid_convergence.hpp"
 #include "postprocess/report/orders.hpp"
 

@@ -3,7 +3,7 @@
 #include "benchmarks/run/backends.hpp"
 #include "benchmarks/run/case_list.hpp"
 #include "benchmarks/run/data_folder.hpp"
-#include "benchmarks/verification/verification.hpp"
+#include "benchmarks/verifier/verification.hpp"
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
 #include "common/cases/document.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// The verb `verify`: tables in turn, what is asked beside what is measured, and the page of all.
 
-#include "benchmarks/verification/verification.hpp"
+#include "benchmarks/verifier/verification.hpp"
 
 namespace diptych::harness {
 

@@ -1,6 +1,6 @@
 /// Values, orders and verdicts of the rows of a verification table.
 
-#include "benchmarks/verification/verification.hpp"
+#include "benchmarks/verifier/verification.hpp"
 #include "postprocess/report/orders.hpp"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/resumption.hpp"
 #include "benchmarks/terminal/progress.hpp"
-#include "benchmarks/verification/verification.hpp"
+#include "benchmarks/verifier/verification.hpp"
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 

@@ -1,7 +1,7 @@
 /// What stands above the tables on the pages of the repository.
 
 #include "benchmarks/probes/machine_probes.hpp"
-#include "benchmarks/verification/verification.hpp"
+#include "benchmarks/verifier/verification.hpp"
 #include "common/parallel/for_chunks.hpp"
 
 #include <algorithm>
