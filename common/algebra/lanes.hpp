@@ -21,7 +21,13 @@
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
 #define DIPTYCH_MULTIVERSION
+#if defined(DIPTYCH_ONLY_AVX512)  // of builds with DIPTYCH_INSTRUCTION_SETS=HERE, for development
+#define DIPTYCH_CLONES __attribute__((target("arch=x86-64-v4")))
+#elif defined(DIPTYCH_ONLY_AVX2)
+#define DIPTYCH_CLONES __attribute__((target("arch=x86-64-v3")))
+#else
 #define DIPTYCH_CLONES __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+#endif
 #define DIPTYCH_AVX2 __attribute__((target("arch=x86-64-v3")))
 #define DIPTYCH_AVX512 __attribute__((target("arch=x86-64-v4")))
 #else

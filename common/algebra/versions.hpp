@@ -17,6 +17,18 @@ namespace diptych::algebra {
 template <class Kernel, class... Arguments>
 struct Versions {
   using Function = void (*)(Arguments...);
+#if defined(DIPTYCH_ONLY_AVX512)
+  DIPTYCH_AVX512 static void here(Arguments... arguments) {
+    Kernel::template run<InstructionSet::avx512>(arguments...);
+  }
+#elif defined(DIPTYCH_ONLY_AVX2)
+  DIPTYCH_AVX2 static void here(Arguments... arguments) {
+    Kernel::template run<InstructionSet::avx2>(arguments...);
+  }
+#endif
+#if defined(DIPTYCH_ONLY_AVX512) || defined(DIPTYCH_ONLY_AVX2)
+  static constexpr Function baseline = here, avx2 = here, avx512 = here;
+#else
   static void baseline(Arguments... arguments) {
     Kernel::template run<InstructionSet::baseline>(arguments...);
   }
@@ -28,16 +40,21 @@ struct Versions {
     Kernel::template run<InstructionSet::avx512>(arguments...);
   }
 #endif
+#endif
 };
 
 /// The version that this processor runs.
 template <class AllVersions>
 typename AllVersions::Function version_here() {
+#if defined(DIPTYCH_ONLY_AVX512) || defined(DIPTYCH_ONLY_AVX2)
+  return AllVersions::here;
+#else
 #if defined(DIPTYCH_MULTIVERSION)
   if (instruction_set() == InstructionSet::avx512) return AllVersions::avx512;
   if (instruction_set() == InstructionSet::avx2) return AllVersions::avx2;
 #endif
   return AllVersions::baseline;
+#endif
 }
 
 }  // namespace diptych::algebra
