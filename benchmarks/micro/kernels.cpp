@@ -7,8 +7,10 @@
 #include "benchmarks/probes/machine_probes.hpp"
 #include "benchmarks/probes/work_counts.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/physics/materials/mooney_rivlin.hpp"
+#include "common/scheme/sweeps/compiled_material.hpp"
+#include "common/scheme/sweeps/face_correction.hpp"
 #include "common/scheme/sweeps/momentum.hpp"
-#include "common/scheme/sweeps/strain_rates.hpp"
 
 #include <benchmark/benchmark.h>
 #include <cstdio>
@@ -58,8 +60,7 @@ void strain_rates(benchmark::State& run, SceneChoice choice) {
   Scene scene(choice);
   const auto sweeps = scheme::face_correction_sweeps<3>();
   measure(
-      run, graph_of(choice.graph),
-      [&] { sweeps.gradients(scene.pairs, scene.state, 0, scene.pairs.n_blocks); },
+      run, graph_of(choice.graph), [&] { sweeps.gradients(scene.body, 0, scene.body.n_blocks); },
       probes::strain_work(3));
 }
 
@@ -67,77 +68,73 @@ void face_correction(benchmark::State& run, const std::string& graph) {
   Scene scene({graph, 0, true});
   const auto sweeps = scheme::face_correction_sweeps<3>();
   measure(
-      run, graph_of(graph),
-      [&] { sweeps.stresses(scene.pairs, scene.state, 1.0 / 6, 0, scene.pairs.n_blocks); },
+      run, graph_of(graph), [&] { sweeps.stresses(scene.body, 1.0 / 6, 0, scene.body.n_blocks); },
       probes::correction_work(3));
 }
 
-/// Results of a sweep made as one chunk.
+/// Results of sweeps, one per chunk.
 struct Results {
-  double power = 0, least_J = 0;
+  explicit Results(const Scene& scene)
+      : power(static_cast<size_t>(parallel::n_chunks_of(scene.body.n_blocks))), other(power) {}
+  std::vector<double> power, other;
 };
-
-void first_sweep(Scene& scene, Results& results) {
-  const auto sweep = scheme::strain_rate_function<3, physics::MooneyRivlin>();
-  sweep({scene.model, scene.pairs, scene.state, scene.frozen, false, true, 0, nullptr, 0,
-         &results.power, &results.least_J},
-        0, scene.pairs.n_blocks, 0);
-}
 
 void momentum(benchmark::State& run, const SceneChoice& choice, bool with_bound) {
   Scene scene(choice);
-  Results results;
-  first_sweep(scene, results);
-  const auto n_chunks = static_cast<size_t>(parallel::n_chunks_of(scene.pairs.n_blocks));
-  std::vector<double> power(n_chunks), rate(n_chunks);
+  Results results(scene);
+  scheme::evaluate_strain_rates<3>({scene.body, *scene.material, scene.frozen, true, 0, nullptr, 0,
+                                    results.power.data(), results.other.data()});
   const auto sweep = scheme::momentum_function<3>({}, true);
   const auto kernel = [&] {
-    scheme::sum_forces(
-        {scene.pairs, scene.state, scene.model.rho_R, 1, with_bound, power.data(), rate.data()},
-        sweep);
-    benchmark::DoNotOptimize(power.data());
+    scheme::sum_forces<3>({scene.body, 1, with_bound, results.power.data(), results.other.data()},
+                          sweep);
+    benchmark::DoNotOptimize(results.power.data());
   };
   measure(run, graph_of(choice.graph), kernel, probes::momentum_work(3));
 }
 
 using algebra::Lanes;
 
-/// Stress and wave speeds of all blocks, results into the records of the state.
-DIPTYCH_CLONES void stress_and_speeds(Scene& scene, std::int64_t n_blocks) {
-  for (std::int64_t b = 0; b < n_blocks; ++b) {
-    const auto X = scheme::load_deformation(scene.state, b);
+/// Stress and wave speeds of all blocks, results into the records of the body.
+DIPTYCH_CLONES void stress_and_speeds(Scene& scene,
+                                      const scheme::Model<physics::MooneyRivlin>& model) {
+  using Record = scheme::NodeRecord<3>;
+  scheme::Body<3>& body = scene.body;
+  for (std::int64_t b = 0; b < body.n_blocks; ++b) {
+    const auto X = scheme::load_deformation(body, b);
     const auto response =
-        scheme::response_of_block(scene.model, scene.state, scene.frozen, X, b,
+        scheme::response_of_block(model, body, scene.frozen, X, b,
                                   [](int, const physics::BranchState<Lanes>&, const auto&) {});
     const auto P = physics::piola_stress<true>(response, X);
-    using Record = scheme::NodeRecord<3>;
-    scheme::put_tensor<3>(scene.state.records, b, Record::P, P);
-    const auto speeds = physics::speed_bounds(response, X, scene.model.rho_R, true, false);
-    scene.state.records.put(b, Record::z_p, scene.model.rho_R * speeds.c_p);
-    scene.state.records.put(b, Record::z_s, scene.model.rho_R * speeds.c_s);
+    scheme::put_tensor<3>(body.records, b, Record::P, P);
+    const auto speeds = physics::speed_bounds(response, X, model.rho_R, true, false);
+    body.records.put(b, Record::z_p, model.rho_R * speeds.c_p);
+    body.records.put(b, Record::z_s, model.rho_R * speeds.c_s);
   }
 }
 
 void stress(benchmark::State& run, int n_branches) {
   Scene scene({"fvm-hex", n_branches, false});
-  measure(run, graph_of("fvm-hex"), [&] { stress_and_speeds(scene, scene.pairs.n_blocks); });
+  using Compiled = scheme::CompiledMaterial<physics::MooneyRivlin>;
+  const auto& model = static_cast<const Compiled&>(*scene.material).model();
+  measure(run, graph_of("fvm-hex"), [&] { stress_and_speeds(scene, model); });
 }
 
 /// New internal variables of the first branch of all blocks.
-DIPTYCH_CLONES void relax(Scene& scene, const scheme::Relaxation& rule, std::int64_t n_blocks) {
-  for (std::int64_t b = 0; b < n_blocks; ++b) {
-    const auto F = algebra::get_tensor<3>(scene.state.F, b, 0, 1);
-    const auto drive = scheme::linear_drive(scene.state, physics::right_tensors(F), b);
-    const auto branch = scheme::relaxed_branch<3, true>(scene.state, rule, drive, b, 0);
-    algebra::put_A<3>(scene.state.A, b, 0, branch.A);
-    algebra::put_S<3>(scene.state.S, b, 0, branch.S);
+DIPTYCH_CLONES void relax(scheme::Body<3>& body, const scheme::Relaxation& rule) {
+  for (std::int64_t b = 0; b < body.n_blocks; ++b) {
+    const auto F = algebra::get_tensor<3>(body.F, b, 0, 1);
+    const auto drive = scheme::linear_drive(body, physics::right_tensors(F), b);
+    const auto branch = scheme::relaxed_branch<3, true>(body, rule, drive, b, 0);
+    algebra::put_A<3>(body.A, b, 0, branch.A);
+    algebra::put_S<3>(body.S, b, 0, branch.S);
   }
 }
 
 void relaxation(benchmark::State& run, scheme::Relaxation::Rule rule) {
   Scene scene({"fvm-hex", 1, false});
-  const scheme::Relaxation update(rule, true, 1e-4, scene.model.branches);
-  measure(run, graph_of("fvm-hex"), [&] { relax(scene, update, scene.pairs.n_blocks); });
+  const scheme::Relaxation update(rule, true, 1e-4, scene.material->branches());
+  measure(run, graph_of("fvm-hex"), [&] { relax(scene.body, update); });
 }
 
 /// A whole stage: step by step, divided by the evaluations of a step.

@@ -3,10 +3,8 @@
 #include "benchmarks/run/backends.hpp"
 #include "benchmarks/run/case_mesh.hpp"
 #include "common/cases/reader.hpp"
-#include "common/physics/moduli.hpp"
+#include "common/run/initial_state.hpp"
 #include "common/run/model_menu.hpp"
-#include "common/run/state_access.hpp"
-#include "common/scheme/sweeps/update.hpp"
 
 #include <filesystem>
 #include <map>
@@ -64,28 +62,27 @@ const scheme::PairGraph& graph_of(const std::string& graph) {
 
 namespace {
 
-scheme::SweepGraph<3> pairs_of(const SceneChoice& choice) {
+scheme::Body<3> body_of(const SceneChoice& choice, const scheme::MaterialModel& material) {
+  scheme::BodyOptions options;
+  options.rho_R = material.rho_R();
+  options.n_branches = choice.n_branches;
+  options.has_G = true;
+  options.keeps_L_0 = choice.n_branches > 0;
+  options.face_correction = choice.face_correction;
   const scheme::PairGraph& graph = graph_of(choice.graph);
-  return choice.arrangement ? scheme::SweepGraph<3>(graph, *choice.arrangement)
-                            : scheme::SweepGraph<3>(graph);
+  return choice.arrangement ? scheme::Body<3>(graph, options, *choice.arrangement)
+                            : scheme::Body<3>(graph, options);
 }
 
 }  // namespace
 
-Scene::Scene(const SceneChoice& choice) : pairs(pairs_of(choice)) {
+Scene::Scene(const SceneChoice& choice)
+    : material(run::model_menu().at("mooney-rivlin").model(case_of(choice).material)),
+      body(body_of(choice, *material)) {
   const cases::Case setup = case_of(choice);
-  const auto p = physics::mooney_rivlin_parameters(
-      {setup.material.shear_modulus, setup.material.lame}, setup.material.zeta_ratio);
-  model.material = {p.xi, p.zeta, p.lambda_hat};
-  model.rho_R = setup.material.density;
-  model.branches = run::branches_of(setup.material, p.xi, p.zeta);
-  const auto& graph = graph_of(choice.graph);
-  state = scheme::State<3>(graph.n_nodes(), choice.n_branches, true, scheme::Unknowns::FHJ, false,
-                           choice.n_branches > 0, pairs.shape);
-  if (choice.face_correction) state.allow_face_correction();
-  run::set_initial_state(graph, setup.initial, setup.scheme.face_correction, state);
-  for (std::int64_t b = 0; b < state.n_blocks; ++b)
-    algebra::put_tensor<3>(state.F_0, b, 0, algebra::get_tensor<3>(state.F, b, 0));
+  run::set_initial_state(setup.initial, setup.scheme.face_correction, body);
+  for (std::int64_t b = 0; b < body.n_blocks; ++b)
+    algebra::put_tensor<3>(body.F_0, b, 0, algebra::get_tensor<3>(body.F, b, 0));
 }
 
 }  // namespace diptych::micro

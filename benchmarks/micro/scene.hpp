@@ -1,14 +1,11 @@
 #pragma once
 /// Scenes of the kernel benchmarks: a strained, moving cube of 29^3 nodes (a working set far beyond
-/// the second-level cache), as a graph and a state that kernels are called on one by one, and as a
+/// the second-level cache), as a body that kernels are called on one by one, and as a
 /// solver for whole stages.
 
-#include "common/physics/materials/mooney_rivlin.hpp"
 #include "common/run/solver.hpp"
-#include "common/scheme/body/model.hpp"
+#include "common/scheme/body/material_model.hpp"
 #include "common/scheme/body/relaxation.hpp"
-#include "common/scheme/body/state.hpp"
-#include "common/scheme/graph/sweep_graph.hpp"
 
 #include <memory>
 #include <optional>
@@ -31,11 +28,10 @@ cases::Case case_of(const SceneChoice& choice, const std::string& integrator = "
 /// Built once per kind and kept.
 const scheme::PairGraph& graph_of(const std::string& graph);
 
-/// Graph and state as the sweeps see them; every sweep has been made once.
+/// A body as the sweeps see it, in the middle of its motion.
 struct Scene {
-  scheme::SweepGraph<3> pairs;
-  scheme::Model<physics::MooneyRivlin> model;
-  scheme::State<3> state;
+  std::shared_ptr<const scheme::MaterialModel> material;
+  scheme::Body<3> body;
   scheme::Relaxation frozen;  ///< as in cases without branches
 
   explicit Scene(const SceneChoice& choice);

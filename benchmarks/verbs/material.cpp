@@ -28,9 +28,9 @@ int strain_material(const MaterialArguments& arguments) {
                     .add("gauss", harness::Update::gauss)
                     .at(arguments.update);
   const auto material = run::make_material_point(setup.material);
-  const auto points = harness::follow(*material, path);
+  const auto points = harness::follow(material, path);
   print(harness::path_table(setup, path, points,
-                            harness::scan_hyperbolicity(*material, points, 200)));
+                            harness::scan_hyperbolicity(material, points, 200)));
   const std::string folder = arguments.output_folder(setup);
   io::make_directory(folder);
   const auto write = [&](const std::string& ending, const std::string& text) {

@@ -52,17 +52,19 @@ double real_extent(const time::Integrator& integrator) {
   return extent;
 }
 
+template <int Dim>
 double default_cfl(const cases::Case& setup,
-                   const scheme::PairGraph& graph,
+                   scheme::Body<Dim>& body,
+                   double geometric_rate,
                    const time::Integrator& integrator) {
   const double kappa_f = setup.scheme.face_correction;
   const double strength = setup.scheme.dissipation *
                           scheme::strength_of(scheme::limiter_menu().at(setup.scheme.limiter));
   const double shear_ratio = shear_ratio_of(setup.material);
-  const LargestRates largest(graph);
-  double omega = largest.frequency(kappa_f);
+  LargestRates<Dim> largest(body, kappa_f);
+  double omega = largest.frequency();
   if (!integrator.is_leapfrog()) {
-    omega = std::max(omega, largest.elastic_frequency(kappa_f, shear_ratio) / most_elastic);
+    omega = std::max(omega, largest.elastic_frequency(shear_ratio) / most_elastic);
   }
   const double d = strength * largest.dissipation(shear_ratio);
   // dt at a wave speed of one
@@ -70,10 +72,27 @@ double default_cfl(const cases::Case& setup,
                        dissipation_share * real_extent(integrator) / d);
   if (integrator.is_leapfrog()) {
     // convex in dt and zero at zero: at this part of dt it is no larger than the share
-    const double limit = largest.leapfrog_limit(dt, kappa_f, shear_ratio, strength);
+    const double limit = largest.leapfrog_limit(dt, shear_ratio, strength);
     dt *= std::min(1.0, leapfrog_share / limit);
   }
-  return dt * scheme::geometric_rate(graph) * scheme::frequency_factor(kappa_f);
+  return dt * geometric_rate * scheme::frequency_factor(kappa_f);
+}
+
+template double default_cfl(const cases::Case&, scheme::Body<2>&, double, const time::Integrator&);
+template double default_cfl(const cases::Case&, scheme::Body<3>&, double, const time::Integrator&);
+
+double default_cfl(const cases::Case& setup,
+                   const scheme::PairGraph& graph,
+                   const time::Integrator& integrator) {
+  scheme::BodyOptions options;
+  options.face_correction = setup.scheme.face_correction != 0;
+  const double rate = scheme::geometric_rate(graph);
+  if (graph.dimension == 2) {
+    scheme::Body<2> body(graph, options);
+    return default_cfl(setup, body, rate, integrator);
+  }
+  scheme::Body<3> body(graph, options);
+  return default_cfl(setup, body, rate, integrator);
 }
 
 }  // namespace diptych::run

@@ -14,11 +14,20 @@
 /// tests/common/run/default_cfl_test.cpp
 
 #include "common/cases/case.hpp"
-#include "common/scheme/graph/pair_graph.hpp"
+#include "common/scheme/body/body.hpp"
 #include "common/time/integrator.hpp"
 
 namespace diptych::run {
 
+/// @param body            of the case, at rest; its velocities, records and forces are lost
+/// @param geometric_rate  of its graph (scheme/time_step.hpp)
+template <int Dim>
+double default_cfl(const cases::Case& setup,
+                   scheme::Body<Dim>& body,
+                   double geometric_rate,
+                   const time::Integrator& integrator);
+
+/// The same where there is no body yet.
 double default_cfl(const cases::Case& setup,
                    const scheme::PairGraph& graph,
                    const time::Integrator& integrator);

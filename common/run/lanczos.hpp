@@ -6,7 +6,6 @@
 #include "common/algebra/field.hpp"
 #include "common/algebra/four.hpp"
 #include "common/parallel/for_chunks.hpp"
-#include "common/scheme/graph/pair_graph.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +16,6 @@ namespace diptych::run::lanczos {
 
 using algebra::Four;
 using algebra::sum_three;
-using scheme::PairGraph;
 template <class T>
 using Field = algebra::AlignedArray<T>;
 
@@ -25,8 +23,8 @@ inline constexpr int n_iterations = 16;
 
 /// work(a) for all nodes, in parallel.
 template <class Work>
-void for_nodes(const PairGraph& graph, const Work& work) {
-  parallel::for_chunks(graph.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+void for_nodes(std::int64_t n_nodes, const Work& work) {
+  parallel::for_chunks(n_nodes, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
     for (std::int64_t a = begin; a < end; ++a)
       work(a);
   });
@@ -40,13 +38,15 @@ inline double dot(const Four& u, const Four& v) {
 }
 
 template <class T>
-double product(const PairGraph& graph, const Field<T>& u, const Field<T>& v) {
-  std::vector<double> parts(parallel::n_chunks_of(graph.n_nodes()));
-  parallel::for_chunks(graph.n_nodes(),
-                       [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
-                         for (std::int64_t a = begin; a < end; ++a)
-                           parts[chunk] += graph.Omega[a] * dot(u[a], v[a]);
-                       });
+double product(const Field<double>& Omega,
+               std::int64_t n_nodes,
+               const Field<T>& u,
+               const Field<T>& v) {
+  std::vector<double> parts(parallel::n_chunks_of(n_nodes));
+  parallel::for_chunks(n_nodes, [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
+    for (std::int64_t a = begin; a < end; ++a)
+      parts[chunk] += Omega[a] * dot(u[a], v[a]);
+  });
   return parallel::sum_in_order(parts);
 }
 
@@ -95,30 +95,32 @@ inline double largest_tridiagonal(const std::vector<double>& diagonal,
 }
 
 /// Largest eigenvalue of a symmetric, positive operator by the Lanczos recurrence.
+/// @param Omega  [n_nodes] or more: weights of the inner product
 template <class T>
-double largest_eigenvalue(const PairGraph& graph,
+double largest_eigenvalue(const Field<double>& Omega,
+                          std::int64_t n_nodes,
                           const std::function<void(const Field<T>& in, Field<T>& out)>& apply) {
-  Field<T> before(graph.n_nodes()), now(graph.n_nodes()), next(graph.n_nodes());
+  Field<T> before(n_nodes), now(n_nodes), next(n_nodes);
   Noise noise;
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a)
+  for (std::int64_t a = 0; a < n_nodes; ++a)
     noise.fill(now[a]);
   std::vector<double> diagonal, beside2;
-  const double first_length = std::sqrt(product(graph, now, now));
+  const double first_length = std::sqrt(product(Omega, n_nodes, now, now));
   double beta = 0;
-  for_nodes(graph, [&](std::int64_t a) {
+  for_nodes(n_nodes, [&](std::int64_t a) {
     now[a] /= first_length;
     before[a] = 0 * now[a];
   });
   while (true) {
     apply(now, next);
-    diagonal.push_back(product(graph, now, next));
-    for_nodes(graph,
+    diagonal.push_back(product(Omega, n_nodes, now, next));
+    for_nodes(n_nodes,
               [&](std::int64_t a) { next[a] -= diagonal.back() * now[a] + beta * before[a]; });
-    beta = std::sqrt(product(graph, next, next));
+    beta = std::sqrt(product(Omega, n_nodes, next, next));
     // an invariant subspace: the rest is rounding
     if (diagonal.size() == n_iterations || !(beta > 1e-10 * diagonal.front())) break;
     beside2.push_back(beta * beta);
-    for_nodes(graph, [&](std::int64_t a) {
+    for_nodes(n_nodes, [&](std::int64_t a) {
       before[a] = now[a];
       now[a] = next[a] / beta;
     });

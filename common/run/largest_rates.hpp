@@ -1,62 +1,65 @@
 #pragma once
 /// The largest rates of the linearised, undeformed body, per unit of c_p: what limits the time
-/// step. The dissipation is the operator
-///   v_a -> 1/(2 Omega_a) sum_b |S_ab| (N(x)N + c_s/c_p (I - N(x)N)) (v_a - v_b),
-/// the square of the frequency that of u -> G* G u, for one component u, G the gradient of (18b)
-/// with its face correction and G* its adjoint (the force of (18a)). On a lattice that is a
-/// pressure wave; free boundaries count, where it is up to sqrt(2) times as fast as inside.
-///
-/// Both are symmetric in the inner product with the weights Omega_a. Lanczos iterations from a
-/// fixed vector come within a percent or two of the largest eigenvalue, from below; every sum has a
-/// fixed order. Reconstruction is left out: the roughest modes have hardly a gradient. Test:
-/// tests/common/run/default_cfl_test.cpp
+/// step. The operators are those of the run itself, by its own sweeps on its own fields: the strain
+/// rates (18b) with the face correction, a linear stress, the forces (18a), and D_ab of plain jumps
+/// with z_p = rho_R c_p. Lanczos iterations from a fixed vector come within a percent or two of the
+/// largest eigenvalue, from below. Reconstruction is left out: the roughest modes have hardly a
+/// gradient. Test: tests/common/run/default_cfl_test.cpp
 
-#include "common/scheme/graph/pair_graph.hpp"
+#include "common/algebra/four.hpp"
+#include "common/run/lanczos.hpp"
+#include "common/scheme/body/body.hpp"
+#include "common/scheme/sweeps/face_correction.hpp"
+#include "common/scheme/sweeps/momentum.hpp"
 
 namespace diptych::run {
 
+template <int Dim>
 class LargestRates {
  public:
-  /// @param graph  must outlive this
-  explicit LargestRates(const scheme::PairGraph& graph);
+  /// @param body  at rest; its velocities, records (but for H) and forces are lost
+  LargestRates(scheme::Body<Dim>& body, double kappa_f);
 
   /// d of plain jumps with scheme.dissipation = 1, per unit of c_p  [1/m]
-  double dissipation(double shear_ratio) const;
+  double dissipation(double shear_ratio);
 
-  /// omega per unit of c_p  [1/m]
-  double frequency(double kappa_f) const;
+  /// omega of u -> G* G u for one component of u, G the gradient of (18b) and G* its adjoint, per
+  /// unit of c_p: on a lattice a pressure wave; at free boundaries up to sqrt(2) times as fast as
+  /// inside  [1/m]
+  double frequency();
 
   /// The same of all components together, u -> G* (lambda tr(e) I + 2 mu e) with e the symmetric
   /// part of G u. Inside a lattice it is no larger; near boundaries, where lambda >> mu, it can be
   /// by a half, since the divergence may count for more than waves along one direction do.
   /// @param shear_ratio  c_s/c_p, <= sqrt(3)/2
-  double elastic_frequency(double kappa_f, double shear_ratio) const;
+  double elastic_frequency(double shear_ratio);
 
   /// Largest eigenvalue of dt^2/4 K + dt/2 D, K the elastic operator and D the dissipation:
   /// leapfrog is stable where it is below one. Alone dt omega and dt d say so only if the fastest
   /// and the most damped modes differ; at the corners of operators that sum by parts they do not.
   /// @param dt  c_p times the step  [m]  @param strength  of the dissipation
-  double leapfrog_limit(double dt, double kappa_f, double shear_ratio, double strength) const;
+  double leapfrog_limit(double dt, double shear_ratio, double strength);
 
  private:
-  class Gradient;
-  class Elasticity;
-  class Dissipation;
+  using Vectors = lanczos::Field<algebra::Four>;
+  enum class Law { componentwise, elastic };
 
-  /// Calls set(kind, i, k) for the pairs k of one node of each kind, i counting them all.
-  template <class Set>
-  void for_geometry(const Set& set) const;
+  void put_velocities(const Vectors& v);
+  /// out <- -T / Omega for the stresses and speeds in the records.
+  void divide_forces(Vectors& out) const;
+  void apply_elasticity(const Vectors& u, Law law, double shear_ratio, Vectors& out);
+  void apply_dissipation(const Vectors& v, double shear_ratio, Vectors& out);
+  void put_stresses(Law law, double shear_ratio);
+  void sum_forces(double dissipation_factor);
 
-  /// Whether nodes share pairs; else every node is of a kind of its own.
-  bool shared() const;
-  /// Of the pairs of the kinds; b - a where they are shared.
-  const std::int32_t* neighbours() const;
-
-  const scheme::PairGraph& graph_;
-  /// Of nodes with the same C_ab and C_ba up to rounding and neighbours as far in the numbering.
-  scheme::EqualGroups kinds_;
-  std::vector<std::int64_t> first_;   ///< [kinds + 1] into their pairs
-  std::vector<std::int32_t> offset_;  ///< b - a of shared pairs
+  scheme::Body<Dim>& body_;
+  double kappa_f_;
+  scheme::MomentumFunction<Dim> momentum_;
+  scheme::FaceCorrectionSweeps<Dim> face_;
+  std::vector<double> scratch_;  ///< results per chunk that nobody needs
 };
+
+extern template class LargestRates<2>;
+extern template class LargestRates<3>;
 
 }  // namespace diptych::run

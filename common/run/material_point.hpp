@@ -4,7 +4,7 @@
 /// Test: tests/verification/material_paths_test.cpp.
 
 #include "common/cases/case.hpp"
-#include "common/physics/maxwell_branch.hpp"
+#include "common/scheme/body/material_model.hpp"
 
 #include <memory>
 #include <vector>
@@ -22,14 +22,15 @@ struct PointState {
 
 class MaterialPoint {
  public:
-  virtual ~MaterialPoint() = default;
-  virtual Mat3 stress(const PointState& X) const = 0;         ///< first Piola-Kirchhoff, Pa
-  virtual double energy(const PointState& X) const = 0;       ///< Pa
-  virtual double dissipation(const PointState& X) const = 0;  ///< W/m^3
+  explicit MaterialPoint(std::shared_ptr<const scheme::MaterialModel> material)
+      : material_(std::move(material)) {}
+  Mat3 stress(const PointState& X) const;         ///< first Piola-Kirchhoff, Pa
+  double energy(const PointState& X) const;       ///< Pa
+  double dissipation(const PointState& X) const;  ///< W/m^3
   /// Of incremental waves in material direction N at frozen internal variables  [Pa]
-  virtual Mat3 acoustic_tensor(const PointState& X, const Vec3& N) const = 0;
+  Mat3 acoustic_tensor(const PointState& X, const Vec3& N) const;
 
-  const std::vector<physics::MaxwellBranch>& branches() const { return branches_; }
+  const std::vector<physics::MaxwellBranch>& branches() const { return material_->branches(); }
   /// Branches at A = S = I.
   PointState virgin(const Mat3& F) const;
   /// A' and S' of (14) at this state  [1/s]
@@ -44,14 +45,10 @@ class MaterialPoint {
                                          const Mat3& rate_end,
                                          double dt) const;
 
- protected:
-  explicit MaterialPoint(std::vector<physics::MaxwellBranch> branches)
-      : branches_(std::move(branches)) {}
-
  private:
-  std::vector<physics::MaxwellBranch> branches_;
+  std::shared_ptr<const scheme::MaterialModel> material_;
 };
 
-std::unique_ptr<MaterialPoint> make_material_point(const cases::MaterialCase& material);
+MaterialPoint make_material_point(const cases::MaterialCase& material);
 
 }  // namespace diptych::run

@@ -1,8 +1,12 @@
 #pragma once
-/// The menu of compiled models: material x dimension. Branches, unknowns and scheme options are
-/// chosen inside. Adding a material: its file in common/physics/materials and a line here.
+/// The menu of compiled materials. Branches, unknowns and scheme options are chosen inside. Adding
+/// one: its header in common/physics/materials, its file in models/, a line in
+/// models/materials.def.
 
-#include "common/run/body_solver.hpp"
+#include "common/base/registry.hpp"
+#include "common/cases/case.hpp"
+#include "common/exact/manufactured/manufactured_solution.hpp"
+#include "common/scheme/body/material_model.hpp"
 
 #include <memory>
 
@@ -13,53 +17,16 @@ std::vector<physics::MaxwellBranch> branches_of(const cases::MaterialCase& mater
                                                 double xi,
                                                 double zeta);
 
-/// A solver for this material in the graph's dimension.
-template <class Material>
-std::unique_ptr<Solver> solver_of(const Material& material,
-                                  const cases::Case& setup,
-                                  const scheme::PairGraph& graph,
-                                  SolverSetup solver_setup,
-                                  scheme::AppliedBoundary boundary) {
-  const auto branches = branches_of(setup.material, material.branch_xi(), material.branch_zeta());
-  const scheme::Model<Material> model{material, setup.material.density, branches};
-  if (setup.motion) {
-    const auto known = graph.dimension == 2 ? exact::manufactured_solution<2, Material>
-                                            : exact::manufactured_solution<3, Material>;
-    solver_setup.known = known(setup.motion, model, graph.X, setup.initial.relaxed, setup.time.end);
-    boundary.follow(solver_setup.known);
-  }
-  if (graph.dimension == 2) {
-    return std::make_unique<BodySolver<2, Material>>(graph, model, std::move(solver_setup),
-                                                     std::move(boundary));
-  }
-  return std::make_unique<BodySolver<3, Material>>(graph, model, std::move(solver_setup),
-                                                   std::move(boundary));
-}
-
-using SolverMaker = std::unique_ptr<Solver> (*)(const cases::Case& setup,
-                                                const scheme::PairGraph& graph,
-                                                SolverSetup solver_setup,
-                                                scheme::AppliedBoundary boundary);
-
-// one file each in models/, so that they compile side by side
-std::unique_ptr<Solver> make_mooney_rivlin(const cases::Case&,
-                                           const scheme::PairGraph&,
-                                           SolverSetup,
-                                           scheme::AppliedBoundary);
-std::unique_ptr<Solver> make_neo_hookean(const cases::Case&,
-                                         const scheme::PairGraph&,
-                                         SolverSetup,
-                                         scheme::AppliedBoundary);
-std::unique_ptr<Solver> make_isochoric_neo_hookean(const cases::Case&,
-                                                   const scheme::PairGraph&,
-                                                   SolverSetup,
-                                                   scheme::AppliedBoundary);
-std::unique_ptr<Solver> make_isochoric_neo_hookean_j2(const cases::Case&,
-                                                      const scheme::PairGraph&,
-                                                      SolverSetup,
-                                                      scheme::AppliedBoundary);
+/// What is compiled of a material.
+struct ModelMaker {
+  std::shared_ptr<const scheme::MaterialModel> (*model)(const cases::MaterialCase& material);
+  /// The exact state of a manufactured motion; the model is this material's.
+  std::shared_ptr<exact::KnownState> (*known)(const scheme::MaterialModel& model,
+                                              const cases::Case& setup,
+                                              const scheme::PairGraph& graph);
+};
 
 /// mooney-rivlin, neo-hookean, neo-hookean-isochoric, neo-hookean-isochoric-j2
-const base::Registry<SolverMaker>& model_menu();
+const base::Registry<ModelMaker>& model_menu();
 
 }  // namespace diptych::run

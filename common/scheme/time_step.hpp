@@ -6,10 +6,7 @@
 /// is in the default cfl (run/default_cfl.hpp). Relaxation does not enter (notes 5). Tests:
 /// tests/verification/time_step_test.cpp
 
-#include "common/physics/maxwell_branch.hpp"
-#include "common/physics/wave_speeds.hpp"
-#include "common/scheme/body/model.hpp"
-#include "common/scheme/body/state.hpp"
+#include "common/scheme/body/body.hpp"
 #include "common/scheme/graph/pair_graph.hpp"
 
 namespace diptych::scheme {
@@ -35,30 +32,15 @@ double geometric_rate(const PairGraph& graph);
 
 /// Largest c_p of the nodes of blocks [begin, end), from their records  [m/s].
 template <int Dim>
-double largest_speed(const State<Dim>& state, double rho_R, std::int64_t begin, std::int64_t end) {
+double largest_speed(const Body<Dim>& body, std::int64_t begin, std::int64_t end) {
   const std::int64_t last =
-      end * algebra::n_lanes < state.n_nodes ? end * algebra::n_lanes : state.n_nodes;
+      end * algebra::n_lanes < body.n_owned ? end * algebra::n_lanes : body.n_owned;
   double largest = 0;
   for (std::int64_t a = begin * algebra::n_lanes; a < last; ++a) {
-    const double z_p = state.records.at(a, NodeRecord<Dim>::z_p);
+    const double z_p = body.records.at(a, NodeRecord<Dim>::z_p);
     largest = z_p > largest || z_p != z_p ? z_p : largest;
   }
-  return largest / rho_R;
-}
-
-/// c_p of the undeformed, virgin body with all branches  [m/s].
-template <class Material>
-double undeformed_speed(const Model<Material>& model) {
-  physics::Deformation<double> X;
-  X.F = X.H = algebra::identity<double>();
-  X.J = 1;
-  const physics::BranchState<double> virgin{algebra::symmetric_identity<double>(),
-                                            algebra::symmetric_identity<double>()};
-  physics::Response<double> response = model.material.response(X);
-  for (const physics::MaxwellBranch& branch : model.branches) {
-    physics::add_branch_response<Material::has_H>(branch, virgin, X, response);
-  }
-  return physics::speed_bounds(response, X, model.rho_R, Material::has_H, Material::has_W_FJ).c_p;
+  return largest / body.options.rho_R;
 }
 
 }  // namespace diptych::scheme

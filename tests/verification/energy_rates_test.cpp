@@ -10,7 +10,8 @@
 #include "common/physics/materials/mooney_rivlin.hpp"
 #include "common/scheme/boundary/applied_boundary.hpp"
 #include "common/scheme/sweeps/momentum.hpp"
-#include "common/scheme/sweeps/strain_rates.hpp"
+#include "common/scheme/sweeps/compiled_material.hpp"
+#include "common/scheme/sweeps/face_correction.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -55,25 +56,19 @@ class LoadedBody {
  public:
   LoadedBody(const std::string& method, int n_branches, double kappa_f)
       : graph_(tests::graph_of(method, mesh())),
-        pairs_(graph_),
+        material_(model_of(n_branches)),
+        body_(graph_, options_of(n_branches, kappa_f)),
         kappa_f_(kappa_f),
-        state_(
-            graph_.n_nodes(), n_branches, true, scheme::Unknowns::FHJ, false, false, pairs_.shape),
-        chunks_(static_cast<size_t>(parallel::n_chunks_of(pairs_.n_blocks))),
+        chunks_(static_cast<size_t>(parallel::n_chunks_of(body_.n_blocks))),
         boundary_(graph_, conditions(), body_force, true) {
-    model_.material = {1.3e6, 0.7e6, 4e6};
-    model_.rho_R = 1100;
-    for (int k = 0; k < n_branches; ++k)
-      model_.branches.push_back({0.9e6, 2e-3 * (k + 1), 0.4e6, 1e-3});
-    if (kappa_f != 0) state_.allow_face_correction();
     fill();
     evaluate();
   }
 
   double largest = 0;  ///< of all terms, W
   double residual() {
-    const scheme::LoadRates loads = boundary_.add_loads(state_, 0);
-    const double constraints = boundary_.power_of_constraints(state_, model_.rho_R, 0);
+    const scheme::LoadRates loads = boundary_.add_loads(body_, 0);
+    const double constraints = boundary_.power_of_constraints(body_, 0);
     const double terms[] = {kinetic_rate(),
                             strain_rate(),
                             -loads.power,
@@ -82,7 +77,7 @@ class LoadedBody {
                             parallel::sum_in_order(viscous_)};
     double sum = 0;
     for (const double& term : terms) {
-      EXPECT_TRUE(term != 0 || (model_.branches.empty() && &term == &terms[5]));
+      EXPECT_TRUE(term != 0 || (material_.branches().empty() && &term == &terms[5]));
       sum += term;
       largest = std::max(largest, std::abs(term));
     }
@@ -90,6 +85,20 @@ class LoadedBody {
   }
 
  private:
+  static scheme::Model<Material> model_of(int n_branches) {
+    scheme::Model<Material> model{{1.3e6, 0.7e6, 4e6}, 1100, {}};
+    for (int k = 0; k < n_branches; ++k)
+      model.branches.push_back({0.9e6, 2e-3 * (k + 1), 0.4e6, 1e-3});
+    return model;
+  }
+  static scheme::BodyOptions options_of(int n_branches, double kappa_f) {
+    scheme::BodyOptions options;
+    options.rho_R = 1100;
+    options.n_branches = n_branches;
+    options.has_G = true;
+    options.face_correction = kappa_f != 0;
+    return options;
+  }
   static meshes::Mesh mesh() {
     using meshes::CellType;
     return meshes::box(Dim == 3 ? CellType::hexahedron : CellType::quadrilateral, Vec3::Zero(),
@@ -158,45 +167,39 @@ class LoadedBody {
       return r;
     };
     using Layout = algebra::Layout<Dim>;
-    for (std::int64_t b = 0; b < pairs_.n_blocks; ++b) {
+    for (std::int64_t b = 0; b < body_.n_blocks; ++b) {
       Tensor<Lanes> F{};
       for (int k = 0; k < 9; ++k)
         F(k / 3, k % 3) = lanes(0.2) + (k % 4 == 0 ? 1.0 : 0.0);
-      algebra::put_tensor<Dim>(state_.F, b, 0, F, 1);
-      const auto X = physics::deformation_of(algebra::get_tensor<Dim>(state_.F, b, 0, 1));
-      scheme::put_H(state_, b, X.H);
-      state_.J.put(b, 0, X.J - 1.0);
+      algebra::put_tensor<Dim>(body_.F, b, 0, F, 1);
+      const auto X = physics::deformation_of(algebra::get_tensor<Dim>(body_.F, b, 0, 1));
+      scheme::put_H(body_, b, X.H);
+      body_.J.put(b, 0, X.J - 1.0);
       for (int i = 0; i < Dim; ++i)
-        state_.v.put(b, i, lanes(1));
-      for (int k = 0; k < state_.n_branches; ++k) {
+        body_.v.put(b, i, lanes(1));
+      for (int k = 0; k < body_.options.n_branches; ++k) {
         auto A = algebra::symmetric_identity<Lanes>(), S = A;
         for (int i = 0; i < 6; ++i) {
           A.s[i] += lanes(0.2);
           S.s[i] += lanes(0.2);
         }
-        algebra::put_A<Dim>(state_.A, b, k * Layout::n_A, A);
-        algebra::put_S<Dim>(state_.S, b, k * Layout::n_S, S);
+        algebra::put_A<Dim>(body_.A, b, k * Layout::n_A, A);
+        algebra::put_S<Dim>(body_.S, b, k * Layout::n_S, S);
       }
     }
   }
 
   void evaluate() {
-    const auto blocks = pairs_.n_blocks;
+    const auto blocks = body_.n_blocks;
     boundary_.begin_step(0, 1e-3);
-    boundary_.constrain(state_, model_.rho_R, 0.0);
+    boundary_.constrain(body_, 0.0);
     const auto face = scheme::face_correction_sweeps<Dim>();
-    if (kappa_f_ != 0) face.gradients(pairs_, state_, 0, blocks);
-    const scheme::Relaxation frozen;
-    const scheme::StrainRateSweep<Dim, Material> rates{
-        model_,   pairs_,  state_, frozen,          false,          true,
-        kappa_f_, nullptr, 0,      viscous_.data(), least_J_.data()};
-    parallel::for_chunks(blocks, [&](auto b, auto e, auto c) {
-      scheme::StrainRateVersions<Dim, Material>::baseline(rates, b, e, c);
-    });
-    if (kappa_f_ != 0) face.stresses(pairs_, state_, kappa_f_, 0, blocks);
-    const scheme::MomentumSweep<Dim> forces{
-        pairs_, state_, model_.rho_R, 1, false, numerical_.data(), rate_.data()};
-    scheme::sum_forces(forces, scheme::momentum_function<Dim>({}, true));
+    if (kappa_f_ != 0) face.gradients(body_, 0, blocks);
+    scheme::evaluate_strain_rates<Dim>(
+        {body_, material_, {}, true, kappa_f_, nullptr, 0, viscous_.data(), least_J_.data()});
+    if (kappa_f_ != 0) face.stresses(body_, kappa_f_, 0, blocks);
+    scheme::sum_forces<Dim>({body_, 1, false, numerical_.data(), rate_.data()},
+                            scheme::momentum_function<Dim>({}, true));
   }
 
   /// sum m v . a with the accelerations that constraints leave.
@@ -204,12 +207,12 @@ class LoadedBody {
     double power = 0;
     for (std::int64_t a = 0; a < graph_.n_nodes(); ++a) {
       const auto how = prescribed(graph_.X[a]);
-      const double mass = model_.rho_R * graph_.Omega[a];
+      const double mass = material_.rho_R() * graph_.Omega[a];
       for (int i = 0; i < Dim; ++i) {
-        const double acceleration = how[i] == 0   ? state_.T.at(a, i) / mass
+        const double acceleration = how[i] == 0   ? body_.T.at(a, i) / mass
                                     : how[i] == 1 ? 0
                                                   : rate_of_velocity[i];
-        power += mass * state_.v.at(a, i) * acceleration;
+        power += mass * body_.v.at(a, i) * acceleration;
       }
     }
     return power;
@@ -219,31 +222,30 @@ class LoadedBody {
   double strain_rate() const {
     using Layout = algebra::Layout<Dim>;
     double power = 0;
-    for (std::int64_t b = 0; b < pairs_.n_blocks; ++b) {
-      const auto X = scheme::load_deformation(state_, b);
-      const Tensor<Lanes> L = scheme::velocity_gradient(state_, b);
+    for (std::int64_t b = 0; b < body_.n_blocks; ++b) {
+      const auto X = scheme::load_deformation(body_, b);
+      const Tensor<Lanes> L = scheme::velocity_gradient(body_, b);
       const physics::Deformation<Dual> moving{dual(X.F, L), dual(X.H, algebra::cross(X.F, L)),
                                               dual(X.J, algebra::contract(X.H, L))};
-      Dual W = model_.material.energy(moving);
-      for (int k = 0; k < state_.n_branches; ++k) {
-        const auto& branch = model_.branches[k];
-        const auto A = algebra::get_A<Dim>(state_.A, b, k * Layout::n_A);
-        const auto S = algebra::get_S<Dim>(state_.S, b, k * Layout::n_S);
+      Dual W = material_.model().material.energy(moving);
+      for (int k = 0; k < body_.options.n_branches; ++k) {
+        const auto& branch = material_.branches()[k];
+        const auto A = algebra::get_A<Dim>(body_.A, b, k * Layout::n_A);
+        const auto S = algebra::get_S<Dim>(body_.S, b, k * Layout::n_S);
         const physics::BranchState<Dual> relaxing{
             dual(A, (1 / branch.tau_C) * (physics::inverse_C(X) + (-1.0) * A)),
             dual(S, (1 / branch.tau_G) * (physics::inverse_G(X) + (-1.0) * S))};
         W += physics::branch_energy<true>(branch, relaxing, moving);
       }
-      power += algebra::lane_sum(algebra::load(pairs_.Omega.data() + b * n_lanes) * W.d[0]);
+      power += algebra::lane_sum(algebra::load(body_.graph.Omega.data() + b * n_lanes) * W.d[0]);
     }
     return power;
   }
 
   scheme::PairGraph graph_;
-  scheme::SweepGraph<Dim> pairs_;
-  scheme::Model<Material> model_;
+  scheme::CompiledMaterial<Material> material_;
+  scheme::Body<Dim> body_;
   double kappa_f_;
-  scheme::State<Dim> state_;
   size_t chunks_;
   std::vector<double> viscous_ = std::vector<double>(chunks_), least_J_ = viscous_,
                       numerical_ = viscous_, rate_ = viscous_;

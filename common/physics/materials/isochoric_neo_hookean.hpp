@@ -6,6 +6,7 @@
 ///   U = kappa/4 (J^2 - 1 - 2 ln J)           (J U' = kappa/2 (J^2 - 1)).
 /// kappa = lambda + 2 mu/3. Branches scale xi = mu/2 with zeta = 0.
 
+#include "common/physics/moduli.hpp"
 #include "common/physics/response.hpp"
 
 namespace diptych::physics {
@@ -16,6 +17,10 @@ struct IsochoricNeoHookeanFamily {
   static constexpr bool has_W_FJ = true;
   double mu = 0;     ///< Pa
   double kappa = 0;  ///< Pa
+
+  static IsochoricNeoHookeanFamily from(const LameConstants& lame, double) {
+    return {lame.mu, lame.lambda + 2 * lame.mu / 3};
+  }
 
   double branch_xi() const { return 0.5 * mu; }
   double branch_zeta() const { return 0; }

@@ -5,6 +5,7 @@
 /// lambda_hat > 0. NeoHookean is its zeta = 0 limit, without the work of H.
 /// Conjugate stresses (11). Tests: tests/common/physics.
 
+#include "common/physics/moduli.hpp"
 #include "common/physics/response.hpp"
 
 namespace diptych::physics {
@@ -16,6 +17,12 @@ struct MooneyRivlinFamily {
   double xi = 0;          ///< Pa
   double zeta = 0;        ///< Pa
   double lambda_hat = 0;  ///< Pa
+
+  /// @throws base::InputError where the energy would not be polyconvex (moduli.hpp)
+  static MooneyRivlinFamily from(const LameConstants& lame, double zeta_ratio) {
+    const auto p = mooney_rivlin_parameters(lame, with_zeta ? zeta_ratio : 0);
+    return {p.xi, p.zeta, p.lambda_hat};
+  }
 
   /// Moduli that Maxwell branches scale: xi^alpha = beta_C xi, zeta^alpha = beta_G zeta.
   double branch_xi() const { return xi; }

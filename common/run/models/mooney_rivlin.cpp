@@ -1,18 +1,5 @@
 #include "common/physics/materials/mooney_rivlin.hpp"
 
-#include "common/physics/moduli.hpp"
-#include "common/run/model_menu.hpp"
+#include "common/run/models/compile.hpp"
 
-namespace diptych::run {
-
-std::unique_ptr<Solver> make_mooney_rivlin(const cases::Case& setup,
-                                           const scheme::PairGraph& graph,
-                                           SolverSetup solver_setup,
-                                           scheme::AppliedBoundary boundary) {
-  const auto p = physics::mooney_rivlin_parameters(
-      {setup.material.shear_modulus, setup.material.lame}, setup.material.zeta_ratio);
-  const physics::MooneyRivlin material{p.xi, p.zeta, p.lambda_hat};
-  return solver_of(material, setup, graph, std::move(solver_setup), std::move(boundary));
-}
-
-}  // namespace diptych::run
+DIPTYCH_COMPILE_MATERIAL(mooney_rivlin, diptych::physics::MooneyRivlin)

@@ -3,9 +3,9 @@
 /// variables relaxed to the evaluation's time, response with all branches. Shared by the sweep that
 /// feeds the momentum equation, the energy audit and the snapshot.
 
+#include "common/scheme/body/body.hpp"
 #include "common/scheme/body/model.hpp"
 #include "common/scheme/body/relaxation.hpp"
-#include "common/scheme/body/state.hpp"
 
 namespace diptych::scheme {
 
@@ -22,29 +22,30 @@ using physics::Response;
 
 /// dF/dt of block b.
 template <int Dim>
-DIPTYCH_INLINE Tensor<Lanes> velocity_gradient(const State<Dim>& state, std::int64_t b) {
-  return get_tensor<Dim>(state.records, b, NodeRecord<Dim>::L);
+DIPTYCH_INLINE Tensor<Lanes> velocity_gradient(const Body<Dim>& body, std::int64_t b) {
+  return get_tensor<Dim>(body.records, b, NodeRecord<Dim>::L);
 }
 
 /// H of block b, where it is evolved.
 template <int Dim>
-DIPTYCH_INLINE void put_H(State<Dim>& state, std::int64_t b, const Tensor<Lanes>& H) {
-  put_tensor<Dim>(state.records, b, NodeRecord<Dim>::H, H, 1);
-  if constexpr (Dim == 2) state.H_33.put(b, 0, H(2, 2) - 1.0);
+DIPTYCH_INLINE void put_H(Body<Dim>& body, std::int64_t b, const Tensor<Lanes>& H) {
+  put_tensor<Dim>(body.records, b, NodeRecord<Dim>::H, H, 1);
+  if constexpr (Dim == 2) body.H_33.put(b, 0, H(2, 2) - 1.0);
 }
 
 /// {F, H, J} of a block: evolved where they are unknowns, from F otherwise.
 template <int Dim>
-DIPTYCH_INLINE Deformation<Lanes> load_deformation(const State<Dim>& state, std::int64_t b) {
+DIPTYCH_INLINE Deformation<Lanes> load_deformation(const Body<Dim>& body, std::int64_t b) {
   Deformation<Lanes> X;
-  X.F = get_tensor<Dim>(state.F, b, 0, 1);
-  if (state.unknowns == Unknowns::FHJ) {
-    X.H = get_tensor<Dim>(state.records, b, NodeRecord<Dim>::H, 1);
-    if constexpr (Dim == 2) X.H(2, 2) = state.H_33.get(b, 0) + 1.0;
-    X.J = state.J.get(b, 0) + 1.0;
+  X.F = get_tensor<Dim>(body.F, b, 0, 1);
+  if (body.options.unknowns == Unknowns::FHJ) {
+    X.H = get_tensor<Dim>(body.records, b, NodeRecord<Dim>::H, 1);
+    if constexpr (Dim == 2) X.H(2, 2) = body.H_33.get(b, 0) + 1.0;
+    X.J = body.J.get(b, 0) + 1.0;
   } else {
     X.H = algebra::cofactor(X.F);
-    X.J = state.unknowns == Unknowns::FJ ? state.J.get(b, 0) + 1.0 : algebra::determinant(X.F, X.H);
+    X.J = body.options.unknowns == Unknowns::FJ ? body.J.get(b, 0) + 1.0
+                                                : algebra::determinant(X.F, X.H);
   }
   return X;
 }
@@ -56,23 +57,23 @@ struct RelaxationDrive {
 
 /// From the beginning of the step to now: the same for all branches.
 template <int Dim>
-DIPTYCH_INLINE RelaxationDrive linear_drive(const State<Dim>& state,
+DIPTYCH_INLINE RelaxationDrive linear_drive(const Body<Dim>& body,
                                             const physics::RightTensors<Lanes>& now,
                                             std::int64_t b) {
-  const auto begin = physics::right_tensors(get_tensor<Dim>(state.F_0, b, 0, 1));
+  const auto begin = physics::right_tensors(get_tensor<Dim>(body.F_0, b, 0, 1));
   return {begin.inverse_C, now.inverse_C, begin.inverse_G, now.inverse_G};
 }
 
 /// At the times of a Gauss rule.
 template <int Dim>
-DIPTYCH_INLINE RelaxationDrive gauss_drive(const State<Dim>& state,
+DIPTYCH_INLINE RelaxationDrive gauss_drive(const Body<Dim>& body,
                                            const physics::GaussRelaxation& rule,
                                            double dt,
                                            std::int64_t b) {
-  const Tensor<Lanes> F_0 = get_tensor<Dim>(state.F_0, b, 0, 1);
-  const Tensor<Lanes> F = get_tensor<Dim>(state.F, b, 0, 1);
-  const Tensor<Lanes> L_0 = get_tensor<Dim>(state.L_0, b, 0);
-  const Tensor<Lanes> L = velocity_gradient(state, b);
+  const Tensor<Lanes> F_0 = get_tensor<Dim>(body.F_0, b, 0, 1);
+  const Tensor<Lanes> F = get_tensor<Dim>(body.F, b, 0, 1);
+  const Tensor<Lanes> L_0 = get_tensor<Dim>(body.L_0, b, 0);
+  const Tensor<Lanes> L = velocity_gradient(body, b);
   const auto at = [&](double theta) DIPTYCH_INLINE_LAMBDA {
     return physics::right_tensors(physics::hermite(theta, dt, F_0, L_0, F, L));
   };
@@ -80,18 +81,25 @@ DIPTYCH_INLINE RelaxationDrive gauss_drive(const State<Dim>& state,
   return {first.inverse_C, second.inverse_C, first.inverse_G, second.inverse_G};
 }
 
+/// Internal variables of branch k as they are stored.
+template <int Dim, bool has_H>
+DIPTYCH_INLINE BranchState<Lanes> stored_branch(const Body<Dim>& body, std::int64_t b, int k) {
+  using Layout = algebra::Layout<Dim>;
+  BranchState<Lanes> branch;
+  branch.A = algebra::get_A<Dim>(body.A, b, k * Layout::n_A);
+  branch.S = has_H ? algebra::get_S<Dim>(body.S, b, k * Layout::n_S)
+                   : algebra::symmetric_identity<Lanes>();
+  return branch;
+}
+
 /// Internal variables of branch k at the time of the evaluation.
 template <int Dim, bool has_H>
-DIPTYCH_INLINE BranchState<Lanes> relaxed_branch(const State<Dim>& state,
+DIPTYCH_INLINE BranchState<Lanes> relaxed_branch(const Body<Dim>& body,
                                                  const Relaxation& relaxation,
                                                  const RelaxationDrive& linear,
                                                  std::int64_t b,
                                                  int k) {
-  using Layout = algebra::Layout<Dim>;
-  BranchState<Lanes> branch;
-  branch.A = algebra::get_A<Dim>(state.A, b, k * Layout::n_A);
-  branch.S = has_H ? algebra::get_S<Dim>(state.S, b, k * Layout::n_S)
-                   : algebra::symmetric_identity<Lanes>();
+  BranchState<Lanes> branch = stored_branch<Dim, has_H>(body, b, k);
   if (relaxation.rule == Relaxation::Rule::linear) {
     branch.A = physics::relaxed(relaxation.linear_C[k], branch.A, linear.C_first, linear.C_second);
     if constexpr (has_H)
@@ -99,11 +107,11 @@ DIPTYCH_INLINE BranchState<Lanes> relaxed_branch(const State<Dim>& state,
           physics::relaxed(relaxation.linear_G[k], branch.S, linear.G_first, linear.G_second);
   } else if (relaxation.rule == Relaxation::Rule::gauss) {
     const auto& rule_C = relaxation.gauss_C[k];
-    const auto C = gauss_drive(state, rule_C, relaxation.dt, b);
+    const auto C = gauss_drive(body, rule_C, relaxation.dt, b);
     branch.A = physics::relaxed(rule_C, branch.A, C.C_first, C.C_second);
     if constexpr (has_H) {
       const auto& rule_G = relaxation.gauss_G[k];
-      const auto G = gauss_drive(state, rule_G, relaxation.dt, b);
+      const auto G = gauss_drive(body, rule_G, relaxation.dt, b);
       branch.S = physics::relaxed(rule_G, branch.S, G.G_first, G.G_second);
     }
   }
@@ -113,19 +121,20 @@ DIPTYCH_INLINE BranchState<Lanes> relaxed_branch(const State<Dim>& state,
 /// Response of a block with all branches; per branch calls visit(k, branch state, C and G now).
 template <int Dim, class Material, class Visit>
 DIPTYCH_INLINE Response<Lanes> response_of_block(const Model<Material>& model,
-                                                 const State<Dim>& state,
+                                                 const Body<Dim>& body,
                                                  const Relaxation& relaxation,
                                                  const Deformation<Lanes>& X,
                                                  std::int64_t b,
                                                  const Visit& visit) {
   constexpr bool has_H = Material::has_H;
   Response<Lanes> response = model.material.response(X);
-  if (state.n_branches == 0) return response;
+  const int n_branches = body.options.n_branches;
+  if (n_branches == 0) return response;
   const auto now = physics::right_tensors(X.F);
   RelaxationDrive linear;
-  if (relaxation.rule == Relaxation::Rule::linear) linear = linear_drive(state, now, b);
-  for (int k = 0; k < state.n_branches; ++k) {
-    const BranchState<Lanes> branch = relaxed_branch<Dim, has_H>(state, relaxation, linear, b, k);
+  if (relaxation.rule == Relaxation::Rule::linear) linear = linear_drive(body, now, b);
+  for (int k = 0; k < n_branches; ++k) {
+    const BranchState<Lanes> branch = relaxed_branch<Dim, has_H>(body, relaxation, linear, b, k);
     physics::add_branch_response<has_H>(model.branches[k], branch, X, response);
     visit(k, branch, now);
   }

@@ -3,12 +3,18 @@
 
 #include "common/algebra/vectors.hpp"
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace diptych::scheme {
 
 using algebra::Mat3;
 using algebra::Vec3;
+
+class MaterialModel;
+template <int Dim>
+struct Body;
 
 /// Nodal fields in the numbering of the graph.
 struct Snapshot {
@@ -18,5 +24,16 @@ struct Snapshot {
   std::vector<double> J;                ///< -
   std::vector<std::vector<Mat3>> A, S;  ///< [branch][node] C_v^-1, G_v^-1
 };
+
+/// Of these nodes, in this order.
+template <int Dim>
+Snapshot snapshot_of(const MaterialModel& material,
+                     const Body<Dim>& body,
+                     double time,
+                     std::span<const std::int32_t> nodes);
+
+/// Of all nodes.
+template <int Dim>
+Snapshot snapshot_of(const MaterialModel& material, const Body<Dim>& body, double time);
 
 }  // namespace diptych::scheme

@@ -174,47 +174,49 @@ Vec3 AppliedBoundary::rate(size_t k, double fraction) const {
 }
 
 template <int Dim>
-ConstraintAction AppliedBoundary::constrain(State<Dim>& state, double rho_R, double t) {
+ConstraintAction AppliedBoundary::constrain(Body<Dim>& body, double t) {
   const bool at_end = t == step_begin_ + step_, in_middle = t == step_begin_ + 0.5 * step_;
   if (has_velocities_) {
     target_ = step_ > 0 && at_end      ? in_step_[4]
               : step_ > 0 && in_middle ? in_step_[2]
                                        : prescribed(t);
   }
-  ConstraintAction action{overwrite(state, rho_R), 0};
+  ConstraintAction action{overwrite(body), 0};
   if (in_middle && !at_end) {
-    walls_.hold(state, rho_R, action);
+    walls_.hold(body, action);
   } else {
-    walls_.settle(state, rho_R, step_, action);
+    walls_.settle(body, step_, action);
   }
   return action;
 }
 
 template <int Dim>
-ConstraintAction AppliedBoundary::constrain_stage(
-    State<Dim>& state, double rho_R, double alpha, double beta, double dt, double fraction) {
+ConstraintAction AppliedBoundary::constrain_stage(Body<Dim>& body,
+                                                  const StageCombination& stage,
+                                                  double fraction) {
   for (size_t k = 0; has_velocities_ && k < target_.size(); ++k)
-    target_[k] = alpha * in_step_[0][k] + beta * (target_[k] + dt * rate(k, fraction));
-  ConstraintAction action{overwrite(state, rho_R), 0};
-  walls_.hold(state, rho_R, action);
+    target_[k] =
+        stage.alpha * in_step_[0][k] + stage.beta * (target_[k] + stage.dt * rate(k, fraction));
+  ConstraintAction action{overwrite(body), 0};
+  walls_.hold(body, action);
   return action;
 }
 
 template <int Dim>
-Impulse AppliedBoundary::overwrite(State<Dim>& state, double rho_R) const {
+Impulse AppliedBoundary::overwrite(Body<Dim>& body) const {
   const auto n = static_cast<std::int64_t>(constrained_.size());
   std::vector<Impulse> parts(parallel::n_chunks_of(n));
   parallel::for_chunks(n, [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
     for (std::int64_t k = begin; k < end; ++k) {
       const ConstrainedNode& c = constrained_[k];
-      const Vec3 before = vector_at<Dim>(state.v, c.node);
+      const Vec3 before = vector_at<Dim>(body.v, c.node);
       Vec3 after = c.keep * before;
       if (has_velocities_) after += target_[k];
       for (int i = 0; i < Dim; ++i)
-        state.v.set(c.node, i, after[i]);
-      after = vector_at<Dim>(state.v, c.node);  // as the state has it
-      const Vec3 impulse = rho_R * c.Omega * (after - before);
-      const Vec3 x = X_[c.node] + vector_at<Dim>(state.u, c.node);
+        body.v.set(c.node, i, after[i]);
+      after = vector_at<Dim>(body.v, c.node);  // as the state has it
+      const Vec3 impulse = body.options.rho_R * c.Omega * (after - before);
+      const Vec3 x = X_[c.node] + vector_at<Dim>(body.u, c.node);
       parts[chunk].linear += impulse;
       parts[chunk].angular += x.cross(impulse);
     }
@@ -228,7 +230,7 @@ Impulse AppliedBoundary::overwrite(State<Dim>& state, double rho_R) const {
 }
 
 template <int Dim>
-void AppliedBoundary::evaluate_loads(const State<Dim>& state, double t) {
+void AppliedBoundary::evaluate_loads(const Body<Dim>& body, double t) {
   std::fill(forces_.begin(), forces_.end(), Vec3::Zero());
   if (body_force_) {
     for (size_t k = 0; k < loaded_nodes_.size(); ++k) {
@@ -250,7 +252,7 @@ void AppliedBoundary::evaluate_loads(const State<Dim>& state, double t) {
       if (placed.condition->needs_H()) {
         algebra::Tensor<double> F = algebra::identity<double>();
         for (int ij = 0; ij < Dim * Dim; ++ij)
-          F(ij / Dim, ij % Dim) += state.F.at(a, ij);
+          F(ij / Dim, ij % Dim) += body.F.at(a, ij);
         node.H = algebra::to_eigen(algebra::cofactor(F));
       }
       forces_[slot_of_node_[a]] += placed.condition->force(node, t);
@@ -260,69 +262,66 @@ void AppliedBoundary::evaluate_loads(const State<Dim>& state, double t) {
 }
 
 template <int Dim>
-LoadRates AppliedBoundary::add_loads(State<Dim>& state, double t) {
-  if (!loads_are_current_) evaluate_loads(state, t);
+LoadRates AppliedBoundary::add_loads(Body<Dim>& body, double t) {
+  if (!loads_are_current_) evaluate_loads(body, t);
   LoadRates rates;
   for (size_t k = 0; k < loaded_nodes_.size(); ++k) {
     const std::int32_t a = loaded_nodes_[k];
     for (int i = 0; i < Dim; ++i)
-      state.T.add(a, i, forces_[k][i]);
-    rates.power += forces_[k].dot(vector_at<Dim>(state.v, a));
+      body.T.add(a, i, forces_[k][i]);
+    rates.power += forces_[k].dot(vector_at<Dim>(body.v, a));
     rates.force += forces_[k];
-    rates.torque += (X_[a] + vector_at<Dim>(state.u, a)).cross(forces_[k]);
+    rates.torque += (X_[a] + vector_at<Dim>(body.u, a)).cross(forces_[k]);
   }
   return rates;
 }
 
 template <int Dim>
-double AppliedBoundary::power_of_loads(const State<Dim>& state) const {
+double AppliedBoundary::power_of_loads(const Body<Dim>& body) const {
   double power = 0;
   for (size_t k = 0; k < loaded_nodes_.size(); ++k) {
-    power += forces_[k].dot(vector_at<Dim>(state.v, loaded_nodes_[k]));
+    power += forces_[k].dot(vector_at<Dim>(body.v, loaded_nodes_[k]));
   }
   return power;
 }
 
 template <int Dim>
-double AppliedBoundary::power_of_constraints(const State<Dim>& state,
-                                             double rho_R,
-                                             double fraction) const {
+double AppliedBoundary::power_of_constraints(const Body<Dim>& body, double fraction) const {
   if (!has_velocities_) return 0;
   double power = 0;
   for (size_t i = 0; i < constrained_.size(); ++i) {
     const ConstrainedNode& c = constrained_[i];
     if (!c.velocity) continue;
-    const Vec3 v = vector_at<Dim>(state.v, c.node);
-    const Vec3 reaction = rho_R * c.Omega * rate(i, fraction) - vector_at<Dim>(state.T, c.node);
+    const Vec3 v = vector_at<Dim>(body.v, c.node);
+    const Vec3 reaction =
+        body.options.rho_R * c.Omega * rate(i, fraction) - vector_at<Dim>(body.T, c.node);
     power += reaction.dot(v - c.keep * v);
   }
   return power;
 }
 
 template <int Dim>
-Vec3 AppliedBoundary::reaction(const State<Dim>& state,
-                               double rho_R,
+Vec3 AppliedBoundary::reaction(const Body<Dim>& body,
                                const std::vector<std::int32_t>& nodes) const {
-  Vec3 sum = walls_.force(state, nodes);
+  Vec3 sum = walls_.force(body, nodes);
   for (size_t k = 0; k < constrained_.size(); ++k) {
     const ConstrainedNode& c = constrained_[k];
     if (!std::binary_search(nodes.begin(), nodes.end(), c.node)) continue;
-    Vec3 force = -vector_at<Dim>(state.T, c.node);
-    if (c.velocity && step_ > 0) force += rho_R * c.Omega * rate(k, 1);
+    Vec3 force = -vector_at<Dim>(body.T, c.node);
+    if (c.velocity && step_ > 0) force += body.options.rho_R * c.Omega * rate(k, 1);
     sum += force - c.keep * force;
   }
   return sum;
 }
 
 #define DIPTYCH_INSTANTIATE(Dim)                                                                  \
-  template ConstraintAction AppliedBoundary::constrain(State<Dim>&, double, double);              \
-  template ConstraintAction AppliedBoundary::constrain_stage(State<Dim>&, double, double, double, \
-                                                             double, double);                     \
-  template LoadRates AppliedBoundary::add_loads(State<Dim>&, double);                             \
-  template double AppliedBoundary::power_of_loads(const State<Dim>&) const;                       \
-  template double AppliedBoundary::power_of_constraints(const State<Dim>&, double, double) const; \
-  template Vec3 AppliedBoundary::reaction(const State<Dim>&, double,                              \
-                                          const std::vector<std::int32_t>&) const;
+  template ConstraintAction AppliedBoundary::constrain(Body<Dim>&, double);                       \
+  template ConstraintAction AppliedBoundary::constrain_stage(Body<Dim>&, const StageCombination&, \
+                                                             double);                             \
+  template LoadRates AppliedBoundary::add_loads(Body<Dim>&, double);                              \
+  template double AppliedBoundary::power_of_loads(const Body<Dim>&) const;                        \
+  template double AppliedBoundary::power_of_constraints(const Body<Dim>&, double) const;          \
+  template Vec3 AppliedBoundary::reaction(const Body<Dim>&, const std::vector<std::int32_t>&) const;
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)
 #undef DIPTYCH_INSTANTIATE

@@ -3,7 +3,8 @@
 /// projection on the intersection of what is prescribed, loads as forces. Acts on the state after
 /// every stage and on the force field before every update, and tells the audit what it did.
 
-#include "common/scheme/body/state.hpp"
+#include "common/scheme/body/body.hpp"
+#include "common/scheme/body/stage_combination.hpp"
 #include "common/scheme/boundary/boundary_condition.hpp"
 #include "common/scheme/boundary/known_loads.hpp"
 #include "common/scheme/boundary/rigid_wall.hpp"
@@ -46,35 +47,32 @@ class AppliedBoundary {
   /// @return impulse of the constraint forces: sum rho Omega (v after - v before), its moment, and
   ///         the work of impacts
   template <int Dim>
-  ConstraintAction constrain(State<Dim>& state, double rho_R, double t);
+  ConstraintAction constrain(Body<Dim>& body, double t);
 
   /// Overwrites them by what the stage alpha v^n + beta (v + dt v') makes of the rate at the
   /// beginning of the stage (fraction of the step). The exact values at the time of the stage would
   /// differ from what the free nodes have then by O(dt^2), and so strain the body beside them.
   template <int Dim>
-  ConstraintAction constrain_stage(
-      State<Dim>& state, double rho_R, double alpha, double beta, double dt, double fraction);
+  ConstraintAction constrain_stage(Body<Dim>& body, const StageCombination& stage, double fraction);
 
   /// Adds the loads at time t to state.T. @return their power and their force and torque
   template <int Dim>
-  LoadRates add_loads(State<Dim>& state, double t);
+  LoadRates add_loads(Body<Dim>& body, double t);
 
   /// Power of the loads that add_loads put in last, with the velocities as they are now  [W]
   template <int Dim>
-  double power_of_loads(const State<Dim>& state) const;
+  double power_of_loads(const Body<Dim>& body) const;
 
   /// Power of the constraint forces, from the force field (loads included), the velocities as they
   /// are and the acceleration of the prescribed ones at a fraction of the step: 0, 1/2 or 1  [W].
   /// Zero where all prescribed velocities are.
   template <int Dim>
-  double power_of_constraints(const State<Dim>& state, double rho_R, double fraction) const;
+  double power_of_constraints(const Body<Dim>& body, double fraction) const;
 
   /// Force of the constraints on these nodes (ascending), from the force field (loads included):
   /// what keeps their velocities as prescribed, and what walls exert  [N]
   template <int Dim>
-  Vec3 reaction(const State<Dim>& state,
-                double rho_R,
-                const std::vector<std::int32_t>& nodes) const;
+  Vec3 reaction(const Body<Dim>& body, const std::vector<std::int32_t>& nodes) const;
 
  private:
   struct ConstrainedNode {
@@ -107,9 +105,9 @@ class AppliedBoundary {
   std::vector<Vec3> prescribed(double t) const;
   Vec3 rate(size_t k, double fraction) const;
   template <int Dim>
-  Impulse overwrite(State<Dim>& state, double rho_R) const;
+  Impulse overwrite(Body<Dim>& body) const;
   template <int Dim>
-  void evaluate_loads(const State<Dim>& state, double t);
+  void evaluate_loads(const Body<Dim>& body, double t);
 };
 
 }  // namespace diptych::scheme

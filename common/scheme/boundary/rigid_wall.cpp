@@ -42,63 +42,60 @@ void WallContacts::add(const RigidWall& wall, const WallCandidate& candidate) {
 
 /// Sets v_n = 0 by an impulse along the free direction. @return change of the kinetic energy  [J]
 template <int Dim>
-double WallContacts::stop(const WallNode& w,
-                          State<Dim>& state,
-                          double rho_R,
-                          ConstraintAction& action) {
+double WallContacts::stop(const WallNode& w, Body<Dim>& body, ConstraintAction& action) {
   const std::int32_t a = w.body.node;
-  const Vec3 v = vector_at<Dim>(state.v, a);
+  const Vec3 v = vector_at<Dim>(body.v, a);
   const Vec3 wanted = v - v.dot(w.wall.normal) * w.push;
   for (int i = 0; i < Dim; ++i)
-    state.v.set(a, i, wanted[i]);
-  const Vec3 change = vector_at<Dim>(state.v, a) - v;  // as the state has it
-  const Vec3 impulse = rho_R * w.body.Omega * change;
-  const Vec3 x = w.body.X_centred + vector_at<Dim>(state.u, a);
+    body.v.set(a, i, wanted[i]);
+  const Vec3 change = vector_at<Dim>(body.v, a) - v;  // as the state has it
+  const Vec3 impulse = body.options.rho_R * w.body.Omega * change;
+  const Vec3 x = w.body.X_centred + vector_at<Dim>(body.u, a);
   action.impulse.linear += impulse;
   action.impulse.angular += x.cross(impulse);
   return impulse.dot(v + 0.5 * change);
 }
 
 template <int Dim>
-void WallContacts::hold(State<Dim>& state, double rho_R, ConstraintAction& action) const {
+void WallContacts::hold(Body<Dim>& body, ConstraintAction& action) const {
   for (const WallNode& w : nodes_) {
-    if (w.closed) stop(w, state, rho_R, action);
+    if (w.closed) stop(w, body, action);
   }
 }
 
 template <int Dim>
-void WallContacts::settle(State<Dim>& state, double rho_R, double dt, ConstraintAction& action) {
+void WallContacts::settle(Body<Dim>& body, double dt, ConstraintAction& action) {
   for (WallNode& w : nodes_) {
-    const double v_n = vector_at<Dim>(state.v, w.body.node).dot(w.wall.normal);
+    const double v_n = vector_at<Dim>(body.v, w.body.node).dot(w.wall.normal);
     if (w.closed) {
       // began the step with v_n = 0, so the sign of v_n is that of the force
       w.closed = v_n <= 0;
-      if (w.closed) stop(w, state, rho_R, action);
+      if (w.closed) stop(w, body, action);
       continue;
     }
-    const Vec3 x = w.body.X + vector_at<Dim>(state.u, w.body.node);
+    const Vec3 x = w.body.X + vector_at<Dim>(body.u, w.body.node);
     const double gap = (x - w.wall.point).dot(w.wall.normal);
     if (v_n < 0 && gap + 0.5 * v_n * dt <= 0) {
       w.closed = true;
-      action.work += stop(w, state, rho_R, action);
+      action.work += stop(w, body, action);
     }
   }
 }
 
 template <int Dim>
-Vec3 WallContacts::force(const State<Dim>& state, const std::vector<std::int32_t>& nodes) const {
+Vec3 WallContacts::force(const Body<Dim>& body, const std::vector<std::int32_t>& nodes) const {
   Vec3 sum = Vec3::Zero();
   for (const WallNode& w : nodes_) {
     if (!w.closed || !std::binary_search(nodes.begin(), nodes.end(), w.body.node)) continue;
-    sum -= vector_at<Dim>(state.T, w.body.node).dot(w.push) * w.wall.normal;
+    sum -= vector_at<Dim>(body.T, w.body.node).dot(w.push) * w.wall.normal;
   }
   return sum;
 }
 
-#define DIPTYCH_INSTANTIATE(Dim)                                                      \
-  template void WallContacts::hold(State<Dim>&, double, ConstraintAction&) const;     \
-  template void WallContacts::settle(State<Dim>&, double, double, ConstraintAction&); \
-  template Vec3 WallContacts::force(const State<Dim>&, const std::vector<std::int32_t>&) const;
+#define DIPTYCH_INSTANTIATE(Dim)                                             \
+  template void WallContacts::hold(Body<Dim>&, ConstraintAction&) const;     \
+  template void WallContacts::settle(Body<Dim>&, double, ConstraintAction&); \
+  template Vec3 WallContacts::force(const Body<Dim>&, const std::vector<std::int32_t>&) const;
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)
 #undef DIPTYCH_INSTANTIATE

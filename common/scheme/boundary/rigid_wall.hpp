@@ -14,7 +14,7 @@
 /// shortest waves, and a penalty has a stiffness to choose and shortens the stable step.
 /// Test: tests/common/scheme/rigid_wall_test.cpp
 
-#include "common/scheme/body/state.hpp"
+#include "common/scheme/body/body.hpp"
 #include "common/scheme/boundary/boundary_condition.hpp"
 #include "common/scheme/budget/audit.hpp"
 
@@ -42,15 +42,15 @@ class WallContacts {
 
   /// Within a step: closed nodes keep v_n = 0. Adds the impulse.
   template <int Dim>
-  void hold(State<Dim>& state, double rho_R, ConstraintAction& action) const;
+  void hold(Body<Dim>& body, ConstraintAction& action) const;
 
   /// At the end of a step of dt: lets go and catches. Adds impulse and work.
   template <int Dim>
-  void settle(State<Dim>& state, double rho_R, double dt, ConstraintAction& action);
+  void settle(Body<Dim>& body, double dt, ConstraintAction& action);
 
   /// Force of the wall on those of these nodes (ascending) that are closed  [N]
   template <int Dim>
-  Vec3 force(const State<Dim>& state, const std::vector<std::int32_t>& nodes) const;
+  Vec3 force(const Body<Dim>& body, const std::vector<std::int32_t>& nodes) const;
 
  private:
   struct WallNode {
@@ -62,7 +62,7 @@ class WallContacts {
   std::vector<WallNode> nodes_;
 
   template <int Dim>
-  static double stop(const WallNode& w, State<Dim>& state, double rho_R, ConstraintAction& action);
+  static double stop(const WallNode& w, Body<Dim>& body, ConstraintAction& action);
 };
 
 }  // namespace diptych::scheme

@@ -19,36 +19,32 @@ struct Moments {
 };
 
 template <int Dim>
-Vec3 position(const State<Dim>& state, const std::vector<Vec3>& X, std::int64_t a) {
-  Vec3 x = X[a];
+Vec3 position(const Body<Dim>& body, std::int64_t a) {
+  Vec3 x = body.X_centred(a);
   for (int i = 0; i < Dim; ++i)
-    x[i] += state.u.at(a, i);
+    x[i] += body.u.at(a, i);
   return x;
 }
 
 }  // namespace
 
 template <int Dim>
-double project_angular_momentum(State<Dim>& state,
-                                const SweepGraph<Dim>& graph,
-                                const std::vector<Vec3>& X_centred,
-                                double rho_R,
-                                const Vec3& wanted) {
+double project_angular_momentum(Body<Dim>& body, const Vec3& wanted) {
   const auto for_nodes = [&](const auto& work) {
-    parallel::for_chunks(graph.n_blocks,
+    parallel::for_chunks(body.n_blocks,
                          [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
-                           const std::int64_t last = std::min(end * n_lanes, graph.n_nodes);
+                           const std::int64_t last = std::min(end * n_lanes, body.n_owned);
                            for (std::int64_t a = begin * n_lanes; a < last; ++a)
                              work(a, chunk);
                          });
   };
-  std::vector<Moments> parts(parallel::n_chunks_of(graph.n_blocks));
+  std::vector<Moments> parts(parallel::n_chunks_of(body.n_blocks));
   for_nodes([&](std::int64_t a, std::int64_t chunk) {
-    const double m = rho_R * graph.Omega[a];
-    const Vec3 x = position(state, X_centred, a);
+    const double m = body.options.rho_R * body.graph.Omega[a];
+    const Vec3 x = position(body, a);
     Vec3 v = Vec3::Zero();
     for (int i = 0; i < Dim; ++i)
-      v[i] = state.v.at(a, i);
+      v[i] = body.v.at(a, i);
     parts[chunk].mass += m;
     parts[chunk].first += m * x;
     parts[chunk].momentum += m * v;
@@ -76,16 +72,14 @@ double project_angular_momentum(State<Dim>& state,
   const Vec3 spin = sum.angular_momentum - centre.cross(sum.momentum);
   const double gain = lambda.dot(spin) + 0.5 * lambda.dot(missing);
   for_nodes([&](std::int64_t a, std::int64_t) {
-    const Vec3 change = lambda.cross(position(state, X_centred, a) - centre);
+    const Vec3 change = lambda.cross(position(body, a) - centre);
     for (int i = 0; i < Dim; ++i)
-      state.v.add(a, i, change[i]);
+      body.v.add(a, i, change[i]);
   });
   return gain;
 }
 
-template double project_angular_momentum(
-    State<2>&, const SweepGraph<2>&, const std::vector<Vec3>&, double, const Vec3&);
-template double project_angular_momentum(
-    State<3>&, const SweepGraph<3>&, const std::vector<Vec3>&, double, const Vec3&);
+template double project_angular_momentum(Body<2>&, const Vec3&);
+template double project_angular_momentum(Body<3>&, const Vec3&);
 
 }  // namespace diptych::scheme

@@ -3,20 +3,13 @@
 /// mass-weighted norm, that gives a free body a wanted angular momentum and keeps its linear
 /// momentum: v_a += lambda x (x_a - x_c), x_c the centre of mass, lambda = K^-1 (wanted - L).
 
-#include "common/scheme/body/state.hpp"
-#include "common/scheme/graph/sweep_graph.hpp"
-
-#include <vector>
+#include "common/scheme/body/body.hpp"
 
 namespace diptych::scheme {
 
 /// @param wanted  N m s, about the initial centroid
 /// @return        change of the kinetic energy  [J]
 template <int Dim>
-double project_angular_momentum(State<Dim>& state,
-                                const SweepGraph<Dim>& graph,
-                                const std::vector<Vec3>& X_centred,
-                                double rho_R,
-                                const Vec3& wanted);
+double project_angular_momentum(Body<Dim>& body, const Vec3& wanted);
 
 }  // namespace diptych::scheme

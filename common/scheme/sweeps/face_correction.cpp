@@ -1,6 +1,7 @@
 #include "common/scheme/sweeps/face_correction.hpp"
 
-#include "common/scheme/sweeps/strain_rates.hpp"
+#include "common/algebra/versions.hpp"
+#include "common/scheme/sweeps/strain_sum.hpp"
 
 #include <cmath>
 
@@ -10,38 +11,31 @@ namespace {
 
 /// Uncorrected rates of blocks [begin, end), to where neighbours gather them.
 template <InstructionSet isa, int Dim>
-DIPTYCH_INLINE void plain_gradients(const SweepGraph<Dim>& graph,
-                                    State<Dim>& state,
-                                    std::int64_t begin,
-                                    std::int64_t end) {
-  const algebra::FlushToZero flush(state.shape.single);
+DIPTYCH_INLINE void plain_gradients(Body<Dim>& body, std::int64_t begin, std::int64_t end) {
+  const algebra::FlushToZero flush(body.is_single());
   for (std::int64_t b = begin; b < end; ++b) {
     Lanes L[Dim * Dim];
-    strain_rates_of_block<isa>(graph, state, b, L);
-    state.gradients.template put_each<Dim * Dim>(b, 0,
-                                                 [&](int k) DIPTYCH_INLINE_LAMBDA { return L[k]; });
+    strain_rates_of_block<isa>(body, b, L);
+    body.gradients.template put_each<Dim * Dim>(b, 0,
+                                                [&](int k) DIPTYCH_INLINE_LAMBDA { return L[k]; });
   }
 }
 
 template <int Dim>
 struct GradientKernel {
   template <InstructionSet isa>
-  DIPTYCH_INLINE static void run(const SweepGraph<Dim>& graph,
-                                 State<Dim>& state,
-                                 std::int64_t begin,
-                                 std::int64_t end) {
-    plain_gradients<isa>(graph, state, begin, end);
+  DIPTYCH_INLINE static void run(Body<Dim>& body, std::int64_t begin, std::int64_t end) {
+    plain_gradients<isa>(body, begin, end);
   }
 };
 template <int Dim>
 struct StressKernel {
   template <InstructionSet isa>
-  DIPTYCH_INLINE static void run(const SweepGraph<Dim>& graph,
-                                 State<Dim>& state,
+  DIPTYCH_INLINE static void run(Body<Dim>& body,
                                  double kappa_f,
                                  std::int64_t begin,
                                  std::int64_t end) {
-    correct_stresses<isa>(graph, state, kappa_f, begin, end);
+    correct_stresses<isa>(body, kappa_f, begin, end);
   }
 };
 
@@ -60,9 +54,8 @@ FaceCorrectionSweeps<Dim> face_correction_sweeps() {
   using algebra::version_here;
   using algebra::Versions;
   using Index = std::int64_t;
-  using Graph = const SweepGraph<Dim>&;
-  return {version_here<Versions<GradientKernel<Dim>, Graph, State<Dim>&, Index, Index>>(),
-          version_here<Versions<StressKernel<Dim>, Graph, State<Dim>&, double, Index, Index>>()};
+  return {version_here<Versions<GradientKernel<Dim>, Body<Dim>&, Index, Index>>(),
+          version_here<Versions<StressKernel<Dim>, Body<Dim>&, double, Index, Index>>()};
 }
 
 template FaceCorrectionSweeps<2> face_correction_sweeps<2>();

@@ -10,7 +10,7 @@
 /// order on a lattice; 1/8: exact face values of quadratics. Test:
 /// tests/common/scheme/face_correction_test.cpp.
 
-#include "common/scheme/body/state.hpp"
+#include "common/scheme/body/body.hpp"
 #include "common/scheme/sweeps/pair_access.hpp"
 
 namespace diptych::scheme {
@@ -98,17 +98,16 @@ DIPTYCH_INLINE void corrected_block(const SweepGraph<Dim>& graph,
 
 /// Records of the nodes of blocks [begin, end): P <- P' from state.stresses.
 template <InstructionSet isa, int Dim>
-DIPTYCH_INLINE void correct_stresses(const SweepGraph<Dim>& graph,
-                                     State<Dim>& state,
+DIPTYCH_INLINE void correct_stresses(Body<Dim>& body,
                                      double kappa_f,
                                      std::int64_t begin,
                                      std::int64_t end) {
-  const algebra::FlushToZero flush(state.shape.single);
+  const algebra::FlushToZero flush(body.is_single());
   for (std::int64_t b = begin; b < end; ++b) {
     Lanes P[Dim * Dim];
-    corrected_block<isa, Side::stress>(graph, state.stresses, kappa_f, b, P);
-    state.records.template put_each<Dim * Dim>(b, NodeRecord<Dim>::P,
-                                               [&](int k) DIPTYCH_INLINE_LAMBDA { return P[k]; });
+    corrected_block<isa, Side::stress>(body.graph, body.stresses, kappa_f, b, P);
+    body.records.template put_each<Dim * Dim>(b, NodeRecord<Dim>::P,
+                                              [&](int k) DIPTYCH_INLINE_LAMBDA { return P[k]; });
   }
 }
 
@@ -120,16 +119,9 @@ double frequency_factor(double kappa_f);
 template <int Dim>
 struct FaceCorrectionSweeps {
   /// state.gradients <- dF/dt without correction, before the strain-rate sweep
-  void (*gradients)(const SweepGraph<Dim>& graph,
-                    State<Dim>& state,
-                    std::int64_t begin,
-                    std::int64_t end);
+  void (*gradients)(Body<Dim>& body, std::int64_t begin, std::int64_t end);
   /// P of the records <- P', before the momentum sweep
-  void (*stresses)(const SweepGraph<Dim>& graph,
-                   State<Dim>& state,
-                   double kappa_f,
-                   std::int64_t begin,
-                   std::int64_t end);
+  void (*stresses)(Body<Dim>& body, double kappa_f, std::int64_t begin, std::int64_t end);
 };
 
 /// For this processor.

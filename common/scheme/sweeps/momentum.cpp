@@ -43,9 +43,9 @@ void work_segment(const MomentumSweep<Dim>& sweep,
 }
 
 template <int Dim>
-void clear_sums(State<Dim>& state, std::int64_t begin, std::int64_t end) {
-  const std::int64_t stride = state.T.component_stride();
-  state.T.visit([&](auto* sums) {
+void clear_sums(Body<Dim>& body, std::int64_t begin, std::int64_t end) {
+  const std::int64_t stride = body.T.component_stride();
+  body.T.visit([&](auto* sums) {
     for (int c = 0; c <= Dim; ++c)
       std::fill(sums + c * stride + begin * n_lanes, sums + c * stride + end * n_lanes, 0);
   });
@@ -56,14 +56,14 @@ template <int Dim>
 DIPTYCH_CLONES void use_sums(const MomentumSweep<Dim>& sweep,
                              std::int64_t begin,
                              std::int64_t end) {
-  State<Dim>& state = sweep.state;
-  const algebra::FlushToZero flush(state.shape.single);
+  Body<Dim>& body = sweep.body;
+  const algebra::FlushToZero flush(body.is_single());
   for (std::int64_t b = begin; b < end; ++b) {
     for (int i = 0; i < Dim; ++i)
-      state.T.put(b, i, 0.5 * state.T.get(b, i));
+      body.T.put(b, i, 0.5 * body.T.get(b, i));
     if (!sweep.with_bound) continue;
-    const Lanes rate = (0.5 / sweep.rho_R) * state.T.get(b, Dim) *
-                       algebra::load(sweep.graph.inverse_Omega.data() + b * n_lanes);
+    const Lanes rate = (0.5 / sweep.body.options.rho_R) * body.T.get(b, Dim) *
+                       algebra::load(sweep.body.graph.inverse_Omega.data() + b * n_lanes);
     double& largest = sweep.largest_rate[b / parallel::chunk_size];
     for (int lane = 0; lane < n_lanes; ++lane)
       largest = algebra::larger(largest, rate[lane]);
@@ -72,12 +72,12 @@ DIPTYCH_CLONES void use_sums(const MomentumSweep<Dim>& sweep,
 
 template <int Dim>
 void sum_forces_of_runs(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> momentum) {
-  const std::int64_t n = sweep.graph.n_blocks, length = sweep.graph.mutual.segment;
+  const std::int64_t n = sweep.body.graph.n_blocks, length = sweep.body.graph.mutual.segment;
   const std::int64_t n_segments = (n + length - 1) / length;
   const auto begin = [&](std::int64_t segment) { return std::min(n, segment * length); };
   parallel::for_shares((n_segments + 1) / 2, [&](std::int64_t i) {
     const std::int64_t s = 2 * i;
-    clear_sums(sweep.state, begin(s), begin(s + 2));
+    clear_sums(sweep.body, begin(s), begin(s + 2));
     work_segment(sweep, momentum, begin(s), begin(s + 1));
     if (s == 0) use_sums(sweep, begin(0), begin(1));
   });
@@ -92,11 +92,11 @@ void sum_forces_of_runs(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> m
 
 template <int Dim>
 void sum_forces(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> momentum) {
-  if (sweep.graph.shape.arrangement == Arrangement::runs) {
+  if (sweep.body.graph.shape.arrangement == Arrangement::runs) {
     sum_forces_of_runs(sweep, momentum);
     return;
   }
-  parallel::for_chunks(sweep.graph.n_blocks, [&](auto begin, auto end, auto chunk) {
+  parallel::for_chunks(sweep.body.graph.n_blocks, [&](auto begin, auto end, auto chunk) {
     momentum(sweep, begin, end, chunk);
   });
 }

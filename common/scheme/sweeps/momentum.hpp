@@ -17,18 +17,15 @@
 /// rows, about 90 for both directions in runs, on 280 bytes of the neighbour; geometry at most 44
 /// bytes of a directed pair in rows, 26 in runs.
 
-#include "common/scheme/body/state.hpp"
+#include "common/scheme/body/body.hpp"
 #include "common/scheme/dissipation/dissipation.hpp"
-#include "common/scheme/graph/sweep_graph.hpp"
 
 namespace diptych::scheme {
 
 /// Arguments and results of the sweep.
 template <int Dim>
 struct MomentumSweep {
-  const SweepGraph<Dim>& graph;
-  State<Dim>& state;
-  double rho_R;
+  Body<Dim>& body;
   double factor;    ///< multiplies D_ab
   bool with_bound;  ///< fill largest_rate
   // results, one per chunk of parallel::for_chunks

@@ -12,7 +12,7 @@ DIPTYCH_INLINE auto sums_of_node(const MomentumSweep<Dim>& sweep, std::int64_t a
   using Record = NodeRecord<Dim>;
   constexpr bool exact = kind.impedance == Impedance::exact;
   constexpr auto rows = Arrangement::rows;
-  const SweepGraph<Dim>& graph = sweep.graph;
+  const SweepGraph<Dim>& graph = sweep.body.graph;
   const PairArea* area = graph.area.data() + graph.first[a];
   FaceCursor<Dim> geometry(graph, graph.first[a]);
   NodeSums<Dim, T> sums;
@@ -20,29 +20,27 @@ DIPTYCH_INLINE auto sums_of_node(const MomentumSweep<Dim>& sweep, std::int64_t a
     prefetch(area + chunks_ahead);
     const auto pairs =
         pairs_of<isa, rows, Real, Record::n_row(exact), Record::template stride<Real>(exact)>(
-            graph, sweep.state.records, a, chunk);
+            graph, sweep.body.records, a, chunk);
     const auto positions = vector_pairs_of<isa, rows, Real>(graph, graph.X, a, chunk);
-    PairFace<Dim, T> face;
-    face.area = algebra::load_as<T>(area->area);
+    PairGeometry<Dim, T> pair;
+    pair.area = algebra::load_as<T>(area->area);
     T C_ba[Dim], S_ab[Dim];
     geometry.next(S_ab, C_ba);
-    for (int i = 0; i < Dim; ++i)
-      face.S[i] = S_ab[i];
-    const Vector<T> plain = plain_jump<Dim>(pairs, Record::v(exact));
-    const Vector<T> D = dissipation_of<Dim, kind, has_H>(sweep, face, pairs, positions, plain);
-#pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i) {
-      T PC{};
-#pragma GCC unroll 3
-      for (int j = 0; j < Dim; ++j)
-        PC += pairs.neighbour(Record::P + i * Dim + j) * C_ba[j];
-      sums.force[i] += D[i] - PC;
-      sums.power += plain[i] * D[i];
+      pair.S[i] = S_ab[i];
+      pair.C_ba[i] = C_ba[i];
     }
+    const Vector<T> plain = plain_jump<Dim>(pairs, Record::v(exact));
+    const auto of_pairs =
+        pair_forces<Dim, kind, has_H, Stresses::of_neighbour>(sweep, pair, pairs, positions, plain);
+#pragma GCC unroll 3
+    for (int i = 0; i < Dim; ++i)
+      sums.force[i] += of_pairs.force[i];
+    sums.power += of_pairs.power;
     if (sweep.with_bound) {
       Vector<T> C_ab{};
       for (int i = 0; i < Dim; ++i)
-        C_ab[i] = 2.0 * face.S[i] + C_ba[i];
+        C_ab[i] = 2.0 * pair.S[i] + C_ba[i];
       sums.rate += rate_of<Dim, T>(C_ab, pairs);
     }
   }
@@ -56,7 +54,7 @@ DIPTYCH_INLINE double forces_on_block(const MomentumSweep<Dim>& sweep,
                                       std::int64_t b,
                                       double& largest_rate) {
   using Record = NodeRecord<Dim>;
-  const SweepGraph<Dim>& graph = sweep.graph;
+  const SweepGraph<Dim>& graph = sweep.body.graph;
   NodeSums<Dim, Lanes> sums;
   for (int lane = 0; lane < n_lanes; ++lane) {
     const auto of_node = sums_of_node<isa, Real, Dim, kind, has_H>(sweep, b * n_lanes + lane);
@@ -68,13 +66,13 @@ DIPTYCH_INLINE double forces_on_block(const MomentumSweep<Dim>& sweep,
   for (int i = 0; i < Dim; ++i) {
     Lanes PC{};
     for (int j = 0; j < Dim; ++j) {
-      PC += sweep.state.records.get(b, Record::P + i * Dim + j) * graph.C_sum.get(b, j);
+      PC += sweep.body.records.get(b, Record::P + i * Dim + j) * graph.C_sum.get(b, j);
     }
-    sweep.state.T.put(b, i, 0.5 * (PC + sums.force[i]));
+    sweep.body.T.put(b, i, 0.5 * (PC + sums.force[i]));
   }
   if (sweep.with_bound) {
-    const Lanes rate =
-        (0.5 / sweep.rho_R) * sums.rate * algebra::load(graph.inverse_Omega.data() + b * n_lanes);
+    const Lanes rate = (0.5 / sweep.body.options.rho_R) * sums.rate *
+                       algebra::load(graph.inverse_Omega.data() + b * n_lanes);
     for (int lane = 0; lane < n_lanes; ++lane)
       largest_rate = algebra::larger(largest_rate, rate[lane]);
   }

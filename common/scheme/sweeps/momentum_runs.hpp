@@ -11,13 +11,6 @@ DIPTYCH_INLINE void add_to(algebra::Element<T>* sums, const T& value) {
   algebra::store(sums, algebra::load_as<T>(sums) + value);
 }
 
-/// Geometry of a chunk of one block, or of two blocks side by side.
-template <int Dim, class T>
-struct MutualFaces {
-  Vector<T> C_ab{}, C_ba{};
-  T area;
-};
-
 /// A block whose pairs with nodes above it are being worked; of WideSingles two blocks, whose pairs
 /// are at the same offsets.
 template <int Dim, class T>
@@ -37,29 +30,31 @@ struct WorkedBlock {
 };
 
 template <int Dim, class T>
-DIPTYCH_INLINE void next_faces(typename GeometryArray<MutualGeometry, Dim>::Cursor (&geometry)[1],
-                               MutualFaces<Dim, T>& faces) {
+DIPTYCH_INLINE void next_geometry(
+    typename GeometryArray<MutualGeometry, Dim>::Cursor (&geometry)[1],
+    PairGeometry<Dim, T>& pair) {
   geometry[0].next([&](const auto& of_chunk) DIPTYCH_INLINE_LAMBDA {
-    faces.area = algebra::load_as<T>(of_chunk.area);
+    pair.area = algebra::load_as<T>(of_chunk.area);
     for (int i = 0; i < Dim; ++i) {
-      faces.C_ab[i] = algebra::load_as<T>(of_chunk.C_ab[i]);
-      faces.C_ba[i] = algebra::load_as<T>(of_chunk.C_ba[i]);
+      pair.C_ab[i] = algebra::load_as<T>(of_chunk.C_ab[i]);
+      pair.C_ba[i] = algebra::load_as<T>(of_chunk.C_ba[i]);
     }
   });
 }
 template <int Dim>
-DIPTYCH_INLINE void next_faces(typename GeometryArray<MutualGeometry, Dim>::Cursor (&geometry)[2],
-                               MutualFaces<Dim, algebra::WideSingles>& faces) {
-  MutualFaces<Dim, algebra::SingleLanes> half[2];
+DIPTYCH_INLINE void next_geometry(
+    typename GeometryArray<MutualGeometry, Dim>::Cursor (&geometry)[2],
+    PairGeometry<Dim, algebra::WideSingles>& pair) {
+  PairGeometry<Dim, algebra::SingleLanes> half[2];
   for (int k = 0; k < 2; ++k) {
     typename GeometryArray<MutualGeometry, Dim>::Cursor one[1] = {geometry[k]};
-    next_faces(one, half[k]);
+    next_geometry(one, half[k]);
     geometry[k] = one[0];
   }
-  faces.area = algebra::joined(half[0].area, half[1].area);
+  pair.area = algebra::joined(half[0].area, half[1].area);
   for (int i = 0; i < Dim; ++i) {
-    faces.C_ab[i] = algebra::joined(half[0].C_ab[i], half[1].C_ab[i]);
-    faces.C_ba[i] = algebra::joined(half[0].C_ba[i], half[1].C_ba[i]);
+    pair.C_ab[i] = algebra::joined(half[0].C_ab[i], half[1].C_ab[i]);
+    pair.C_ba[i] = algebra::joined(half[0].C_ba[i], half[1].C_ba[i]);
   }
 }
 
@@ -69,42 +64,33 @@ DIPTYCH_INLINE void work_chunks(const MomentumSweep<Dim>& sweep,
                                 std::int64_t n,
                                 WorkedBlock<Dim, T>& block) {
   using Real = algebra::Element<T>;
-  using Record = NodeRecord<Dim>;
-  const SweepGraph<Dim>& graph = sweep.graph;
-  const std::int64_t stride = sweep.state.T.component_stride();
-  Real* const own_sums = sweep.state.T.template origin<Real>() + block.b * n_lanes;
+  const SweepGraph<Dim>& graph = sweep.body.graph;
+  const std::int64_t stride = sweep.body.T.component_stride();
+  Real* const own_sums = sweep.body.T.template origin<Real>() + block.b * n_lanes;
   WorkedBlock<Dim, T> work = block;
   NodeSums<Dim, T>& sums = work.sums;
   const std::int64_t end = work.chunk + n;
   for (; work.chunk < end; ++work.chunk) {
     const std::int64_t offset = graph.mutual.offset.data()[work.chunk];
-    const RunPairs<T> pairs(sweep.state.records, work.b, offset);
+    const RunPairs<T> pairs(sweep.body.records, work.b, offset);
     const RunPairs<T> positions(graph.X, work.b, offset);
-    MutualFaces<Dim, T> faces;
-    next_faces(work.geometry, faces);
-    PairFace<Dim, T> face;
-    face.area = faces.area;
+    PairGeometry<Dim, T> pair;
+    next_geometry(work.geometry, pair);
     for (int i = 0; i < Dim; ++i)
-      face.S[i] = faces.C_ab[i] - faces.C_ba[i];
-    const Vector<T> plain = plain_jump<Dim>(RunPairs<T>(sweep.state.v, work.b, offset), 0);
-    const Vector<T> D = dissipation_of<Dim, kind, has_H>(sweep, face, pairs, positions, plain);
+      pair.S[i] = pair.C_ab[i] - pair.C_ba[i];
+    const Vector<T> plain = plain_jump<Dim>(RunPairs<T>(sweep.body.v, work.b, offset), 0);
+    const auto of_pairs =
+        pair_forces<Dim, kind, has_H, Stresses::both>(sweep, pair, pairs, positions, plain);
     Real* const their_sums = own_sums + offset;
 #pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i) {
-      T force = D[i];
-#pragma GCC unroll 3
-      for (int j = 0; j < Dim; ++j) {
-        const int ij = Record::P + i * Dim + j;
-        force += pairs.own(ij) * faces.C_ab[j];
-        force -= pairs.neighbour(ij) * faces.C_ba[j];
-      }
-      sums.force[i] += force;
-      add_to<T>(their_sums + i * stride, -force);
-      sums.power += plain[i] * D[i];
+      sums.force[i] += of_pairs.force[i];
+      add_to<T>(their_sums + i * stride, -of_pairs.force[i]);
     }
+    sums.power += of_pairs.power;
     if (sweep.with_bound) {
-      sums.rate += rate_of<Dim, T>(faces.C_ab, pairs);
-      add_to<T>(their_sums + Dim * stride, rate_of<Dim, T>(faces.C_ba, pairs));
+      sums.rate += rate_of<Dim, T>(pair.C_ab, pairs);
+      add_to<T>(their_sums + Dim * stride, rate_of<Dim, T>(pair.C_ba, pairs));
     }
   }
   block = work;
@@ -139,7 +125,7 @@ DIPTYCH_INLINE double add_forces_of_blocks(const MomentumSweep<Dim>& sweep,
                                            int n_blocks) {
   using Real = algebra::Element<T>;
   using Worked = WorkedBlock<Dim, T>;
-  const MutualPairs<Dim>& mutual = sweep.graph.mutual;
+  const MutualPairs<Dim>& mutual = sweep.body.graph.mutual;
   const int n = n_blocks / Worked::n_blocks;
   Worked blocks[most_blocks_together / Worked::n_blocks];
   for (int k = 0; k < n; ++k)
@@ -151,10 +137,10 @@ DIPTYCH_INLINE double add_forces_of_blocks(const MomentumSweep<Dim>& sweep,
       work_chunks<T, Dim, kind, has_H>(sweep, n_chunks, blocks[k]);
   }
   double power = 0;
-  const std::int64_t stride = sweep.state.T.component_stride();
+  const std::int64_t stride = sweep.body.T.component_stride();
   for (int k = 0; k < n; ++k) {
     const NodeSums<Dim, T>& sums = blocks[k].sums;
-    Real* const own_sums = sweep.state.T.template origin<Real>() + blocks[k].b * n_lanes;
+    Real* const own_sums = sweep.body.T.template origin<Real>() + blocks[k].b * n_lanes;
     for (int i = 0; i < Dim; ++i)
       add_to<T>(own_sums + i * stride, sums.force[i]);
     if (sweep.with_bound) add_to<T>(own_sums + Dim * stride, sums.rate);
@@ -167,15 +153,15 @@ DIPTYCH_INLINE double add_forces_of_blocks(const MomentumSweep<Dim>& sweep,
 /// neighbours that has left the second cache.
 template <class Real, int Dim, bool exact>
 DIPTYCH_INLINE void prefetch_layers(const MomentumSweep<Dim>& sweep, std::int64_t b, int n_blocks) {
-  const MutualPairs<Dim>& mutual = sweep.graph.mutual;
+  const MutualPairs<Dim>& mutual = sweep.body.graph.mutual;
   const std::int64_t last = mutual.row[b + 1];
   for (std::int64_t c = mutual.row[b]; c < last; ++c) {
     const std::int64_t offset = mutual.offset.data()[c];
     if (c + 1 < last && mutual.offset.data()[c + 1] - offset < far_apart) continue;
     for (int k = 0; k < n_blocks; ++k) {
-      prefetch_ahead<Real, NodeRecord<Dim>::n(exact)>(sweep.state.records, b + k, offset);
-      prefetch_ahead<Real, Dim>(sweep.state.v, b + k, offset);
-      prefetch_ahead<Real, Dim>(sweep.graph.X, b + k, offset);
+      prefetch_ahead<Real, NodeRecord<Dim>::n(exact)>(sweep.body.records, b + k, offset);
+      prefetch_ahead<Real, Dim>(sweep.body.v, b + k, offset);
+      prefetch_ahead<Real, Dim>(sweep.body.graph.X, b + k, offset);
     }
   }
 }
@@ -186,7 +172,7 @@ template <class Real, int Dim, DissipationKind kind, bool has_H>
 DIPTYCH_INLINE double add_forces_of_next(const MomentumSweep<Dim>& sweep,
                                          std::int64_t& b,
                                          std::int64_t end) {
-  const MutualPairs<Dim>& mutual = sweep.graph.mutual;
+  const MutualPairs<Dim>& mutual = sweep.body.graph.mutual;
   int n_blocks = 1;
   while (n_blocks < most_blocks_together && b + n_blocks < end &&
          same_offsets(mutual.row, mutual.offset, b + n_blocks - 1))

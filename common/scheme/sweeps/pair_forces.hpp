@@ -75,11 +75,12 @@ DIPTYCH_INLINE Vector<T> reconstructed_jump(const Vector<T>& plain,
   return jump;
 }
 
-/// What the dissipation of eight pairs needs of their geometry; the length of S is free.
+/// Geometry of eight pairs.
 template <int Dim, class T>
-struct PairFace {
-  Vector<T> S{};  ///< along S_ab
-  T area;         ///< m^2, |S_ab|
+struct PairGeometry {
+  Vector<T> C_ab{}, C_ba{};  ///< m^2; C_ab only where a pair is worked for both of its nodes
+  Vector<T> S{};             ///< along S_ab; its length is free
+  T area;                    ///< m^2, |S_ab|
 };
 
 /// 2 D_ab of eight pairs.
@@ -88,7 +89,7 @@ struct PairFace {
 /// @param plain      v_b - v_a
 template <int Dim, DissipationKind kind, bool has_H, class Pairs, class Positions, class T>
 DIPTYCH_INLINE Vector<T> dissipation_of(const MomentumSweep<Dim>& sweep,
-                                        const PairFace<Dim, T>& face,
+                                        const PairGeometry<Dim, T>& pair,
                                         const Pairs& pairs,
                                         const Positions& positions,
                                         const Vector<T>& plain) {
@@ -97,11 +98,11 @@ DIPTYCH_INLINE Vector<T> dissipation_of(const MomentumSweep<Dim>& sweep,
   Slopes<Dim, T> slopes;
 #pragma GCC unroll 3
   for (int i = 0; i < Dim; ++i) {
-    h[i] = face.S[i] + face.S[i];  // records hold H - I
+    h[i] = pair.S[i] + pair.S[i];  // records hold H - I
 #pragma GCC unroll 3
     for (int j = 0; j < Dim; ++j) {
       const int ij = i * Dim + j;
-      h[i] += (pairs.neighbour(Record::H + ij) + pairs.own(Record::H + ij)) * face.S[j];
+      h[i] += (pairs.neighbour(Record::H + ij) + pairs.own(Record::H + ij)) * pair.S[j];
       if constexpr (kind.reconstruction == Reconstruction::linear) {
         const T X = positions.neighbour(j) - positions.own(j);
         if constexpr (limits_slopes(kind.limiter)) {
@@ -125,18 +126,58 @@ DIPTYCH_INLINE Vector<T> dissipation_of(const MomentumSweep<Dim>& sweep,
     mean_state<Dim>(pairs, response, X);
     Lanes S2{};
     for (int i = 0; i < Dim; ++i)
-      S2 += face.S[i] * face.S[i];
+      S2 += pair.S[i] * pair.S[i];
     const Lanes inverse = algebra::inverse_or_zero(algebra::square_root(S2));
     Vector<Lanes> N{};
     for (int i = 0; i < Dim; ++i)
-      N[i] = face.S[i] * inverse;
-    if constexpr (Dim == 2) N[1] = face.area > 0 ? N[1] : Lanes{};
-    N[0] = face.area > 0 ? N[0] : Lanes{} + 1.0;  // padding: any unit vector, its area is zero
-    D = algebra::product(physics::impedance<has_H>(response, X, sweep.rho_R, N), jump);
+      N[i] = pair.S[i] * inverse;
+    if constexpr (Dim == 2) N[1] = pair.area > 0 ? N[1] : Lanes{};
+    N[0] = pair.area > 0 ? N[0] : Lanes{} + 1.0;  // padding: any unit vector, its area is zero
+    D = algebra::product(physics::impedance<has_H>(response, X, sweep.body.options.rho_R, N), jump);
   }
   for (int i = 0; i < Dim; ++i)
-    D[i] *= static_cast<algebra::Element<T>>(sweep.factor) * face.area;
+    D[i] *= static_cast<algebra::Element<T>>(sweep.factor) * pair.area;
   return D;
+}
+
+/// Forces of eight pairs on their nodes a.
+template <int Dim, class T>
+struct PairForces {
+  Vector<T> force{};  ///< 2 f_ab  [N]
+  T power{};          ///< 2 (v_b - v_a) . D_ab  [W]
+};
+
+/// Which stresses a pair force is made of: rows add P_a sum_b C_ab once for all pairs of a node.
+enum class Stresses { both, of_neighbour };
+
+/// The pair force of (18a) with the dissipation, for eight pairs:
+///   2 f_ab = P_a C_ab - P_b C_ba + 2 D_ab,  f_ba = -f_ab.
+template <int Dim,
+          DissipationKind kind,
+          bool has_H,
+          Stresses which,
+          class Pairs,
+          class Positions,
+          class T>
+DIPTYCH_INLINE PairForces<Dim, T> pair_forces(const MomentumSweep<Dim>& sweep,
+                                              const PairGeometry<Dim, T>& pair,
+                                              const Pairs& pairs,
+                                              const Positions& positions,
+                                              const Vector<T>& plain) {
+  const Vector<T> D = dissipation_of<Dim, kind, has_H>(sweep, pair, pairs, positions, plain);
+  PairForces<Dim, T> f;
+#pragma GCC unroll 3
+  for (int i = 0; i < Dim; ++i) {
+    f.force[i] = D[i];
+#pragma GCC unroll 3
+    for (int j = 0; j < Dim; ++j) {
+      const int ij = NodeRecord<Dim>::P + i * Dim + j;
+      if constexpr (which == Stresses::both) f.force[i] += pairs.own(ij) * pair.C_ab[j];
+      f.force[i] -= pairs.neighbour(ij) * pair.C_ba[j];
+    }
+    f.power += plain[i] * D[i];
+  }
+  return f;
 }
 
 /// |C| max(z_p,a, z_p,b) of eight pairs.

@@ -5,21 +5,13 @@
 /// Rates: (18a) as T / (rho_R Omega), (18b) as L, (18c) dH/dt = F x L, (18d) dJ/dt = H : L.
 
 #include "common/scheme/body/pointwise.hpp"
-#include "common/scheme/graph/sweep_graph.hpp"
+#include "common/scheme/body/stage_combination.hpp"
 
 namespace diptych::scheme {
 
-struct StageCombination {
-  double alpha = 0, beta = 1;
-  double dt = 0;       ///< s
-  bool first = false;  ///< U_0 <- U before the update
-};
-
 /// v and u of a stage.
 template <int Dim>
-void update_motion(State<Dim>& state,
-                   const SweepGraph<Dim>& graph,
-                   double rho_R,
+void update_motion(Body<Dim>& body,
                    const StageCombination& stage,
                    std::int64_t begin,
                    std::int64_t end);
@@ -28,8 +20,8 @@ void update_motion(State<Dim>& state,
 /// q_0 + beta (q - q_0 + dt rate): what does not change stays the same to the last bit, and
 /// momentum gathers no rounding.
 /// @param rate  of component k < n: rate(k)
-template <int n, class Field, class Rate>
-DIPTYCH_INLINE void combine(Field& q,
+template <int n, class Storage, class Rate>
+DIPTYCH_INLINE void combine(Storage& q,
                             int c,
                             algebra::BlockField& q_0,
                             int c_0,
@@ -60,55 +52,49 @@ DIPTYCH_INLINE void combine(Field& q,
 /// F, H, J of a stage by the L of its beginning. Part of the strain-rate sweep, which needs them
 /// next and replaces L: one pass of memory instead of two.
 template <int Dim>
-DIPTYCH_INLINE void update_deformation_of_block(State<Dim>& state,
+DIPTYCH_INLINE void update_deformation_of_block(Body<Dim>& body,
                                                 const StageCombination& stage,
                                                 std::int64_t b) {
-  const Tensor<Lanes> L = velocity_gradient(state, b);
-  if (state.unknowns != Unknowns::F) {
-    const Deformation<Lanes> X = load_deformation(state, b);
-    combine<1>(state.J, 0, state.J_0, 0, stage, b,
+  const Tensor<Lanes> L = velocity_gradient(body, b);
+  if (body.options.unknowns != Unknowns::F) {
+    const Deformation<Lanes> X = load_deformation(body, b);
+    combine<1>(body.J, 0, body.J_0, 0, stage, b,
                [&](int) DIPTYCH_INLINE_LAMBDA { return algebra::contract(X.H, L); });
-    if (state.unknowns == Unknowns::FHJ) {
+    if (body.options.unknowns == Unknowns::FHJ) {
       const Tensor<Lanes> rate = algebra::cross(X.F, L);
-      combine<Dim * Dim>(state.records, NodeRecord<Dim>::H, state.H_0, 0, stage, b,
+      combine<Dim * Dim>(body.records, NodeRecord<Dim>::H, body.H_0, 0, stage, b,
                          [&](int k) DIPTYCH_INLINE_LAMBDA { return rate(k / Dim, k % Dim); });
       if constexpr (Dim == 2) {
-        combine<1>(state.H_33, 0, state.H_0, 4, stage, b,
+        combine<1>(body.H_33, 0, body.H_0, 4, stage, b,
                    [&](int) DIPTYCH_INLINE_LAMBDA { return rate(2, 2); });
       }
     }
   }
-  if (stage.first && !state.L_0.empty()) put_tensor<Dim>(state.L_0, b, 0, L);
-  combine<Dim * Dim>(state.F, 0, state.F_0, 0, stage, b,
+  if (stage.first && !body.L_0.empty()) put_tensor<Dim>(body.L_0, b, 0, L);
+  combine<Dim * Dim>(body.F, 0, body.F_0, 0, stage, b,
                      [&](int k) DIPTYCH_INLINE_LAMBDA { return L(k / Dim, k % Dim); });
 }
 
 /// v <- v + dt T/(rho_R Omega); keeps F_0 <- F where keep_F is set (start of a step with branches).
 template <int Dim>
-void kick(State<Dim>& state,
-          const SweepGraph<Dim>& graph,
-          double rho_R,
-          double dt,
-          bool keep_F,
-          std::int64_t begin,
-          std::int64_t end);
+void kick(Body<Dim>& body, double dt, bool keep_F, std::int64_t begin, std::int64_t end);
 
 /// u <- u + dt v, F <- F + dt L; H and J by the same L: exactly cof F and det F, since H is a
 /// quadratic and J a cubic polynomial in time when L is constant.
 template <int Dim>
-DIPTYCH_INLINE void drift_block(State<Dim>& state, double dt, std::int64_t b) {
+DIPTYCH_INLINE void drift_block(Body<Dim>& body, double dt, std::int64_t b) {
   for (int i = 0; i < Dim; ++i)
-    state.u.put(b, i, state.u.get(b, i) + dt * state.v.get(b, i));
-  const Tensor<Lanes> L = velocity_gradient(state, b);
-  if (state.unknowns != Unknowns::F) {
-    const Deformation<Lanes> X = load_deformation(state, b);
+    body.u.put(b, i, body.u.get(b, i) + dt * body.v.get(b, i));
+  const Tensor<Lanes> L = velocity_gradient(body, b);
+  if (body.options.unknowns != Unknowns::F) {
+    const Deformation<Lanes> X = load_deformation(body, b);
     const Tensor<Lanes> H_middle = X.H + algebra::cross(X.F + (0.25 * dt) * L, (0.5 * dt) * L);
     const Tensor<Lanes> H_end = X.H + algebra::cross(X.F + (0.5 * dt) * L, dt * L);
     const Tensor<Lanes> H_mean = (1.0 / 6.0) * (X.H + 4.0 * H_middle + H_end);
-    state.J.put(b, 0, state.J.get(b, 0) + dt * algebra::contract(H_mean, L));
-    if (state.unknowns == Unknowns::FHJ) put_H(state, b, H_end);
+    body.J.put(b, 0, body.J.get(b, 0) + dt * algebra::contract(H_mean, L));
+    if (body.options.unknowns == Unknowns::FHJ) put_H(body, b, H_end);
   }
-  put_tensor<Dim>(state.F, b, 0, get_tensor<Dim>(state.F, b, 0) + dt * L);
+  put_tensor<Dim>(body.F, b, 0, get_tensor<Dim>(body.F, b, 0) + dt * L);
 }
 
 }  // namespace diptych::scheme

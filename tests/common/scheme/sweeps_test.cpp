@@ -3,8 +3,9 @@
 
 #include "common/parallel/for_chunks.hpp"
 #include "common/physics/materials/mooney_rivlin.hpp"
-#include "common/scheme/sweeps/compiled_momentum.hpp"
-#include "common/scheme/sweeps/strain_rates.hpp"
+#include "common/scheme/sweeps/compiled/momentum.hpp"
+#include "common/scheme/sweeps/compiled/strain_rates.hpp"
+#include "common/scheme/sweeps/compiled_material.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -22,6 +23,9 @@ using scheme::Arrangement;
 using scheme::DissipationKind;
 using Material = physics::MooneyRivlin;
 
+using StrainRates = scheme::StrainRateVersions<3>;
+using StrainRateFunction = StrainRates::Function;
+
 /// A random finite deformation and velocity on a graph, evaluated once.
 class RandomBody {
  public:
@@ -34,19 +38,10 @@ class RandomBody {
       : graph_(tests::graph_of(
             method, meshes::box(meshes::CellType::hexahedron, Vec3::Zero(), Vec3::Ones(), cells))),
         rounded_((set_precision(graph_, precision), true)),
-        pairs(graph_, arrangement),
+        material({{1.3e6, 0.7e6, 4e6}, 1100, {{0.9e6, 2e-3, 0.4e6, 1e-3}}}),
         kind_(kind),
-        state(graph_.n_nodes(),
-              1,
-              true,
-              scheme::Unknowns::F,
-              kind.impedance == scheme::Impedance::exact,
-              false,
-              pairs.shape),
-        chunks_(static_cast<size_t>(parallel::n_chunks_of(pairs.n_blocks))) {
-    model.material = {1.3e6, 0.7e6, 4e6};
-    model.rho_R = 1100;
-    model.branches = {{0.9e6, 2e-3, 0.4e6, 1e-3}};
+        state(graph_, options_of(kind), arrangement),
+        chunks_(static_cast<size_t>(parallel::n_chunks_of(state.n_blocks))) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(-1, 1);
     Eigen::Matrix3d G;
@@ -58,7 +53,7 @@ class RandomBody {
       for (int k = 0; k < 6; ++k)
         field.set(a, first + k, M(order[k][0], order[k][1]));
     };
-    for (std::int64_t a = 0; a < pairs.n_blocks * algebra::n_lanes; ++a) {
+    for (std::int64_t a = 0; a < state.n_blocks * algebra::n_lanes; ++a) {
       Eigen::Matrix3d R;
       for (int k = 0; k < 9; ++k)
         R(k / 3, k % 3) = uniform(random);
@@ -75,24 +70,30 @@ class RandomBody {
   }
 
   /// Evaluates strain rates and forces with one instruction set.
-  void evaluate(scheme::StrainRateFunction<3, Material> strain_rates,
+  void evaluate(StrainRateFunction strain_rates,
                 scheme::MomentumFunction<3> momentum,
                 double factor = 1) {
     const scheme::Relaxation frozen;
-    const bool exact = kind_.impedance == scheme::Impedance::exact;
-    const scheme::StrainRateSweep<3, Material> first{
-        model, pairs, state, frozen, exact, true, 0, nullptr, 0, viscous.data(), least_J.data()};
-    const scheme::MomentumSweep<3> second{
-        pairs, state, model.rho_R, factor, true, numerical.data(), rate.data()};
-    parallel::for_chunks(pairs.n_blocks,
+    const scheme::StrainRateSweep<3> first{state,   material, frozen,         true,          0,
+                                           nullptr, 0,        viscous.data(), least_J.data()};
+    parallel::for_chunks(state.n_blocks,
                          [&](auto b, auto e, auto c) { strain_rates(first, b, e, c); });
-    scheme::sum_forces(second, momentum);
+    scheme::sum_forces<3>({state, factor, true, numerical.data(), rate.data()}, momentum);
   }
   void evaluate(double factor = 1) {
-    evaluate(scheme::strain_rate_function<3, Material>(), scheme::momentum_function<3>(kind_, true),
+    evaluate(algebra::version_here<StrainRates>(), scheme::momentum_function<3>(kind_, true),
              factor);
   }
 
+  static scheme::BodyOptions options_of(const DissipationKind& kind) {
+    scheme::BodyOptions options;
+    options.rho_R = 1100;
+    options.n_branches = 1;
+    options.has_G = true;
+    options.unknowns = scheme::Unknowns::F;
+    options.exact_impedance = kind.impedance == scheme::Impedance::exact;
+    return options;
+  }
   const scheme::PairGraph& graph() const { return graph_; }
   double numerical_power() const { return parallel::sum_in_order(numerical); }
   Vec3 vector(const algebra::NodeTable& field, std::int64_t a) const {
@@ -115,14 +116,13 @@ class RandomBody {
   bool rounded_;
 
  public:
-  scheme::SweepGraph<3> pairs;
-  scheme::Model<Material> model;
+  scheme::CompiledMaterial<Material> material;
 
  private:
   DissipationKind kind_;
 
  public:
-  scheme::State<3> state;
+  scheme::Body<3> state;
 
  private:
   size_t chunks_;
@@ -237,7 +237,7 @@ TEST_P(Methods, SegmentsDoNotDependOnThreads) {
     for (const int threads : {1, 2}) {
       parallel::set_threads(threads);
       RandomBody runs(GetParam(), isotropic, Arrangement::runs, false, cells, precision);
-      ASSERT_GE(runs.pairs.n_blocks / runs.pairs.mutual.segment, 4);
+      ASSERT_GE(runs.state.n_blocks / runs.state.graph.mutual.segment, 4);
       runs.evaluate();
       const auto other = results(runs);
       const auto rate = *std::max_element(runs.rate.begin(), runs.rate.end());
@@ -277,7 +277,7 @@ TEST_P(Methods, MixedPrecisionKeepsTheIdentities) {
         single(GetParam(), isotropic, arrangement, false, {5, 4, 3}, scheme::Precision::mixed);
     full.evaluate();
     single.evaluate();
-    EXPECT_EQ(2 * single.pairs.strain.bytes(), full.pairs.strain.bytes());
+    EXPECT_EQ(2 * single.state.graph.strain.bytes(), full.state.graph.strain.bytes());
     const auto one = results(full), other = results(single);
     double difference = 0;
     for (size_t k = 0; k < one.size(); ++k)
@@ -354,7 +354,6 @@ TEST_P(Methods, DissipationIsProportionalToItsFactor) {
 
 TEST_P(Methods, CompiledFormsAgree) {
 #if defined(DIPTYCH_MULTIVERSION)
-  using StrainRates = scheme::StrainRateVersions<3, Material>;
   using Momentum = scheme::MomentumVersions<3, isotropic, true>;
   for (const Arrangement arrangement : {Arrangement::rows, Arrangement::runs}) {
     RandomBody body(GetParam(), isotropic, arrangement);

@@ -1,4 +1,4 @@
-#include "common/scheme/sweeps/compiled_momentum.hpp"
+#include "common/scheme/sweeps/compiled/momentum.hpp"
 
 namespace diptych::scheme {
 

@@ -13,9 +13,9 @@ DIPTYCH_INLINE void forces_in(const MomentumSweep<Dim>& sweep,
                               std::int64_t begin,
                               std::int64_t end,
                               std::int64_t chunk) {
-  const algebra::FlushToZero flush(sweep.state.shape.single);
+  const algebra::FlushToZero flush(sweep.body.is_single());
   double power = 0, rate = 0;
-  if (sweep.graph.shape.arrangement == Arrangement::runs) {
+  if (sweep.body.graph.shape.arrangement == Arrangement::runs) {
     for (std::int64_t b = begin; b < end;)
       power += add_forces_of_next<Real, Dim, kind, has_H>(sweep, b, end);
   } else {
@@ -35,7 +35,7 @@ struct MomentumKernel {
                                  std::int64_t end,
                                  std::int64_t chunk) {
     if constexpr (has_single_precision(kind)) {
-      if (sweep.state.shape.single) {
+      if (sweep.body.is_single()) {
         forces_in<isa, float, Dim, kind, has_H>(sweep, begin, end, chunk);
         return;
       }

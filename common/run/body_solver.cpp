@@ -1,0 +1,91 @@
+#include "common/run/body_solver.hpp"
+
+#include "common/base/error.hpp"
+#include "common/run/initial_state.hpp"
+#include "common/run/state_hash.hpp"
+#include "common/scheme/body/health.hpp"
+#include "common/scheme/budget/balance.hpp"
+
+#include <cmath>
+
+namespace diptych::run {
+
+template <int Dim>
+BodySolver<Dim>::BodySolver(time::MovingBody<Dim> moving,
+                            const cases::InitialCase& initial,
+                            double kappa_f,
+                            std::shared_ptr<exact::KnownState> known)
+    : moving_(std::move(moving)), known_(std::move(known)) {
+  set_initial_state(initial, kappa_f, moving_.body);
+  moving_.boundary.constrain(moving_.body, 0);
+  moving_.sweeps.strain_rates(moving_.body, {}, nullptr, 0);
+  check_health(0);
+  if (moving_.integrator.is_leapfrog()) time::begin_leapfrog(moving_);
+  moving_.initial_angular_momentum = balance().angular_momentum;
+}
+
+template <int Dim>
+StepReport BodySolver<Dim>::step(double t_limit) {
+  time::Clock& clock = moving_.clock;
+  const double dt = moving_.integrator.is_leapfrog() ? time::leapfrog_step(moving_, t_limit)
+                                                     : time::ssp_step(moving_, t_limit);
+  clock.time = t_limit - (clock.time + dt) <= 1e-12 * dt ? t_limit : clock.time + dt;
+  ++clock.step;
+  return {clock.step, clock.time, dt, check_health(dt)};
+}
+
+template <int Dim>
+double BodySolver<Dim>::check_health(double dt) const {
+  const double least = moving_.sweeps.least_J();
+  if (least > 0) return least;
+  throw base::BreakdownError(
+      scheme::breakdown_report(moving_.body, moving_.clock.step, moving_.clock.time, dt));
+}
+
+template <int Dim>
+scheme::Balance BodySolver<Dim>::balance() const {
+  return scheme::balance(material(), moving_.body);
+}
+
+template <int Dim>
+Snapshot BodySolver<Dim>::snapshot() const {
+  return scheme::snapshot_of(material(), moving_.body, time());
+}
+
+template <int Dim>
+Snapshot BodySolver<Dim>::snapshot(std::span<const std::int32_t> nodes) const {
+  return scheme::snapshot_of(material(), moving_.body, time(), nodes);
+}
+
+template <int Dim>
+algebra::Vec3 BodySolver<Dim>::reaction(const std::vector<std::int32_t>& nodes) {
+  if (!moving_.integrator.is_leapfrog()) {  // whose forces are those of the end of the step
+    moving_.sweeps.sum_forces(moving_.body, false);
+    moving_.boundary.add_loads(moving_.body, time());
+  }
+  return moving_.boundary.reaction(moving_.body, nodes);
+}
+
+template <int Dim>
+std::string BodySolver<Dim>::state_hash(const std::vector<std::int32_t>& order) const {
+  return run::state_hash(moving_.body, order, time());
+}
+
+template <int Dim>
+Mat3 BodySolver<Dim>::equilibrium_stress(const Mat3& F) const {
+  const auto X = physics::deformation_of(algebra::to_tensor(F));
+  const auto response = material().response(X);
+  return algebra::to_eigen(material().has_H() ? physics::piola_stress<true>(response, X)
+                                              : physics::piola_stress<false>(response, X));
+}
+
+template <int Dim>
+std::optional<Snapshot> BodySolver<Dim>::exact_state(double t) const {
+  if (!known_) return std::nullopt;
+  return known_->snapshot(t);
+}
+
+template class BodySolver<2>;
+template class BodySolver<3>;
+
+}  // namespace diptych::run

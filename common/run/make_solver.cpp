@@ -1,0 +1,129 @@
+/// A case resolved for the solver: every name of a menu becomes what it stands for.
+
+#include "common/run/body_solver.hpp"
+#include "common/run/boundary_group.hpp"
+#include "common/run/default_cfl.hpp"
+#include "common/run/model_menu.hpp"
+#include "common/scheme/dissipation/limiters/limiter_menu.hpp"
+
+namespace diptych::run {
+
+namespace {
+
+/// Velocity of a motion; its traction comes from the known state.
+void follow_motion(const std::shared_ptr<const exact::Motion>& motion,
+                   scheme::BoundaryValues& values) {
+  values.vector = [motion](const algebra::Vec3& X, double t) { return motion->velocity(X, t); };
+  values.known = true;
+  values.depends_on_time = true;
+}
+
+scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::PairGraph& graph) {
+  std::vector<scheme::PlacedCondition> conditions;
+  for (const cases::BoundaryCase& boundary : setup.boundaries) {
+    const auto maker = scheme::boundary_menu().at(boundary.type);
+    scheme::BoundaryValues values;
+    values.vector = boundary.value;
+    values.scalar = boundary.pressure;
+    values.point = boundary.point;
+    values.normal = boundary.normal;
+    values.depends_on_time =
+        boundary.value.depends_on_time() || boundary.pressure.depends_on_time();
+    if (boundary.manufactured) follow_motion(setup.motion, values);
+    for (const std::string& group : boundary.groups) {
+      conditions.push_back({maker(values), &boundary_group(graph, group, boundary.where)});
+    }
+  }
+  scheme::VectorFunction body_force;
+  if (!setup.body_force.is_zero()) body_force = setup.body_force;
+  return {graph, std::move(conditions), body_force, setup.body_force.depends_on_time()};
+}
+
+template <int Dim>
+scheme::TimeStepRule time_step_of(const cases::Case& setup,
+                                  scheme::Body<Dim>& body,
+                                  double geometric_rate,
+                                  const time::Integrator& integrator) {
+  using scheme::Speeds;
+  const auto speeds = base::Registry<Speeds>("time.speeds")
+                          .add("exact", Speeds::exact)
+                          .add("bound", Speeds::bound)
+                          .add("linearised", Speeds::linearised);
+  const double cfl =
+      setup.time.cfl > 0 ? setup.time.cfl : default_cfl(setup, body, geometric_rate, integrator);
+  return {speeds.at(setup.time.speeds), cfl,
+          scheme::frequency_factor(setup.scheme.face_correction)};
+}
+
+scheme::SweepOptions sweep_options_of(const cases::Case& setup) {
+  using scheme::Impedance, scheme::Reconstruction;
+  const auto reconstruction = base::Registry<Reconstruction>("scheme.reconstruction")
+                                  .add("none", Reconstruction::none)
+                                  .add("linear", Reconstruction::linear);
+  const auto impedance = base::Registry<Impedance>("scheme.impedance")
+                             .add("isotropic", Impedance::isotropic)
+                             .add("exact", Impedance::exact);
+  scheme::SweepOptions options;
+  options.dissipation = {reconstruction.at(setup.scheme.reconstruction),
+                         scheme::limiter_menu().at(setup.scheme.limiter),
+                         impedance.at(setup.scheme.impedance)};
+  options.dissipation_factor = setup.scheme.dissipation;
+  options.face_correction = setup.scheme.face_correction;
+  options.energy_budget = setup.scheme.energy_budget;
+  return options;
+}
+
+scheme::BodyOptions body_options_of(const cases::Case& setup,
+                                    const scheme::MaterialModel& material,
+                                    const time::Integrator& integrator) {
+  using scheme::Unknowns;
+  const auto unknowns = base::Registry<Unknowns>("scheme.unknowns")
+                            .add("F", Unknowns::F)
+                            .add("FJ", Unknowns::FJ)
+                            .add("FHJ", Unknowns::FHJ);
+  const auto n_branches = static_cast<int>(material.branches().size());
+  scheme::BodyOptions options;
+  options.rho_R = material.rho_R();
+  options.n_branches = n_branches;
+  options.has_G = material.has_H();
+  options.unknowns = unknowns.at(setup.scheme.unknowns);
+  options.exact_impedance = setup.scheme.impedance == "exact";
+  options.keeps_L_0 = integrator.gauss_relaxation && n_branches > 0;
+  options.face_correction = setup.scheme.face_correction != 0;
+  return options;
+}
+
+template <int Dim>
+std::unique_ptr<Solver> solver_in(const cases::Case& setup, const scheme::PairGraph& graph) {
+  const ModelMaker maker = model_menu().at(setup.material.model);
+  scheme::AppliedBoundary boundary = boundary_of(setup, graph);
+  if (setup.scheme.angular_momentum_projection && boundary.has_constraints()) {
+    throw base::InputError(
+        "scheme.angular_momentum_projection is for free bodies; this case prescribes velocities on "
+        "its boundary: remove one of the two");
+  }
+  const auto material = maker.model(setup.material);
+  const time::Integrator& integrator = time::integrator_menu().at(setup.time.integrator);
+  std::shared_ptr<exact::KnownState> known;
+  if (setup.motion) {
+    known = maker.known(*material, setup, graph);
+    boundary.follow(known);
+  }
+  scheme::Body<Dim> body(graph, body_options_of(setup, *material, integrator));
+  const double geometric_rate = scheme::geometric_rate(graph);
+  scheme::SweepOptions options = sweep_options_of(setup);
+  options.time_step = time_step_of(setup, body, geometric_rate, integrator);
+  scheme::Sweeps<Dim> sweeps(body, material, options, geometric_rate);
+  time::MovingBody<Dim> moving{std::move(body), std::move(sweeps), std::move(boundary), integrator,
+                               setup.scheme.angular_momentum_projection};
+  return std::make_unique<BodySolver<Dim>>(std::move(moving), setup.initial,
+                                           setup.scheme.face_correction, std::move(known));
+}
+
+}  // namespace
+
+std::unique_ptr<Solver> make_solver(const cases::Case& setup, const scheme::PairGraph& graph) {
+  return graph.dimension == 2 ? solver_in<2>(setup, graph) : solver_in<3>(setup, graph);
+}
+
+}  // namespace diptych::run

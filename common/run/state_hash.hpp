@@ -1,0 +1,19 @@
+#pragma once
+/// A fingerprint of a state: two runs that agree to the last bit have the same.
+
+#include "common/scheme/body/body.hpp"
+
+#include <string>
+#include <vector>
+
+namespace diptych::run {
+
+/// XXH3 (128 bits) of the time and of all unknowns, in the order of the table of fields, as 32
+/// hexadecimal digits.
+/// @param order  [node] its number in the user's mesh
+template <int Dim>
+std::string state_hash(const scheme::Body<Dim>& body,
+                       const std::vector<std::int32_t>& order,
+                       double time);
+
+}  // namespace diptych::run

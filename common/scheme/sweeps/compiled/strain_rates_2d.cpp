@@ -1,0 +1,8 @@
+#include "common/scheme/sweeps/compiled/strain_rates.hpp"
+
+namespace diptych::scheme {
+
+template void evaluate_strain_rates(const StrainRateSweep<2>&);
+template void velocity_gradients(Body<2>&, double);
+
+}  // namespace diptych::scheme

@@ -1,0 +1,178 @@
+#pragma once
+/// The pointwise physics of one material, compiled for blocks of eight nodes: part of the
+/// strain-rate sweep and of the energy budget. Included by the file of each material (run/models)
+/// and by tests.
+
+#include "common/algebra/versions.hpp"
+#include "common/physics/wave_speeds.hpp"
+#include "common/scheme/body/material_model.hpp"
+#include "common/scheme/body/model.hpp"
+#include "common/scheme/body/pointwise.hpp"
+#include "common/scheme/sweeps/pair_access.hpp"
+#include "common/scheme/sweeps/strain_rates.hpp"
+#include "common/scheme/sweeps/update.hpp"
+
+namespace diptych::scheme {
+
+/// Fills the records of block b, but for L, and for H where it is evolved, which are there.
+template <int Dim>
+DIPTYCH_INLINE void write_records(Body<Dim>& body,
+                                  std::int64_t b,
+                                  const Deformation<Lanes>& X,
+                                  const Response<Lanes>& response,
+                                  const Tensor<Lanes>& P) {
+  using Record = NodeRecord<Dim>;
+  const bool exact_impedance = body.options.exact_impedance;
+  if (!body.in_runs()) {
+    for (int i = 0; i < Dim; ++i)
+      body.records.put(b, Record::v(exact_impedance) + i, body.v.get(b, i));
+  }
+  if (body.options.face_correction) {
+    put_tensor<Dim>(body.stresses, b, 0, P);  // P' follows in a sweep of its own
+  } else {
+    put_tensor<Dim>(body.records, b, Record::P, P);
+  }
+  if (body.options.unknowns != Unknowns::FHJ) put_tensor<Dim>(body.records, b, Record::H, X.H, 1);
+  if (!exact_impedance) return;
+  put_tensor<Dim>(body.records, b, Record::F, X.F, 1);
+  for (int k = 0; k < algebra::Layout<Dim>::n_A; ++k) {
+    body.records.put(b, Record::A_tot + k, response.A_tot.s[algebra::order_of_A<Dim>[k]]);
+  }
+  for (int k = 0; k < algebra::Layout<Dim>::n_S; ++k) {
+    body.records.put(b, Record::S_tot + k, response.S_tot.s[algebra::order_of_S<Dim>[k]]);
+  }
+  body.records.put(b, Record::W_JJ, response.W_JJ);
+  body.records.put(b, Record::W_FJ, response.W_FJ);
+}
+
+/// What the strain-rate sweep does with a block once its dF/dt is known: H and J (18c,d) with F,
+/// relaxation (14), stress (9), wave speeds.
+template <int Dim, class Material>
+DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
+                                   const StrainRateSweep<Dim>& sweep,
+                                   std::int64_t b,
+                                   const Lanes (&L)[Dim * Dim],
+                                   BlockTotals& totals) {
+  using Layout = algebra::Layout<Dim>;
+  constexpr bool has_H = Material::has_H;
+  Body<Dim>& body = sweep.body;
+  if (body.in_runs()) {
+    prefetch_to_write<NodeRecord<Dim>::n_isotropic>(body.records, b);
+  }
+  if (sweep.stage != nullptr) update_deformation_of_block(body, *sweep.stage, b);
+  body.records.template put_each<Dim * Dim>(b, NodeRecord<Dim>::L,
+                                            [&](int k) DIPTYCH_INLINE_LAMBDA { return L[k]; });
+  if (sweep.drift != 0) drift_block(body, sweep.drift, b);
+  const Deformation<Lanes> X = load_deformation(body, b);
+  totals.least_J = algebra::smaller(totals.least_J, X.J);
+  totals.n_bad += X.J > 0 ? Lanes{} : Lanes{} + 1.0;  // a comparison with NaN is false
+  Lanes dissipation{};
+  const Response<Lanes> response = response_of_block(
+      model, body, sweep.relaxation, X, b,
+      [&](int k, const BranchState<Lanes>& branch, const physics::RightTensors<Lanes>& now)
+          DIPTYCH_INLINE_LAMBDA {
+            if (sweep.with_dissipation) {
+              dissipation += physics::branch_dissipation<has_H>(model.branches[k], branch, now);
+            }
+            if (!sweep.relaxation.commit) return;
+            algebra::put_A<Dim>(body.A, b, k * Layout::n_A, branch.A);
+            if constexpr (has_H) {
+              algebra::put_S<Dim>(body.S, b, k * Layout::n_S, branch.S);
+            }
+          });
+  const Tensor<Lanes> P = physics::piola_stress<has_H>(response, X);
+  write_records(body, b, X, response, P);
+  const double rho_R = model.rho_R;
+  const auto speeds = physics::speed_bounds(response, X, rho_R, has_H, Material::has_W_FJ);
+  body.records.put(b, NodeRecord<Dim>::z_p, rho_R * speeds.c_p);
+  body.records.put(b, NodeRecord<Dim>::z_s, rho_R * speeds.c_s);
+  totals.viscous_power +=
+      algebra::lane_sum(dissipation * algebra::load(body.graph.Omega.data() + b * n_lanes));
+}
+
+/// Energies of blocks [begin, end), and how far the involutions H = cof F, J = det F have drifted.
+template <int Dim, class Material>
+DIPTYCH_CLONES void add_energies_of(const Model<Material>& model,
+                                    const Body<Dim>& body,
+                                    std::int64_t begin,
+                                    std::int64_t end,
+                                    Balance& sum) {
+  double least_J = sum.least_J;
+  for (std::int64_t b = begin; b < end; ++b) {
+    const Lanes Omega = algebra::load(body.graph.Omega.data() + b * n_lanes);
+    const Deformation<Lanes> X = load_deformation(body, b);
+    Lanes W = model.material.energy(X);
+    for (int k = 0; k < body.options.n_branches; ++k) {
+      const auto branch = stored_branch<Dim, Material::has_H>(body, b, k);
+      W += physics::branch_energy<Material::has_H>(model.branches[k], branch, X);
+    }
+    Lanes v_v{};
+    for (int i = 0; i < Dim; ++i)
+      v_v += body.v.get(b, i) * body.v.get(b, i);
+    sum.kinetic += 0.5 * model.rho_R * algebra::lane_sum(Omega * v_v);
+    sum.strain += algebra::lane_sum(Omega * W);
+    const Deformation<Lanes> exact = physics::deformation_of(X.F);
+    for (int l = 0; l < n_lanes; ++l) {
+      least_J = algebra::smaller(least_J, X.J[l]);
+      sum.involution_J = algebra::larger(sum.involution_J, std::fabs(X.J[l] - exact.J[l]));
+      for (int k = 0; k < 9; ++k) {
+        const double drift = std::fabs(X.H(k / 3, k % 3)[l] - exact.H(k / 3, k % 3)[l]);
+        sum.involution_H = algebra::larger(sum.involution_H, drift);
+      }
+    }
+  }
+  sum.least_J = least_J;
+}
+
+template <class Material>
+class CompiledMaterial;
+
+template <int Dim, class Material>
+struct EvaluateKernel {
+  template <InstructionSet isa>
+  DIPTYCH_INLINE static void run(const StrainRateSweep<Dim>& sweep,
+                                 std::int64_t b,
+                                 const Lanes (&L)[Dim * Dim],
+                                 BlockTotals& totals) {
+    const auto& compiled = static_cast<const CompiledMaterial<Material>&>(sweep.material);
+    evaluate_block(compiled.model(), sweep, b, L, totals);
+  }
+};
+template <int Dim, class Material>
+using EvaluateVersions = algebra::Versions<EvaluateKernel<Dim, Material>,
+                                           const StrainRateSweep<Dim>&,
+                                           std::int64_t,
+                                           const Lanes (&)[Dim * Dim],
+                                           BlockTotals&>;
+
+template <class Material>
+class CompiledMaterial final : public MaterialModel {
+ public:
+  explicit CompiledMaterial(Model<Material> model)
+      : MaterialModel(model.rho_R, model.branches, Material::has_H, Material::has_W_FJ),
+        model_(std::move(model)) {}
+
+  using MaterialModel::energy;
+  using MaterialModel::response;
+  double energy(const PointDeformation& X) const override { return model_.material.energy(X); }
+  physics::Response<double> response(const PointDeformation& X) const override {
+    return model_.material.response(X);
+  }
+  BlockPhysics<2> in_plane() const override { return blocks<2>(); }
+  BlockPhysics<3> in_space() const override { return blocks<3>(); }
+  const Model<Material>& model() const { return model_; }
+
+ private:
+  template <int Dim>
+  static BlockPhysics<Dim> blocks() {
+    return {algebra::version_here<EvaluateVersions<Dim, Material>>(),
+            [](const MaterialModel& model, const Body<Dim>& body, std::int64_t begin,
+               std::int64_t end, Balance& sum) {
+              const auto& compiled = static_cast<const CompiledMaterial&>(model);
+              add_energies_of(compiled.model(), body, begin, end, sum);
+            }};
+  }
+  Model<Material> model_;
+};
+
+}  // namespace diptych::scheme

@@ -1,0 +1,98 @@
+#include "common/scheme/sweeps/sweeps.hpp"
+
+#include "common/parallel/for_chunks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych::scheme {
+
+namespace {
+
+template <int Dim, class Work>
+void for_blocks(const Body<Dim>& body, const Work& work) {
+  parallel::for_chunks(
+      body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) { work(begin, end); });
+}
+
+}  // namespace
+
+template <int Dim>
+Sweeps<Dim>::Sweeps(const Body<Dim>& body,
+                    std::shared_ptr<const MaterialModel> material,
+                    const SweepOptions& options,
+                    double geometric_rate)
+    : material_(std::move(material)),
+      options_(options),
+      momentum_(momentum_function<Dim>(options.dissipation, material_->has_H())),
+      face_(face_correction_sweeps<Dim>()),
+      geometric_rate_(geometric_rate),
+      undeformed_speed_(material_->undeformed_speed()),
+      viscous_power_(parallel::n_chunks_of(body.n_blocks)),
+      least_J_(viscous_power_.size()),
+      numerical_power_(viscous_power_.size()),
+      largest_rate_(viscous_power_.size()) {}
+
+template <int Dim>
+void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
+  const Speeds speeds = options_.time_step.speeds;
+  const MomentumSweep<Dim> sweep{body, options_.dissipation_factor,
+                                 with_step && speeds == Speeds::exact, numerical_power_.data(),
+                                 largest_rate_.data()};
+  scheme::sum_forces(sweep, momentum_);
+  if (with_step && speeds == Speeds::bound) {
+    parallel::for_chunks(body.n_blocks, [&](auto begin, auto end, auto chunk) {
+      largest_rate_[chunk] = geometric_rate_ * largest_speed(body, begin, end);
+    });
+  }
+  if (with_step) stable_dt_ = options_.time_step.limit() / rate();
+}
+
+/// See scheme/time_step.hpp  [1/s]
+template <int Dim>
+double Sweeps<Dim>::rate() const {
+  if (options_.time_step.speeds == Speeds::linearised) return geometric_rate_ * undeformed_speed_;
+  double rate = 0;
+  for (const double r : largest_rate_)
+    rate = r >= rate || std::isnan(r) ? r : rate;
+  return rate;
+}
+
+template <int Dim>
+void Sweeps<Dim>::strain_rates(Body<Dim>& body,
+                               const Relaxation& relaxation,
+                               const StageCombination* stage,
+                               double drift) {
+  const double kappa_f = options_.face_correction;
+  if (kappa_f != 0) {
+    for_blocks(body, [&](auto begin, auto end) { face_.gradients(body, begin, end); });
+  }
+  evaluate_strain_rates<Dim>({body, *material_, relaxation, options_.energy_budget, kappa_f, stage,
+                              drift, viscous_power_.data(), least_J_.data()});
+  if (kappa_f != 0) {
+    for_blocks(body, [&](auto begin, auto end) { face_.stresses(body, kappa_f, begin, end); });
+  }
+}
+
+template <int Dim>
+double Sweeps<Dim>::numerical_power() const {
+  return parallel::sum_in_order(numerical_power_);
+}
+
+template <int Dim>
+double Sweeps<Dim>::viscous_power() const {
+  return parallel::sum_in_order(viscous_power_);
+}
+
+template <int Dim>
+double Sweeps<Dim>::least_J() const {
+  double least = 1e300;
+  for (const double J : least_J_)
+    least = std::isnan(J) ? J : std::isnan(least) ? least : std::min(least, J);
+  return least;
+}
+
+template class Sweeps<2>;
+template class Sweeps<3>;
+
+}  // namespace diptych::scheme

@@ -1,0 +1,71 @@
+#pragma once
+/// The two sweeps of a stage over a whole body, as a step calls them: forces (18a) with D_ab and
+/// the step bound, and strain rates (18b-d) with relaxation (14), stress (9) and wave speeds. Which
+/// compiled sweeps these are was chosen once; a step knows neither material nor arrangement.
+
+#include "common/scheme/body/material_model.hpp"
+#include "common/scheme/body/relaxation.hpp"
+#include "common/scheme/sweeps/face_correction.hpp"
+#include "common/scheme/sweeps/momentum.hpp"
+#include "common/scheme/sweeps/strain_rates.hpp"
+#include "common/scheme/time_step.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace diptych::scheme {
+
+/// What a scene asks of its sweeps.
+struct SweepOptions {
+  DissipationKind dissipation;
+  double dissipation_factor = 1;
+  double face_correction = 0;  ///< kappa_f (notes 3.8), 0: none
+  bool energy_budget = true;   ///< sum the viscous dissipation
+  TimeStepRule time_step;
+};
+
+template <int Dim>
+class Sweeps {
+ public:
+  /// @param geometric_rate  of the graph: scheme::geometric_rate
+  Sweeps(const Body<Dim>& body,
+         std::shared_ptr<const MaterialModel> material,
+         const SweepOptions& options,
+         double geometric_rate);
+
+  /// Internal forces (18a) with D_ab into body.T; with_step: also the stable step of this state.
+  void sum_forces(Body<Dim>& body, bool with_step);
+
+  /// Strain rates (18b-d), relaxation (14), stress (9), wave speeds into the records. F, H, J are
+  /// moved by the stage before (SSP), or drift in between (leapfrog).
+  void strain_rates(Body<Dim>& body,
+                    const Relaxation& relaxation,
+                    const StageCombination* stage,
+                    double drift);
+
+  double stable_dt() const { return stable_dt_; }  ///< s, of the last sum_forces with_step
+  double numerical_power() const;                  ///< W, of the last sum_forces
+  double viscous_power() const;                    ///< W, of the last strain_rates
+  /// Of the last strain_rates; NaN where a node has not J > 0.
+  double least_J() const;
+
+  const MaterialModel& material() const { return *material_; }
+
+ private:
+  double rate() const;
+
+  std::shared_ptr<const MaterialModel> material_;
+  SweepOptions options_;
+  MomentumFunction<Dim> momentum_;
+  FaceCorrectionSweeps<Dim> face_;
+  double geometric_rate_;
+  double undeformed_speed_;
+  double stable_dt_ = 0;
+  // results of the sweeps, one per chunk
+  std::vector<double> viscous_power_, least_J_, numerical_power_, largest_rate_;
+};
+
+extern template class Sweeps<2>;
+extern template class Sweeps<3>;
+
+}  // namespace diptych::scheme

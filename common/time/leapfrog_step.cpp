@@ -1,0 +1,64 @@
+/// A step of leapfrog in its kick-drift-kick form (schemes/leapfrog.hpp): one evaluation a step.
+
+#include "common/parallel/for_chunks.hpp"
+#include "common/scheme/sweeps/update.hpp"
+#include "common/time/moving_body.hpp"
+
+namespace diptych::time {
+
+namespace {
+
+template <int Dim>
+void kick(scheme::Body<Dim>& body, double dt, bool keep_F) {
+  parallel::for_chunks(body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+    scheme::kick(body, dt, keep_F, begin, end);
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+void begin_leapfrog(MovingBody<Dim>& moving) {
+  moving.sweeps.sum_forces(moving.body, true);
+  moving.load_rates = moving.boundary.add_loads(moving.body, 0);
+}
+
+template <int Dim>
+double leapfrog_step(MovingBody<Dim>& moving, double t_limit) {
+  using Rule = scheme::Relaxation::Rule;
+  auto& [body, sweeps, boundary, integrator, keeps, audit, load_rates, L_0, clock] = moving;
+  const double dt = choose_dt(moving, t_limit), t = clock.time;
+  boundary.begin_step(t, dt);
+  scheme::Audit rate;
+  kick(body, dt / 2, moving.has_branches());
+  rate.impulse = {0.5 * load_rates.force, 0.5 * load_rates.torque};
+  book(moving, boundary.constrain(body, t + dt / 2));
+  rate.external_work = 0.5 * boundary.power_of_loads(body);
+  rate.external_work += 0.5 * boundary.power_of_constraints(body, 0.5);
+  rate.viscous_dissipation = 0.5 * sweeps.viscous_power();
+  exchange(body);
+  const Rule rule = moving.has_branches() ? Rule::linear : Rule::frozen;
+  sweeps.strain_rates(body, {rule, true, dt, sweeps.material().branches()}, nullptr, dt);
+  rate.viscous_dissipation += 0.5 * sweeps.viscous_power();
+  exchange(body);
+  sweeps.sum_forces(body, true);
+  load_rates = boundary.add_loads(body, t + dt);
+  rate.external_work += 0.5 * load_rates.power;
+  // the same velocities against the forces of the end: the trapezoid, of second order
+  rate.external_work += 0.5 * boundary.power_of_constraints(body, 0.5);
+  rate.impulse.linear += 0.5 * load_rates.force;
+  rate.impulse.angular += 0.5 * load_rates.torque;
+  rate.numerical_dissipation = sweeps.numerical_power();
+  kick(body, dt / 2, false);
+  book(moving, boundary.constrain(body, t + dt));
+  audit = audit.combined(0, audit, 1, dt, rate);
+  keep_angular_momentum(moving);
+  return dt;
+}
+
+template void begin_leapfrog(MovingBody<2>&);
+template void begin_leapfrog(MovingBody<3>&);
+template double leapfrog_step(MovingBody<2>&, double);
+template double leapfrog_step(MovingBody<3>&, double);
+
+}  // namespace diptych::time

@@ -1,0 +1,59 @@
+#include "common/time/moving_body.hpp"
+
+#include "common/base/error.hpp"
+#include "common/scheme/body/health.hpp"
+#include "common/scheme/budget/angular_momentum.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych::time {
+
+template <int Dim>
+double choose_dt(MovingBody<Dim>& moving, double t_limit) {
+  Clock& clock = moving.clock;
+  const double left = t_limit - clock.time;
+  const double n = std::ceil(left / moving.sweeps.stable_dt() * (1 - 1e-12));
+  const double dt = left / std::max(n, 1.0);
+  if (clock.step == 0) clock.first_dt = dt;
+  if (!(dt > 1e-7 * clock.first_dt) || clock.time + dt == clock.time) {
+    throw base::BreakdownError(
+        scheme::collapse_report(moving.body, clock.step + 1, clock.time, dt, clock.first_dt));
+  }
+  return dt;
+}
+
+template <int Dim>
+scheme::Audit audit_rates(const MovingBody<Dim>& moving) {
+  scheme::Audit rate;
+  rate.external_work = moving.load_rates.power;
+  rate.impulse = {moving.load_rates.force, moving.load_rates.torque};
+  rate.numerical_dissipation = moving.sweeps.numerical_power();
+  rate.viscous_dissipation = moving.sweeps.viscous_power();
+  return rate;
+}
+
+template <int Dim>
+void book(MovingBody<Dim>& moving, const scheme::ConstraintAction& action) {
+  moving.audit.impulse.linear += action.impulse.linear;
+  moving.audit.impulse.angular += action.impulse.angular;
+  moving.audit.external_work += action.work;
+}
+
+template <int Dim>
+void keep_angular_momentum(MovingBody<Dim>& moving) {
+  if (!moving.keeps_angular_momentum) return;
+  moving.audit.numerical_dissipation -= scheme::project_angular_momentum(
+      moving.body, moving.initial_angular_momentum + moving.audit.impulse.angular);
+}
+
+#define DIPTYCH_INSTANTIATE(Dim)                                         \
+  template double choose_dt(MovingBody<Dim>&, double);                   \
+  template scheme::Audit audit_rates(const MovingBody<Dim>&);            \
+  template void book(MovingBody<Dim>&, const scheme::ConstraintAction&); \
+  template void keep_angular_momentum(MovingBody<Dim>&);
+DIPTYCH_INSTANTIATE(2)
+DIPTYCH_INSTANTIATE(3)
+#undef DIPTYCH_INSTANTIATE
+
+}  // namespace diptych::time

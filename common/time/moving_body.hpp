@@ -1,0 +1,72 @@
+#pragma once
+/// A body in motion: all that a step reads and changes.
+
+#include "common/scheme/boundary/applied_boundary.hpp"
+#include "common/scheme/budget/audit.hpp"
+#include "common/scheme/sweeps/sweeps.hpp"
+#include "common/time/integrator.hpp"
+
+namespace diptych::time {
+
+/// Where a run stands, and how large its steps were.
+struct Clock {
+  double time = 0;        ///< s
+  std::int64_t step = 0;  ///< steps made
+  double first_dt = 0;    ///< s
+};
+
+template <int Dim>
+struct MovingBody {
+  scheme::Body<Dim> body;
+  scheme::Sweeps<Dim> sweeps;
+  scheme::AppliedBoundary boundary;
+  Integrator integrator;
+  bool keeps_angular_momentum = false;  ///< by the projection of notes 3.7
+  scheme::Audit audit;
+  scheme::LoadRates load_rates;  ///< of the loads as they were added last
+  algebra::Vec3 initial_angular_momentum = algebra::Vec3::Zero();  ///< N m s, about the centroid
+  Clock clock;
+
+  bool has_branches() const { return body.options.n_branches > 0; }
+};
+
+/// One step of Shu and Osher's form of a Runge-Kutta scheme (notes 5.5). @return its size  [s]
+/// @throws base::BreakdownError where the step has collapsed
+template <int Dim>
+double ssp_step(MovingBody<Dim>& moving, double t_limit);
+
+/// One step of leapfrog, kick, drift, kick (notes 5.4). @return its size  [s]
+/// @throws base::BreakdownError where the step has collapsed
+template <int Dim>
+double leapfrog_step(MovingBody<Dim>& moving, double t_limit);
+
+/// Forces and loads of the state as it stands: what leapfrog begins with.
+template <int Dim>
+void begin_leapfrog(MovingBody<Dim>& moving);
+
+// ---- parts that both steps share
+
+/// The step to make now: stable, and the time left divided evenly.
+/// @throws base::BreakdownError where it is below 1e-7 of the first
+template <int Dim>
+double choose_dt(MovingBody<Dim>& moving, double t_limit);
+
+/// What loads and dissipations add to the audit at this instant, by the last sweeps.
+template <int Dim>
+scheme::Audit audit_rates(const MovingBody<Dim>& moving);
+
+/// Books what constraints did to the body when they were applied.
+template <int Dim>
+void book(MovingBody<Dim>& moving, const scheme::ConstraintAction& action);
+
+/// Gives back the angular momentum that D_ab and the integrator took, before the strain rates see
+/// the velocities: F stays the gradient of x. What this changes in the kinetic energy is booked
+/// with the dissipation that made it necessary.
+template <int Dim>
+void keep_angular_momentum(MovingBody<Dim>& moving);
+
+/// Where ranks will exchange what neighbours read; one rank has all of it.
+template <int Dim>
+void exchange(scheme::Body<Dim>&) {}
+
+}  // namespace diptych::time

@@ -1,0 +1,65 @@
+/// A step of the strong-stability-preserving Runge-Kutta schemes in the form of Shu and Osher
+/// (J. Comput. Phys. 77, 1988): coefficients in schemes/, each with its source.
+
+#include "common/parallel/for_chunks.hpp"
+#include "common/scheme/sweeps/update.hpp"
+#include "common/time/moving_body.hpp"
+
+namespace diptych::time {
+
+namespace {
+
+template <int Dim>
+void combine_motion(scheme::Body<Dim>& body, const scheme::StageCombination& stage) {
+  parallel::for_chunks(body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+    scheme::update_motion(body, stage, begin, end);
+  });
+}
+
+/// How the internal variables follow at the end of a stage (notes 5.2, 5.3).
+template <int Dim>
+scheme::Relaxation relaxation_of(const MovingBody<Dim>& moving, double elapsed, bool last) {
+  using Rule = scheme::Relaxation::Rule;
+  const Rule rule = !moving.has_branches()                       ? Rule::frozen
+                    : last && moving.integrator.gauss_relaxation ? Rule::gauss
+                                                                 : Rule::linear;
+  return {rule, last, elapsed, moving.sweeps.material().branches()};
+}
+
+}  // namespace
+
+template <int Dim>
+double ssp_step(MovingBody<Dim>& moving, double t_limit) {
+  auto& [body, sweeps, boundary, integrator, keeps, audit, load_rates, L_0, clock] = moving;
+  const scheme::Audit audit_0 = audit;
+  const size_t n_stages = integrator.stages.size();
+  double dt = 0, fraction = 0;  // of the step that has passed when a stage begins
+  for (size_t i = 0; i < n_stages; ++i) {
+    const SspStage& now = integrator.stages[i];
+    const bool first = i == 0, last = i + 1 == n_stages;
+    exchange(body);
+    sweeps.sum_forces(body, first);  // (18a) + D_ab, step bound
+    if (first) {
+      dt = choose_dt(moving, t_limit);
+      boundary.begin_step(clock.time, dt);
+    }
+    load_rates = boundary.add_loads(body, clock.time + fraction * dt);
+    scheme::Audit rate = audit_rates(moving);
+    rate.external_work += boundary.power_of_constraints(body, fraction);
+    const scheme::StageCombination stage{now.alpha, now.beta, now.part * dt, first};
+    audit = audit.combined(stage.alpha, audit_0, stage.beta, stage.dt, rate);
+    combine_motion(body, stage);
+    book(moving, last ? boundary.constrain(body, clock.time + now.time * dt)
+                      : boundary.constrain_stage(body, stage, fraction));
+    if (last) keep_angular_momentum(moving);
+    exchange(body);
+    sweeps.strain_rates(body, relaxation_of(moving, now.time * dt, last), &stage, 0);  // (18b-d)
+    fraction = now.time;
+  }
+  return dt;
+}
+
+template double ssp_step(MovingBody<2>&, double);
+template double ssp_step(MovingBody<3>&, double);
+
+}  // namespace diptych::time
