@@ -5,12 +5,12 @@
 #include "benchmarks/regression/regress.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/provenance.hpp"
-#include "benchmarks/run/quantities.hpp"
 #include "benchmarks/run/run_case.hpp"
 #include "benchmarks/run/scene.hpp"
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/run/probes.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -270,7 +270,7 @@ std::vector<std::string> overriding(const std::vector<std::string>& set,
 LevelRecord record_of(const cases::Case& setup, const RunResult& run) {
   return {run.summary,
           io::history_columns_from_csv(
-              io::history_csv(run.history, probe_columns(setup, false)), setup.name)};
+              io::history_csv(run.history, run::probe_columns(setup.probes, false)), setup.name)};
 }
 
 /// Error bar of level 1, and the value there.
