@@ -1,8 +1,7 @@
 #include "benchmarks/cost/option_costs.hpp"
 
-#include "benchmarks/run/backends.hpp"
-#include "benchmarks/run/case_mesh.hpp"
 #include "benchmarks/run/interruption.hpp"
+#include "benchmarks/run/scene.hpp"
 #include "benchmarks/terminal/status_line.hpp"
 #include "common/cases/reader.hpp"
 #include "common/parallel/for_chunks.hpp"
@@ -131,8 +130,6 @@ std::vector<double> column(const std::string& method,
                            int rounds,
                            const std::string& name,
                            StatusLine& status) {
-  const cases::Case bare = cases::case_from_text(text, "costs");
-  const CaseMesh mesh = mesh_of(bare, 0);
   std::map<std::string, scheme::PairGraph> graphs;  // by precision
   const auto all = options();
   std::vector<std::unique_ptr<run::Solver>> solvers;
@@ -141,9 +138,7 @@ std::vector<double> column(const std::string& method,
     for (int k = 0; k < option.n_branches; ++k)
       setup.material.branches.push_back({0.5, 1e-3 * (k + 1), 0.5, 2e-3 * (k + 1)});
     const std::string& precision = setup.scheme.precision;
-    if (graphs.count(precision) == 0) {
-      graphs.emplace(precision, method_menu().at(method)(mesh.mesh, setup));
-    }
+    if (graphs.count(precision) == 0) graphs.emplace(precision, graph_of(setup, method, 0).graph);
     solvers.push_back(run::make_solver(setup, graphs.at(precision)));
     solvers.back()->step(1e6);  // pages and caches
   }

@@ -1,10 +1,8 @@
 #include "benchmarks/cost/size_costs.hpp"
 
-#include "benchmarks/run/backends.hpp"
-#include "benchmarks/run/case_mesh.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/memory.hpp"
-#include "benchmarks/run/memory_estimate.hpp"
+#include "benchmarks/run/scene.hpp"
 #include "benchmarks/terminal/status_line.hpp"
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
@@ -68,7 +66,6 @@ constexpr int least_steps = 12;
 SizeRow measured(const Graph& kind, int side, const std::vector<std::string>& overrides) {
   const std::string text = fmt::format(scene_text, kind.element, side - 1, side - 1, side - 1);
   const cases::Case setup = cases::case_from_text(text, "sizes", overrides);
-  require_memory(setup, {kind.method}, {0});
   SizeRow row;
   row.graph = kind.name;
   const std::int64_t before = settled_memory();
@@ -79,29 +76,29 @@ SizeRow measured(const Graph& kind, int side, const std::vector<std::string>& ov
     start = now;
     return taken;
   };
-  CaseMesh mesh = mesh_of(setup, 0);
-  row.mesh_seconds = lap();
-  scheme::PairGraph graph = method_menu().at(kind.method)(mesh.mesh, setup);
-  row.graph_seconds = lap();
-  const auto solver = run::make_solver(setup, graph);
-  row.solver_seconds = lap();
-  row.nodes = graph.n_nodes();
-  row.pairs = graph.n_pairs();
+  Scene scene(setup, kind.method, 0, [&](ScenePart part) {
+    (part == ScenePart::mesh    ? row.mesh_seconds
+     : part == ScenePart::graph ? row.graph_seconds
+                                : row.solver_seconds) = lap();
+  });
+  run::Solver& solver = *scene.solver;
+  row.nodes = scene.graph.n_nodes();
+  row.pairs = scene.graph.n_pairs();
   const auto n = static_cast<double>(row.nodes);
   row.building = static_cast<double>(peak_rss_bytes() - before) / n;
-  release_pairs(graph);
-  mesh.mesh = {};
+  release_pairs(scene.graph);
+  scene.mesh.mesh = {};
   row.running = static_cast<double>(settled_memory() - before) / n;
-  row.counted = static_cast<double>(solver->bytes()) / n;
+  row.counted = static_cast<double>(solver.bytes()) / n;
   row.step_seconds = std::numeric_limits<double>::infinity();
   const int n_steps = std::max(least_steps, static_cast<int>(least_node_steps / n));
-  solver->step(1e6);  // pages and caches
+  solver.step(1e6);  // pages and caches
   for (int i = 0; i < n_steps && !interrupt_requested(); ++i) {
     lap();
-    solver->step(1e6);
+    solver.step(1e6);
     row.step_seconds = std::min(row.step_seconds, lap());
   }
-  row.stage_ns = 1e9 * row.step_seconds / (n * solver->evaluations_per_step());
+  row.stage_ns = 1e9 * row.step_seconds / (n * solver.evaluations_per_step());
   return row;
 }
 

@@ -1,7 +1,6 @@
 #include "benchmarks/micro/scene.hpp"
 
-#include "benchmarks/run/backends.hpp"
-#include "benchmarks/run/case_mesh.hpp"
+#include "benchmarks/run/scene.hpp"
 #include "common/cases/reader.hpp"
 #include "common/run/initial_state.hpp"
 #include "common/run/model_menu.hpp"
@@ -54,10 +53,8 @@ const scheme::PairGraph& graph_of(const std::string& graph) {
   static std::map<std::string, scheme::PairGraph> graphs;
   const auto found = graphs.find(graph);
   if (found != graphs.end()) return found->second;
-  const cases::Case setup = case_of({graph});
-  const auto mesh = harness::mesh_of(setup, 0);
   const std::string method = graph.starts_with("sph") ? "sph" : "fvm";
-  return graphs.emplace(graph, harness::method_menu().at(method)(mesh.mesh, setup)).first->second;
+  return graphs.emplace(graph, harness::graph_of(case_of({graph}), method, 0).graph).first->second;
 }
 
 namespace {

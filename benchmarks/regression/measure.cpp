@@ -3,13 +3,14 @@
 
 #include "benchmarks/convergence/convergence.hpp"
 #include "benchmarks/regression/regress.hpp"
-#include "benchmarks/run/backends.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/provenance.hpp"
-#include "benchmarks/run/quantities.hpp"
+#include "benchmarks/run/run_case.hpp"
+#include "benchmarks/run/scene.hpp"
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/run/probes.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -87,35 +88,35 @@ std::vector<double> flat(const std::vector<double>& field, const std::vector<std
 NaturalScales measure_canary(const cases::Case& setup,
                              const std::string& method,
                              MethodFigures& figures) {
-  const CaseMesh mesh = mesh_of(setup, 0);
-  const scheme::PairGraph graph = method_menu().at(method)(mesh.mesh, setup);
-  const auto solver = run::make_solver(setup, graph);
+  const Scene scene(setup, method, 0);
+  run::Solver& solver = *scene.solver;
+  const std::vector<std::int32_t>& order = scene.mesh.order;
   for (int i = 0; i < 5; ++i) {
-    if (solver->time() >= setup.time.end) {
+    if (solver.time() >= setup.time.end) {
       throw base::InputError(
           fmt::format("{} {}: time.end = {:.6g} s comes after {} steps, the canary makes five; "
                       "take a longer time for the size, such as time.end={:.2g}",
                       setup.name, method, setup.time.end, i, 10 * setup.time.end / i));
     }
-    solver->step(setup.time.end);
+    solver.step(setup.time.end);
   }
-  const scheme::Snapshot s = solver->snapshot();
-  const NaturalScales natural = natural_scales(setup, graph);
-  figures.state = solver->state_hash(mesh.order);
+  const scheme::Snapshot s = solver.snapshot();
+  const NaturalScales natural = natural_scales(setup, scene.graph);
+  figures.state = solver.state_hash(order);
   figures.canary["time"] = {s.time, s.time};
-  add_field(figures.canary, "displacement", flat(s.u, mesh.order), natural.length);
-  add_field(figures.canary, "velocity", flat(s.v, mesh.order), natural.speed);
-  add_field(figures.canary, "F", flat(s.F, mesh.order), 1);
-  add_field(figures.canary, "H", flat(s.H, mesh.order), 1);
-  add_field(figures.canary, "J", flat(s.J, mesh.order), 1);
-  add_field(figures.canary, "stress", flat(s.P, mesh.order), natural.stress);
+  add_field(figures.canary, "displacement", flat(s.u, order), natural.length);
+  add_field(figures.canary, "velocity", flat(s.v, order), natural.speed);
+  add_field(figures.canary, "F", flat(s.F, order), 1);
+  add_field(figures.canary, "H", flat(s.H, order), 1);
+  add_field(figures.canary, "J", flat(s.J, order), 1);
+  add_field(figures.canary, "stress", flat(s.P, order), natural.stress);
   for (size_t k = 0; k < s.A.size(); ++k) {
     if (!s.A[k].empty())
-      add_field(figures.canary, fmt::format("A{}", k + 1), flat(s.A[k], mesh.order), 1);
+      add_field(figures.canary, fmt::format("A{}", k + 1), flat(s.A[k], order), 1);
   }
   for (size_t k = 0; k < s.S.size(); ++k) {
     if (!s.S[k].empty())
-      add_field(figures.canary, fmt::format("S{}", k + 1), flat(s.S[k], mesh.order), 1);
+      add_field(figures.canary, fmt::format("S{}", k + 1), flat(s.S[k], order), 1);
   }
   return natural;
 }
@@ -267,8 +268,9 @@ std::vector<std::string> overriding(const std::vector<std::string>& set,
 }
 
 LevelRecord record_of(const cases::Case& setup, const RunResult& run) {
-  return {run.summary, io::history_columns_from_csv(
-                           io::history_csv(run.history, probe_columns(setup, false)), setup.name)};
+  return {run.summary,
+          io::history_columns_from_csv(
+              io::history_csv(run.history, run::probe_columns(setup.probes, false)), setup.name)};
 }
 
 /// Error bar of level 1, and the value there.

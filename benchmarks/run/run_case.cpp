@@ -1,24 +1,21 @@
 #include "benchmarks/run/run_case.hpp"
 
-#include "benchmarks/run/backends.hpp"
 #include "benchmarks/run/breakdown_place.hpp"
+#include "benchmarks/run/case_observers.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/memory.hpp"
-#include "benchmarks/run/memory_estimate.hpp"
 #include "benchmarks/run/provenance.hpp"
-#include "benchmarks/run/recorder.hpp"
 #include "benchmarks/run/resumption.hpp"
 #include "benchmarks/run/run_folder.hpp"
-#include "benchmarks/terminal/progress.hpp"
+#include "benchmarks/run/scene.hpp"
 #include "common/base/error.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/parallel/thread_count.hpp"
+#include "common/run/simulation.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <fmt/format.h>
 #include <new>
 #include <optional>
@@ -33,7 +30,8 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void describe_graph(const scheme::PairGraph& graph, io::RunSummary& s) {
+void describe_graph(const CaseGraph& scene, io::RunSummary& s) {
+  const scheme::PairGraph& graph = scene.graph;
   const scheme::GraphQuality q = scheme::quality(graph);
   s.nodes = graph.n_nodes();
   s.pairs = graph.n_pairs();
@@ -41,6 +39,7 @@ void describe_graph(const scheme::PairGraph& graph, io::RunSummary& s) {
   s.mean_neighbours = q.mean_neighbours;
   s.graph_closure = q.closure;
   s.graph_linear_exactness = q.linear_exactness;
+  s.graph_operators = scene.description.operators;
   // of the interior nodes: those on the boundary have only a part of their cell inside
   double inside = 0, all = 0;
   std::int64_t n = 0;
@@ -53,61 +52,6 @@ void describe_graph(const scheme::PairGraph& graph, io::RunSummary& s) {
   const double mean =
       n > 0 ? inside / static_cast<double>(n) : all / static_cast<double>(graph.n_nodes());
   s.spacing = std::pow(mean, 1.0 / graph.dimension);
-}
-
-/// What the graph is made of, and a line for the log where that is less than was asked for.
-void describe_operators(const meshes::Mesh& mesh,
-                        const cases::Case& setup,
-                        const RunOptions& options,
-                        io::RunSummary& s) {
-  const GraphDescription description = graph_description(options.method, mesh, setup);
-  s.graph_operators = description.operators;
-  if (options.quiet) return;
-  for (const std::string& notice : description.notices)
-    std::fputs(fmt::format("{} level {}: {}\n", options.method, options.level, notice).c_str(),
-               stderr);
-}
-
-/// Steps to the end; time in the loop without output is summed in s.loop_seconds.
-void advance(const cases::Case& setup,
-             const RunOptions& options,
-             run::Solver& solver,
-             Recorder& recorder,
-             io::RunSummary& s) {
-  Progress progress(fmt::format("{} level {}", options.method, options.level), setup.time.end,
-                    options.quiet, options.schedule);
-  run::StepReport report;
-  report.step = 0;
-  recorder.record(report);
-  recorder.record_step(report);
-  s.dt_min = 1e300;
-  s.min_jacobian = 1e300;
-  for (int frame = 1; frame <= setup.output.frames; ++frame) {
-    const bool final_frame = frame == setup.output.frames;
-    const double limit =
-        final_frame ? setup.time.end : setup.time.end * frame / setup.output.frames;
-    while (solver.time() < limit && !interrupt_requested()) {
-      const auto start = Clock::now();
-      report = solver.step(limit);
-      s.loop_seconds += seconds_since(start);
-      s.steps = report.step;
-      s.dt_min = std::min(s.dt_min, report.dt);
-      s.dt_max = std::max(s.dt_max, report.dt);
-      s.min_jacobian = std::min(s.min_jacobian, report.least_J);
-      recorder.record_step(report);
-      if (progress.due()) {
-        progress.show(solver.time(), report.step, report.dt, recorder.energy_residual());
-      }
-      if (setup.time.max_steps > 0 && report.step >= setup.time.max_steps) break;
-    }
-    recorder.record(report);
-    if (interrupt_requested()) s.status = "interrupted";
-    if (setup.time.max_steps > 0 && report.step >= setup.time.max_steps &&
-        solver.time() < setup.time.end) {
-      s.status = "step limit";
-    }
-    if (s.status != "done") break;
-  }
 }
 
 /// One run, whose parts refer to each other.
@@ -125,6 +69,7 @@ class CaseRun {
 
  private:
   void identify();
+  void note_breakdown();
   void measure();
   void finish();
 
@@ -134,23 +79,23 @@ class CaseRun {
   const RunOptions& options_;
   RunFolder folder_;
   RunResult result_;
-  std::optional<CaseMesh> mesh_;
-  std::unique_ptr<run::Solver> solver_;
-  std::optional<Recorder> recorder_;
+  std::optional<Scene> scene_;
+  std::optional<CaseObservers> observers_;
+  std::optional<run::Simulation> simulation_;
 };
 
 CaseRun::CaseRun(const cases::Case& setup, const RunOptions& options)
     : setup_(setup), options_(options), folder_(options.directory) {
   parallel::set_threads(options.threads);
-  require_memory(setup, {options.method}, {options.level});
-  mesh_ = mesh_of(setup, options.level);
-  require_memory(setup, options.method, options.level, mesh_->mesh);
-  result_.graph = method_menu().at(options.method)(mesh_->mesh, setup);
-  solver_ = run::make_solver(setup, result_.graph);
+  scene_.emplace(setup, options.method, options.level);
   identify();
-  describe_graph(result_.graph, result_.summary);
-  describe_operators(mesh_->mesh, setup, options, result_.summary);
-  recorder_.emplace(setup, options, *mesh_, *solver_, result_);
+  describe_graph(*scene_, result_.summary);
+  for (const std::string& notice : scene_->description.notices) {
+    if (options.quiet) break;
+    std::fputs(fmt::format("{} level {}: {}\n", options.method, options.level, notice).c_str(),
+               stderr);
+  }
+  observers_.emplace(setup, options, *scene_);
   folder_.check();
   if (folder_.is_written() && options.before_writing) options.before_writing();
   folder_.open(setup, result_.summary);
@@ -166,42 +111,59 @@ void CaseRun::identify() {
   s.threads = parallel::running_threads();
   s.integrator = setup_.time.integrator;
   s.precision = setup_.scheme.precision;
-  s.unknowns_per_node = solver_->unknowns_per_node();
-  s.arrangement = solver_->arrangement();
+  s.unknowns_per_node = scene_->solver->unknowns_per_node();
+  s.arrangement = scene_->solver->arrangement();
   s.provenance = provenance(setup_.hash);
   s.provenance.input_hash = input_hash(setup_, options_.measures);
 }
 
 void CaseRun::go() {
   io::RunSummary& s = result_.summary;
-  recorder_->open(*mesh_);
-  // from here on the solver's arrays are all that is needed, and the nodes
-  result_.order = std::move(mesh_->order);
-  release_pairs(result_.graph);
-  s.solver_bytes = solver_->bytes();
+  observers_->open();
+  // from here on the solver's arrays are all that is needed, the nodes and the cells
+  release_pairs(scene_->graph);
+  s.solver_bytes = scene_->solver->bytes();
   s.building_rss_bytes = memory_.peak();
   s.running_rss_bytes = memory_.settled();
   s.setup_seconds = seconds_since(start_);
+  simulation_.emplace(setup_, *scene_->solver, observers_->all(), interrupt_requested);
   try {
-    advance(setup_, options_, *solver_, *recorder_, s);
-  } catch (const base::BreakdownError& error) {
-    s.status = "breakdown";
-    s.failure = failure_of(error, *solver_, result_.graph, s.steps, result_.order);
+    s.status = run::status_of(simulation_->run());
+  } catch (...) {  // of an observer, which may have been closing a file after a breakdown
+    note_breakdown();
+    throw;
   }
+  note_breakdown();
   finish();
+}
+
+void CaseRun::note_breakdown() {
+  if (!simulation_->breakdown()) return;
+  io::RunSummary& s = result_.summary;
+  s.status = run::status_of(run::Ending::breakdown);
+  s.failure = failure_of(*simulation_->breakdown(), *scene_->solver, scene_->graph,
+                         simulation_->totals().steps, scene_->mesh.order);
 }
 
 /// What the run cost.
 void CaseRun::measure() {
   io::RunSummary& s = result_.summary;
-  s.stages = s.steps * solver_->evaluations_per_step();
-  s.end_time = solver_->time();
+  if (simulation_) {
+    const run::StepTotals& totals = simulation_->totals();
+    s.steps = totals.steps;
+    s.dt_min = totals.dt_min;
+    s.dt_max = totals.dt_max;
+    s.min_jacobian = totals.least_J;
+    s.loop_seconds = totals.seconds;
+  }
+  s.stages = s.steps * scene_->solver->evaluations_per_step();
+  s.end_time = scene_->solver->time();
   s.wall_seconds = seconds_since(start_);
   s.peak_rss_bytes = memory_.peak();
   if (s.stages == 0) return;
   s.nanoseconds_per_node_stage =
       1e9 * s.loop_seconds / (static_cast<double>(s.stages) * static_cast<double>(s.nodes));
-  const double crossings = s.end_time * solver_->undeformed_speed() / s.spacing;
+  const double crossings = s.end_time * scene_->solver->undeformed_speed() / s.spacing;
   s.nanoseconds_per_node_crossing =
       1e9 * s.loop_seconds / (crossings * static_cast<double>(s.nodes));
 }
@@ -209,12 +171,14 @@ void CaseRun::measure() {
 void CaseRun::finish() {
   io::RunSummary& s = result_.summary;
   measure();
-  s.state_hash = solver_->state_hash(result_.order);
-  recorder_->finish();
-  if (!result_.history.empty()) recorder_->fill(s);
+  s.state_hash = scene_->solver->state_hash(scene_->mesh.order);
+  observers_->give(result_);
+  result_.final_state = simulation_->take_state();
+  result_.order = std::move(scene_->mesh.order);
+  result_.graph = std::move(scene_->graph);
   if (s.status == "done") {
     s.measures =
-        measured(options_.measures, {result_.graph, result_.final_state, recorder_->errors()});
+        measured(options_.measures, {result_.graph, result_.final_state, observers_->errors()});
   }
   folder_.close(result_);
 }

@@ -1,7 +1,5 @@
 #include "benchmarks/run/run_table.hpp"
 
-#include "benchmarks/run/quantities.hpp"
-
 #include <fmt/format.h>
 
 namespace diptych::harness {
@@ -11,6 +9,19 @@ namespace {
 /// Six digits; the least of no values is 1e300.
 std::string least_text(double J) {
   return J < 1e299 ? fmt::format("{:.6g}", J) : "not measured";
+}
+
+/// "tip deflection: 1.25 m at the end, -0.1 to 1.3; period 0.65 s, ..."
+std::string quantity_line(const io::QuantitySummary& q) {
+  const std::string unit = q.unit == "-" ? "" : " " + q.unit;
+  std::string line = fmt::format("{}: {:.6g}{} at the end, {:.6g} to {:.6g}", q.name, q.final_value,
+                                 unit, q.least, q.greatest);
+  if (q.n_periods > 0) {
+    line +=
+        fmt::format("; period {:.6g} s ({}), amplitude {:.4g}", q.period, q.n_periods, q.amplitude);
+  }
+  if (q.decrement) line += fmt::format(", decrement {:.3g}", *q.decrement);
+  return line;
 }
 
 }  // namespace

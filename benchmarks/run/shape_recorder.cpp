@@ -59,9 +59,12 @@ ShapeRecorder::ShapeRecorder(const meshes::Mesh& mesh, size_t n_outputs) : n_out
     X_.push_back(mesh.nodes[node]);
 }
 
-void ShapeRecorder::take(const scheme::Snapshot& state, double time) {
+void ShapeRecorder::at_output(const run::Output& output) {
+  const auto number = static_cast<size_t>(output.number);
+  if (number % stride_ != 0 && number + 1 != n_outputs_) return;
+  const run::Snapshot& state = output.state;
   report::ShapeFrame frame;
-  frame.time = time;
+  frame.time = state.time;
   frame.values.resize(record_.fields.size());
   for (size_t p = 0; p < X_.size(); ++p) {
     const std::int32_t a = record_.surface.nodes[p];

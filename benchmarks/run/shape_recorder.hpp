@@ -2,7 +2,7 @@
 /// Takes the deformed surface of a run at some of its output times, for the pictures of a report.
 
 #include "benchmarks/run/case_mesh.hpp"
-#include "common/run/solver.hpp"
+#include "common/run/observers/observer.hpp"
 #include "postprocess/report/shapes.hpp"
 
 namespace diptych::harness {
@@ -10,14 +10,12 @@ namespace diptych::harness {
 /// Boundary faces in 3-D, cells in 2-D; nodes in ascending order.
 report::Surface surface_of(const meshes::Mesh& mesh);
 
-class ShapeRecorder {
+class ShapeRecorder : public run::Observer {
  public:
   /// @param n_outputs  output times of the run, t = 0 included
   ShapeRecorder(const meshes::Mesh& mesh, size_t n_outputs);
 
-  /// Whether the output with this number, from 0, is one that is kept.
-  bool wants(size_t output) const { return output % stride_ == 0 || output + 1 == n_outputs_; }
-  void take(const scheme::Snapshot& state, double time);
+  void at_output(const run::Output& output) override;
   const report::ShapeRecord& record() const { return record_; }
 
  private:

@@ -1,12 +1,12 @@
 #include "benchmarks/study/study_verb.hpp"
 
-#include "benchmarks/run/backends.hpp"
 #include "benchmarks/run/breakdowns.hpp"
 #include "benchmarks/run/case_mesh.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/memory_estimate.hpp"
 #include "benchmarks/run/output_folder.hpp"
 #include "benchmarks/run/run_case.hpp"
+#include "benchmarks/run/scene.hpp"
 #include "benchmarks/study/study_runs.hpp"
 #include "benchmarks/study/variant_quantities.hpp"
 #include "benchmarks/study/variants.hpp"
@@ -47,8 +47,7 @@ void add_limits(const StudyRequest& request,
                 const std::string& method,
                 StatusLine& status,
                 std::vector<StabilityLimit>& limits) {
-  const CaseMesh mesh = mesh_of(setup, request.level);
-  const scheme::PairGraph graph = method_menu().at(method)(mesh.mesh, setup);
+  const scheme::PairGraph graph = graph_of(setup, method, request.level).graph;
   for (const std::string& integrator : request.integrators) {
     const std::string name =
         fmt::format("{}{}{} {}", label, label.empty() ? "" : " ", method, integrator);

@@ -60,6 +60,14 @@ cases::NodeValues node_of(const Snapshot& s, size_t k) {
 
 }  // namespace
 
+std::vector<std::string> probe_columns(const std::vector<cases::ProbeCase>& probes, bool stepped) {
+  std::vector<std::string> columns;
+  for (const cases::ProbeCase& probe : probes) {
+    if (!stepped || probe.every_step) columns.push_back(probe.column());
+  }
+  return columns;
+}
+
 Probes::PlacedProbe Probes::placed(const cases::ProbeCase& probe, const scheme::PairGraph& graph) {
   PlacedProbe result{probe, {}, {}};
   if (probe.kind == "point") {

@@ -7,10 +7,15 @@
 #include "common/run/solver.hpp"
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace diptych::run {
 
 using algebra::Vec3;
+
+/// Headers of the probes' columns. @param stepped  only those with every_step
+std::vector<std::string> probe_columns(const std::vector<cases::ProbeCase>& probes, bool stepped);
 
 class Probes {
  public:

@@ -2,10 +2,9 @@
 
 #include "benchmarks/cost/stability.hpp"
 
+#include "benchmarks/run/scene.hpp"
 #include "common/cases/reader.hpp"
 #include "common/parallel/for_chunks.hpp"
-#include "fvm/fvm_graph.hpp"
-#include "meshes/generators.hpp"
 
 #include <gtest/gtest.h>
 
@@ -38,9 +37,7 @@ end = 0.1
 double courant_number(const std::string& integrator, const std::string& reconstruction) {
   const cases::Case setup =
       cases::case_from_text(bar, "bar", {"scheme.reconstruction=" + reconstruction});
-  const auto mesh = meshes::box(meshes::CellType::quadrilateral, setup.mesh.lower, setup.mesh.upper,
-                                setup.mesh.cells);
-  const auto graph = fvm::build_graph(mesh, {});
+  const scheme::PairGraph graph = graph_of(setup, "fvm", 0).graph;
   parallel::set_threads(1);
   int n_trials = 0;
   const StabilityLimit limit = stability_limit(setup, graph, integrator, {},

@@ -2,13 +2,14 @@
 /// A shipped case on one method, stepped by hand: fixed steps for orders in time, where the mesh
 /// and with it the error in space stay the same.
 
-#include "benchmarks/run/backends.hpp"
 #include "benchmarks/run/case_list.hpp"
-#include "benchmarks/run/case_mesh.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
-#include <filesystem>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
 
 namespace diptych::tests {
 
@@ -21,12 +22,7 @@ inline Scene scene_of_case(const std::string& method,
                            const std::vector<std::string>& overrides,
                            int level = 0) {
   parallel::set_threads(1);
-  Scene scene;
-  scene.setup = cases::read_case(harness::find_case(name), overrides);
-  const auto mesh = harness::mesh_of(scene.setup, level);
-  scene.graph = harness::method_menu().at(method)(mesh.mesh, scene.setup);
-  scene.solver = run::make_solver(scene.setup, scene.graph);
-  return scene;
+  return {method, cases::read_case(harness::find_case(name), overrides), level};
 }
 
 /// n equal steps from 0 to end.

@@ -15,12 +15,15 @@ using tests::text_of;
 class Involutions : public testing::TestWithParam<const char*> {
  protected:
   /// The cube of scenes.hpp, strained, after n equal steps.
-  Scene after(int n, const std::string& integrator, const std::string& unknowns) const {
+  std::unique_ptr<Scene> after(int n,
+                               const std::string& integrator,
+                               const std::string& unknowns) const {
     parallel::set_threads(1);
-    Scene scene = tests::scene_of(GetParam(), tests::spinning_cube,
-                                  {tests::any_step, text_of("time.integrator", integrator),
-                                   text_of("scheme.unknowns", unknowns)});
-    tests::make_steps(*scene.solver, 1e-3, n);
+    auto scene = std::make_unique<Scene>(
+        GetParam(), cases::case_from_text(tests::spinning_cube, "scene",
+                                          {tests::any_step, text_of("time.integrator", integrator),
+                                           text_of("scheme.unknowns", unknowns)}));
+    tests::make_steps(*scene->solver, 1e-3, n);
     return scene;
   }
 };
@@ -28,17 +31,17 @@ INSTANTIATE_TEST_SUITE_P(Both, Involutions, testing::Values("sph", "fvm"));
 
 TEST_P(Involutions, DriftFallsAtTheOrderOfTheIntegrator) {
   for (const auto& [integrator, order] : {std::pair{"ssp-rk2", 1.9}, std::pair{"ssp-rk3", 2.8}}) {
-    const auto coarse = after(16, integrator, "FHJ").solver->balance();
-    const auto fine = after(32, integrator, "FHJ").solver->balance();
+    const auto coarse = after(16, integrator, "FHJ")->solver->balance();
+    const auto fine = after(32, integrator, "FHJ")->solver->balance();
     EXPECT_GT(fine.involution_H, 1e-12) << "nothing to converge: the test tests nothing";
     EXPECT_GE(std::log2(coarse.involution_H / fine.involution_H), order) << integrator;
     EXPECT_GE(std::log2(coarse.involution_J / fine.involution_J), order) << integrator;
-    EXPECT_EQ(after(16, integrator, "F").solver->balance().involution_H, 0);
-    EXPECT_EQ(after(16, integrator, "FJ").solver->balance().involution_H, 0);
-    EXPECT_GT(after(16, integrator, "FJ").solver->balance().involution_J, 0);
+    EXPECT_EQ(after(16, integrator, "F")->solver->balance().involution_H, 0);
+    EXPECT_EQ(after(16, integrator, "FJ")->solver->balance().involution_H, 0);
+    EXPECT_GT(after(16, integrator, "FJ")->solver->balance().involution_J, 0);
   }
   // leapfrog moves H and J by the exact polynomial of a constant rate: rounding only
-  const auto exact = after(16, "leapfrog", "FHJ").solver->balance();
+  const auto exact = after(16, "leapfrog", "FHJ")->solver->balance();
   EXPECT_LE(exact.involution_H, 1e-13);
   EXPECT_LE(exact.involution_J, 1e-13);
 }
@@ -58,21 +61,21 @@ std::pair<double, double> gap(const Scene& one, const Scene& other) {
 // by a multiple of it, and the more so the stiffer the body is in volume (nu = 0.45).
 TEST_P(Involutions, UnknownsGiveOneAnswerUpToTheDrift) {
   for (const auto& [integrator, order] : {std::pair{"ssp-rk2", 1.9}, std::pair{"ssp-rk3", 2.8}}) {
-    const Scene coarse = after(16, integrator, "FHJ"), fine = after(32, integrator, "FHJ");
-    const auto balance = fine.solver->balance();
+    const auto coarse = after(16, integrator, "FHJ"), fine = after(32, integrator, "FHJ");
+    const auto balance = fine->solver->balance();
     const double drift = std::max(balance.involution_H, balance.involution_J);
     for (const char* unknowns : {"F", "FJ"}) {
-      const Scene fewer = after(32, integrator, unknowns);
-      EXPECT_LT(fewer.solver->unknowns_per_node(), fine.solver->unknowns_per_node());
-      const auto [F_coarse, P_coarse] = gap(after(16, integrator, unknowns), coarse);
-      const auto [F, P] = gap(fewer, fine);
+      const auto fewer = after(32, integrator, unknowns);
+      EXPECT_LT(fewer->solver->unknowns_per_node(), fine->solver->unknowns_per_node());
+      const auto [F_coarse, P_coarse] = gap(*after(16, integrator, unknowns), *coarse);
+      const auto [F, P] = gap(*fewer, *fine);
       EXPECT_GE(std::log2(F_coarse / F), order) << integrator << ' ' << unknowns;
       EXPECT_GE(std::log2(P_coarse / P), order) << integrator << ' ' << unknowns;
       EXPECT_LE(F, 60 * drift) << integrator << ' ' << unknowns;
     }
   }
   for (const char* unknowns : {"F", "FJ"}) {
-    const auto [F, P] = gap(after(32, "leapfrog", unknowns), after(32, "leapfrog", "FHJ"));
+    const auto [F, P] = gap(*after(32, "leapfrog", unknowns), *after(32, "leapfrog", "FHJ"));
     EXPECT_LE(F, 1e-12) << unknowns;
     EXPECT_LE(P, 1e-11 * 17e6) << unknowns;
   }

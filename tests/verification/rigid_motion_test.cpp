@@ -61,16 +61,15 @@ scheme::Snapshot turned_run(const std::string& method,
                             std::vector<std::string> overrides) {
   parallel::set_threads(1);
   overrides.push_back(tests::any_step);
-  Scene scene;
-  scene.setup = cases::case_from_text(turned_text(Q), "scene", overrides);
-  auto mesh = tests::box_of(scene.setup);
+  const cases::Case setup = cases::case_from_text(turned_text(Q), "scene", overrides);
+  auto mesh = harness::mesh_of(setup, 0).mesh;
   meshes::perturb_interior(mesh, 0.1, 1);
   for (Vec3& X : mesh.nodes)
     X = Q * X;
-  scene.graph = tests::graph_of(method, mesh);
-  scene.solver = run::make_solver(scene.setup, scene.graph);
-  tests::make_steps(*scene.solver, 3e-3, 60);
-  return scene.solver->snapshot();
+  const scheme::PairGraph graph = tests::graph_of(method, mesh, setup);
+  const auto solver = run::make_solver(setup, graph);
+  tests::make_steps(*solver, 3e-3, 60);
+  return solver->snapshot();
 }
 
 /// Largest distance over nodes relative to the largest value.

@@ -1,5 +1,6 @@
 #include "common/run/default_cfl.hpp"
 
+#include "benchmarks/run/scene.hpp"
 #include "common/cases/reader.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/run/largest_rates.hpp"
@@ -32,9 +33,8 @@ end = 1
 
 double cfl(const std::vector<std::string>& overrides, const char* integrator = "leapfrog") {
   const cases::Case setup = cases::case_from_text(block, "block", overrides);
-  const auto mesh = meshes::box(meshes::CellType::quadrilateral, setup.mesh.lower, setup.mesh.upper,
-                                setup.mesh.cells);
-  return default_cfl(setup, fvm::build_graph(mesh, {}), time::integrator_menu().at(integrator));
+  return default_cfl(setup, harness::graph_of(setup, "fvm", 0).graph,
+                     time::integrator_menu().at(integrator));
 }
 
 scheme::PairGraph squares(int nx, int ny) {

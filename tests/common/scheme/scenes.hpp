@@ -1,44 +1,39 @@
 #pragma once
-/// Small scenes for tests of the scheme: a case from text, its graph, its solver.
+/// Small scenes for tests of the scheme: a case from text with its graph and solver, made as the
+/// program makes them; graphs of meshes of their own.
 
+#include "benchmarks/run/scene.hpp"
 #include "common/cases/reader.hpp"
-#include "common/run/solver.hpp"
-#include "fvm/fvm_graph.hpp"
 #include "meshes/generators.hpp"
-#include "sph/sph_graph.hpp"
 
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace diptych::tests {
 
-struct Scene {
+/// Before the scene that is made of it.
+struct SceneCase {
   cases::Case setup;
-  scheme::PairGraph graph;
-  std::unique_ptr<run::Solver> solver;
 };
 
-inline scheme::PairGraph graph_of(const std::string& method, const meshes::Mesh& mesh) {
-  return method == "sph" ? sph::build_graph(mesh, {}) : fvm::build_graph(mesh, {});
-}
+struct Scene : SceneCase, harness::Scene {
+  Scene(const std::string& method, cases::Case of, int level = 0)
+      : SceneCase{std::move(of)}, harness::Scene(setup, method, level) {}
+};
 
-inline meshes::Mesh box_of(const cases::Case& setup) {
-  const auto type = setup.mesh.element == "hexahedron"      ? meshes::CellType::hexahedron
-                    : setup.mesh.element == "tetrahedron"   ? meshes::CellType::tetrahedron
-                    : setup.mesh.element == "quadrilateral" ? meshes::CellType::quadrilateral
-                                                            : meshes::CellType::triangle;
-  return meshes::box(type, setup.mesh.lower, setup.mesh.upper, setup.mesh.cells);
+/// The graph that a method makes of a mesh by the keys of a case, or by their defaults.
+inline scheme::PairGraph graph_of(const std::string& method,
+                                  const meshes::Mesh& mesh,
+                                  const cases::Case& setup = {}) {
+  return harness::method_menu().at(method)(mesh, setup);
 }
 
 inline Scene scene_of(const std::string& method,
                       const std::string& text,
                       const std::vector<std::string>& overrides = {}) {
-  Scene scene;
-  scene.setup = cases::case_from_text(text, "scene", overrides);
-  scene.graph = graph_of(method, box_of(scene.setup));
-  scene.solver = run::make_solver(scene.setup, scene.graph);
-  return scene;
+  return {method, cases::case_from_text(text, "scene", overrides)};
 }
 
 inline void run_to(run::Solver& solver, double end) {

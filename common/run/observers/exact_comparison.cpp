@@ -1,12 +1,19 @@
-#include "benchmarks/run/exact_record.hpp"
+#include "common/run/observers/exact_comparison.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace diptych::harness {
+namespace diptych::run {
 
-void ExactRecord::take(const scheme::Snapshot& exact) {
+void ExactComparison::at_output(const Output& output) {
+  if (!errors_.available()) return;
+  errors_.measure(output.state);
+  add_row(errors_.exact());
+}
+
+/// Of the same fields each time.
+void ExactComparison::add_row(const Snapshot& exact) {
   std::vector<io::HistoryColumn> now{{"time", "s", {exact.time}}};
   if (!exact.v.empty()) {
     double kinetic = 0, size = 0;
@@ -34,7 +41,7 @@ void ExactRecord::take(const scheme::Snapshot& exact) {
     columns_[k].values.push_back(now.at(k).values.front());
 }
 
-std::vector<io::HistoryColumn> ExactRecord::columns() const {
+std::vector<io::HistoryColumn> ExactComparison::columns() const {
   std::vector<io::HistoryColumn> kept;
   for (const io::HistoryColumn& column : columns_) {
     double most = 0;
@@ -47,4 +54,4 @@ std::vector<io::HistoryColumn> ExactRecord::columns() const {
   return kept;
 }
 
-}  // namespace diptych::harness
+}  // namespace diptych::run

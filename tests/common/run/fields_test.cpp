@@ -1,7 +1,7 @@
 /// The fields of a frame: names, units, components, numbering of the user's mesh, values by hand;
 /// and what a run of each dimension writes.
 
-#include "benchmarks/run/frame_fields.hpp"
+#include "common/run/observers/fields.hpp"
 
 #include "benchmarks/run/case_list.hpp"
 #include "benchmarks/run/run_case.hpp"
@@ -11,18 +11,18 @@
 #include <filesystem>
 #include <gmock/gmock.h>
 
-namespace diptych::harness {
+namespace diptych::run {
 namespace {
 
 using testing::ElementsAre;
 
 /// Two nodes: one at rest, one stretched to twice its length, 12 Pa on its undeformed area.
-scheme::Snapshot two_nodes() {
-  scheme::Snapshot s;
+Snapshot two_nodes() {
+  Snapshot s;
   s.u = {{0, 0, 0}, {1, 2, 3}};
   s.v = {{0, 0, 0}, {4, 5, 6}};
-  s.F = {run::Mat3::Identity(), Eigen::Vector3d(2, 0.5, 0.5).asDiagonal()};
-  s.P = {run::Mat3::Zero(), run::Mat3::Zero()};
+  s.F = {Mat3::Identity(), Eigen::Vector3d(2, 0.5, 0.5).asDiagonal()};
+  s.P = {Mat3::Zero(), Mat3::Zero()};
   s.P[1](0, 0) = 12;
   s.P[1](0, 1) = 8;
   s.J = {1, 0.5};
@@ -65,12 +65,12 @@ void expect_consistent_frame(const std::string& case_name, const char* end) {
       std::filesystem::temp_directory_path() / ("diptych-frame-" + case_name);
   std::filesystem::remove_all(folder);
   const cases::Case setup =
-      cases::read_case(find_case(case_name),
+      cases::read_case(harness::find_case(case_name),
                        {"output.fields=true", "output.frames=1", std::string("time.end=") + end});
-  RunOptions options;
+  harness::RunOptions options;
   options.directory = folder.string();
   options.quiet = true;
-  const RunResult run = run_case(setup, options);
+  const harness::RunResult run = harness::run_case(setup, options);
   const std::string frame = (folder / "frame_0001.hdf").string();
   const io::NodeField sigma = io::read_field(frame, "cauchy_stress [Pa]");
   const io::NodeField mises = io::read_field(frame, "von_mises_stress [Pa]");
@@ -101,4 +101,4 @@ TEST(FrameFields, OfARunInPlaneStrain) {
 }
 
 }  // namespace
-}  // namespace diptych::harness
+}  // namespace diptych::run

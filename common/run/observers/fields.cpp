@@ -1,8 +1,10 @@
-#include "benchmarks/run/frame_fields.hpp"
+#include "common/run/observers/fields.hpp"
 
 #include "common/cases/stress_measures.hpp"
 
-namespace diptych::harness {
+#include <utility>
+
+namespace diptych::run {
 
 namespace {
 
@@ -24,7 +26,7 @@ void set(io::NodeField& field, std::int32_t node, const algebra::Mat3& value) {
 
 }  // namespace
 
-std::vector<io::NodeField> frame_fields(const scheme::Snapshot& state,
+std::vector<io::NodeField> frame_fields(const Snapshot& state,
                                         const std::vector<std::int32_t>& order) {
   io::NodeField u = blank("displacement [m]", 3, order), v = blank("velocity [m/s]", 3, order);
   io::NodeField F = blank("deformation_gradient [-]", 9, order);
@@ -50,4 +52,18 @@ std::vector<io::NodeField> frame_fields(const scheme::Snapshot& state,
   return fields;
 }
 
-}  // namespace diptych::harness
+Fields::Fields(io::FieldWriter writer,
+               const std::vector<std::int32_t>& order,
+               std::vector<std::string> columns,
+               const History& history)
+    : writer_(std::move(writer)), order_(order), columns_(std::move(columns)), history_(history) {}
+
+void Fields::at_output(const Output& output) {
+  std::vector<io::NamedValue> values;
+  const std::vector<double>& probes = history_.rows().back().probes;
+  for (size_t k = 0; k < probes.size(); ++k)
+    values.push_back({columns_[k], probes[k]});
+  writer_.write(output.state.time, frame_fields(output.state, order_), values);
+}
+
+}  // namespace diptych::run

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace diptych::harness {
+namespace diptych::run {
 
 /// Budget of a run relative to the largest energy that it has held.
 class EnergyRecord {
@@ -34,4 +34,4 @@ class EnergyRecord {
   double initial_, scale_;
 };
 
-}  // namespace diptych::harness
+}  // namespace diptych::run

@@ -1,0 +1,71 @@
+#include "benchmarks/run/case_observers.hpp"
+
+#include "common/run/quantities.hpp"
+
+#include <filesystem>
+
+namespace diptych::harness {
+
+CaseObservers::CaseObservers(const cases::Case& setup,
+                             const RunOptions& options,
+                             const Scene& scene)
+    : setup_(setup),
+      options_(options),
+      scene_(scene),
+      probes_(setup.probes, scene.graph),
+      deformed_(scene.mesh.mesh),
+      cells_([this](std::span<const algebra::Vec3> u) {
+        const auto least = deformed_.least(u);
+        return run::LeastCell{least.J, least.n_inverted};
+      }),
+      history_(*scene.solver, probes_, cells_),
+      steps_(*scene.solver, probes_),
+      exact_(setup, scene.graph, *scene.solver, probes_),
+      progress_(setup, options, history_) {
+  if (options.scales) scales_.emplace(scene.graph);
+  if (options.shapes)
+    shapes_.emplace(scene.mesh.mesh, static_cast<size_t>(setup.output.frames) + 1);
+}
+
+void CaseObservers::open() {
+  if (options_.directory.empty()) return;
+  const std::filesystem::path folder = options_.directory;
+  const auto columns = run::probe_columns(setup_.probes, false);
+  history_.write_to((folder / "history.csv").string(), columns);
+  if (probes_.has_stepped()) {
+    steps_.write_to((folder / "steps.csv").string(), run::probe_columns(setup_.probes, true));
+  }
+  if (!options_.fields || !setup_.output.fields) return;
+  fields_.emplace(io::FieldWriter(options_.directory, visual_mesh(scene_.mesh)), scene_.mesh.order,
+                  columns, history_);
+}
+
+std::vector<run::Observer*> CaseObservers::all() {
+  std::vector<run::Observer*> all{&cells_, &history_};
+  if (scales_) all.push_back(&*scales_);
+  all.push_back(&exact_);
+  if (fields_) all.push_back(&*fields_);
+  if (shapes_) all.push_back(&*shapes_);
+  all.push_back(&steps_);
+  all.push_back(&progress_);
+  return all;
+}
+
+void CaseObservers::give(RunResult& result) {
+  if (history_.rows().empty()) return;
+  io::RunSummary& summary = result.summary;
+  history_.fill(summary);
+  cells_.fill(summary);
+  summary.errors = exact_.errors().relative();
+  result.history = history_.take_rows();
+  result.steps = steps_.take_rows();
+  summary.quantities = run::quantities_of(setup_.probes, result.history, result.steps);
+  result.exact = exact_.columns();
+  if (shapes_) result.shapes = shapes_->record();
+  if (!scales_) return;
+  result.scales = scales_->largest();
+  for (const auto& [field, norm] : exact_.errors().scales())  // of errors too, where there are any
+    result.scales[field] = norm;
+}
+
+}  // namespace diptych::harness

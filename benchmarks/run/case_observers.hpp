@@ -1,0 +1,58 @@
+#pragma once
+/// The observers of a run of the harness: those that every run has, and those that its options ask
+/// for. Test: tests/command_line/verbs_test.cpp
+
+#include "benchmarks/run/progress_observer.hpp"
+#include "benchmarks/run/run_case.hpp"
+#include "benchmarks/run/scene.hpp"
+#include "benchmarks/run/shape_recorder.hpp"
+#include "common/run/observers/cells.hpp"
+#include "common/run/observers/exact_comparison.hpp"
+#include "common/run/observers/field_scales.hpp"
+#include "common/run/observers/fields.hpp"
+#include "common/run/observers/history.hpp"
+#include "common/run/observers/step_probes.hpp"
+#include "meshes/deformed_cells.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace diptych::harness {
+
+class CaseObservers {
+ public:
+  /// Writes nothing yet.
+  /// @param setup, options, scene  kept by reference
+  /// @throws base::InputError on a probe that has no place in the body
+  CaseObservers(const cases::Case& setup, const RunOptions& options, const Scene& scene);
+
+  /// Makes the files that grow with the run, where it has a folder. @throws base::EnvironmentError
+  void open();
+  /// In the order in which they are to be told.
+  std::vector<run::Observer*> all();
+  /// Moves what was taken down, and what it comes to for the summary, into the result.
+  void give(RunResult& result);
+  /// field: size of the error at each node at the last output time
+  const std::map<std::string, std::vector<double>>& errors() const {
+    return exact_.errors().nodal();
+  }
+
+ private:
+  const cases::Case& setup_;
+  const RunOptions& options_;
+  const Scene& scene_;
+  run::Probes probes_;
+  meshes::DeformedCells deformed_;
+  run::Cells cells_;
+  run::History history_;
+  run::StepProbes steps_;
+  run::ExactComparison exact_;
+  ProgressObserver progress_;
+  std::optional<run::FieldScales> scales_;
+  std::optional<run::Fields> fields_;
+  std::optional<ShapeRecorder> shapes_;
+};
+
+}  // namespace diptych::harness

@@ -1,0 +1,36 @@
+#pragma once
+/// The progress of a run on the standard error stream (benchmarks/terminal/progress.hpp).
+
+#include "benchmarks/run/run_case.hpp"
+#include "benchmarks/terminal/progress.hpp"
+#include "common/run/observers/history.hpp"
+
+#include <fmt/format.h>
+#include <optional>
+
+namespace diptych::harness {
+
+class ProgressObserver : public run::Observer {
+ public:
+  /// Keeps all three by reference.
+  ProgressObserver(const cases::Case& setup, const RunOptions& options, const run::History& history)
+      : setup_(setup), options_(options), history_(history) {}
+
+  void begin() override {
+    progress_.emplace(fmt::format("{} level {}", options_.method, options_.level), setup_.time.end,
+                      options_.quiet, options_.schedule);
+  }
+  void after_step(const run::StepReport& step) override {
+    if (progress_->due())
+      progress_->show(step.time, step.step, step.dt, history_.energy_residual());
+  }
+  void end(run::Ending) override { progress_.reset(); }
+
+ private:
+  const cases::Case& setup_;
+  const RunOptions& options_;
+  const run::History& history_;
+  std::optional<Progress> progress_;
+};
+
+}  // namespace diptych::harness

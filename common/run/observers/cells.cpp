@@ -1,0 +1,24 @@
+#include "common/run/observers/cells.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace diptych::run {
+
+Cells::Cells(std::function<LeastCell(std::span<const algebra::Vec3> u)> least)
+    : least_(std::move(least)) {}
+
+void Cells::at_output(const Output& output) {
+  now_ = least_(output.state.u);
+  least_J_ = std::min(least_J_, now_.J);
+  most_inverted_ = std::max(most_inverted_, now_.n_inverted);
+  if (now_.n_inverted > 0 && !inverted_from_) inverted_from_ = output.state.time;
+}
+
+void Cells::fill(io::RunSummary& summary) const {
+  summary.least_cell_J = least_J_;
+  summary.most_inverted_cells = most_inverted_;
+  summary.inverted_from = inverted_from_;
+}
+
+}  // namespace diptych::run

@@ -1,0 +1,39 @@
+#pragma once
+/// Cells of the deformed mesh at the output times: those that have turned inside out, which no
+/// nodal J shows (meshes/deformed_cells.hpp).
+
+#include "common/io/run_record.hpp"
+#include "common/run/observers/observer.hpp"
+
+#include <functional>
+#include <optional>
+#include <span>
+
+namespace diptych::run {
+
+/// Of all cells, the least deformed over reference volume, and how many have none or less.
+struct LeastCell {
+  double J = 1;
+  std::int64_t n_inverted = 0;
+};
+
+class Cells : public Observer {
+ public:
+  /// @param least  of displacements u, [n_nodes] m
+  explicit Cells(std::function<LeastCell(std::span<const algebra::Vec3> u)> least);
+
+  void at_output(const Output& output) override;
+  /// At the last output time.
+  const LeastCell& now() const { return now_; }
+  /// Least of all output times, most inverted ones, the first time with such.
+  void fill(io::RunSummary& summary) const;
+
+ private:
+  std::function<LeastCell(std::span<const algebra::Vec3> u)> least_;
+  LeastCell now_;
+  double least_J_ = 1e300;
+  std::int64_t most_inverted_ = 0;
+  std::optional<double> inverted_from_;  // s
+};
+
+}  // namespace diptych::run

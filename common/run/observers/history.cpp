@@ -1,0 +1,74 @@
+#include "common/run/observers/history.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace diptych::run {
+
+History::History(Solver& solver, const Probes& probes, const Cells& cells)
+    : solver_(solver),
+      probes_(probes),
+      cells_(cells),
+      initial_(solver.balance()),
+      energy_(initial_) {}
+
+void History::write_to(const std::string& path, const std::vector<std::string>& columns) {
+  file_ = std::make_unique<io::RowFile>(path, io::history_header(columns));
+}
+
+void History::at_output(const Output& output) {
+  const scheme::Balance& balance = output.balance;
+  io::HistoryRow row;
+  row.time = output.state.time;
+  row.step = output.step.step;
+  row.dt = output.step.dt;
+  row.energy = energy_.at(balance, output.audit);
+  for (int i = 0; i < 3; ++i) {
+    row.linear_momentum[i] = balance.linear_momentum[i];
+    row.angular_momentum[i] = balance.angular_momentum[i];
+  }
+  row.min_jacobian = balance.least_J;
+  row.involution_H = balance.involution_H;
+  row.involution_J = balance.involution_J;
+  row.least_cell_J = cells_.now().J;
+  if (!probes_.empty()) row.probes = probes_.values(solver_);
+  rows_.push_back(std::move(row));
+  update_drifts(balance, output.audit);
+  if (!file_) return;
+  file_->append(io::history_line(rows_.back()));
+  file_->flush();
+}
+
+void History::end(Ending) {
+  if (file_) file_->finish();
+}
+
+double History::energy_residual() const {
+  // of a copy: what is shown in between is no part of the record
+  return EnergyRecord(energy_).at(solver_.balance(), solver_.audit()).relative_residual;
+}
+
+/// Largest change of momentum beyond the impulse of loads and constraints, relative to sum |p|.
+void History::update_drifts(const scheme::Balance& now, const scheme::Audit& audit) {
+  momentum_scale_ = std::max(momentum_scale_, now.momentum_scale);
+  angular_scale_ = std::max(angular_scale_, now.angular_scale);
+  const auto drift = [](const algebra::Vec3& p, double scale) {
+    return scale > 0 ? p.norm() / scale : 0;
+  };
+  const algebra::Vec3 p = now.linear_momentum - initial_.linear_momentum - audit.impulse.linear;
+  const algebra::Vec3 L = now.angular_momentum - initial_.angular_momentum - audit.impulse.angular;
+  linear_drift_ = std::max(linear_drift_, drift(p, momentum_scale_));
+  angular_drift_ = std::max(angular_drift_, drift(L, angular_scale_));
+}
+
+void History::fill(io::RunSummary& summary) const {
+  summary.energy = rows_.back().energy;
+  summary.linear_momentum_drift = linear_drift_;
+  summary.angular_momentum_drift = angular_drift_;
+  for (const io::HistoryRow& row : rows_) {
+    summary.involution_H = std::max(summary.involution_H, row.involution_H);
+    summary.involution_J = std::max(summary.involution_J, row.involution_J);
+  }
+}
+
+}  // namespace diptych::run

@@ -1,0 +1,42 @@
+#pragma once
+/// What is taken down of a simulation while it goes on: each observer is one file beside this one
+/// (or in benchmarks/run, where it needs the report or the terminal) and is told of every step and
+/// of every output time. Test: tests/common/run/simulation_test.cpp
+
+#include "common/run/solver.hpp"
+
+#include <cstdint>
+
+namespace diptych::run {
+
+/// How a simulation ended.
+enum class Ending { done, interrupted, step_limit, breakdown };
+
+/// The body at an output time, worked out once for all observers.
+struct Output {
+  std::int64_t number;     ///< from 0, that of t = 0
+  const StepReport& step;  ///< the last one, number 0 at t = 0
+  const scheme::Balance& balance;
+  const scheme::Audit& audit;
+  const Snapshot& state;
+};
+
+/// What an observer throws ends the simulation, a base::BreakdownError as a breakdown.
+class Observer {
+ public:
+  Observer() = default;
+  Observer(const Observer&) = delete;
+  Observer& operator=(const Observer&) = delete;
+  virtual ~Observer() = default;
+
+  /// The body is at t = 0; its output comes next.
+  virtual void begin() {}
+  virtual void after_step(const StepReport& step) { (void)step; }
+  /// At t = 0, at the instants of [output], and where the simulation ends before its time, but for
+  /// a breakdown.
+  virtual void at_output(const Output& output) { (void)output; }
+  /// Nothing more will come. Not told where an error other than a breakdown ends the simulation.
+  virtual void end(Ending ending) { (void)ending; }
+};
+
+}  // namespace diptych::run

@@ -1,0 +1,63 @@
+/// A scene is what the keys of its case say: mesh of the level, graph of the method's options,
+/// precision; its parts are told of in order.
+
+#include "benchmarks/run/scene.hpp"
+
+#include "common/base/error.hpp"
+#include "common/cases/reader.hpp"
+
+#include <gmock/gmock.h>
+
+namespace diptych::harness {
+namespace {
+
+using testing::ElementsAre;
+
+const char* const square = R"([mesh]
+element = "quadrilateral"
+upper = [1, 1]
+cells = [8, 8]
+[material]
+model = "neo-hookean"
+density = 1000
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+[time]
+end = 1
+)";
+
+CaseGraph graph_with(const std::string& method, const std::vector<std::string>& overrides) {
+  return graph_of(cases::case_from_text(square, "scene", overrides), method, 0);
+}
+
+TEST(Scene, HasTheGraphThatTheKeysOfTheMethodAskFor) {
+  const auto pairs = [](const char* method, const std::vector<std::string>& overrides) {
+    return graph_with(method, overrides).graph.n_pairs();
+  };
+  EXPECT_LT(pairs("sph", {"sph.kappa=0.75"}), pairs("sph", {}));
+  EXPECT_LT(pairs("sph", {}), pairs("sph", {"sph.kernel=\"quintic-spline\""}));
+  EXPECT_EQ(pairs("fvm", {"sph.kappa=0.75"}), pairs("fvm", {}));
+  EXPECT_LT(pairs("fvm", {}), pairs("fvm", {"fvm.stencil=\"integral\""}));
+  EXPECT_LT(pairs("fvm", {}), pairs("fvm", {"fvm.stencil=\"sbp\""}));
+}
+
+TEST(Scene, DescribesOperatorsThatDependOnTheMesh) {
+  EXPECT_EQ(graph_with("fvm", {}).description.operators, "");
+  EXPECT_NE(graph_with("fvm", {"fvm.stencil=\"sbp\""}).description.operators, "");
+}
+
+TEST(Scene, TellsOfItsPartsInOrderAndIsOfItsLevel) {
+  std::vector<ScenePart> parts;
+  Scene scene(cases::case_from_text(square, "scene", {}), "fvm", 1,
+              [&](ScenePart part) { parts.push_back(part); });
+  EXPECT_THAT(parts, ElementsAre(ScenePart::mesh, ScenePart::graph, ScenePart::solver));
+  EXPECT_EQ(scene.graph.n_nodes(), 17 * 17);
+  EXPECT_EQ(scene.solver->step(1).step, 1);
+}
+
+TEST(Scene, IsRefusedWhereNoMachineHasTheMemory) {
+  EXPECT_THROW(graph_with("sph", {"mesh.cells=[1000000, 1000000]"}), base::EnvironmentError);
+}
+
+}  // namespace
+}  // namespace diptych::harness
