@@ -3,6 +3,7 @@
 #include "common/run/boundary_group.hpp"
 #include "common/run/default_cfl.hpp"
 #include "common/scheme/dissipation/limiters/limiter_menu.hpp"
+#include "common/scheme/option_menus.hpp"
 
 #include <fmt/format.h>
 
@@ -40,7 +41,7 @@ void follow_motion(const std::shared_ptr<const exact::Motion>& motion,
 scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::PairGraph& graph) {
   std::vector<scheme::PlacedCondition> conditions;
   for (const cases::BoundaryCase& boundary : setup.boundaries) {
-    const auto maker = scheme::boundary_menu().at(boundary.type);
+    const auto make = scheme::boundary_menu().at(boundary.type).make;
     scheme::BoundaryValues values;
     values.vector = boundary.value;
     values.scalar = boundary.pressure;
@@ -50,7 +51,7 @@ scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::Pair
         boundary.value.depends_on_time() || boundary.pressure.depends_on_time();
     if (boundary.manufactured) follow_motion(setup.motion, values);
     for (const std::string& group : boundary.groups) {
-      conditions.push_back({maker(values), &boundary_group(graph, group, boundary.where)});
+      conditions.push_back({make(values), &boundary_group(graph, group, boundary.where)});
     }
   }
   scheme::VectorFunction body_force;
@@ -61,35 +62,22 @@ scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::Pair
 scheme::TimeStepRule time_step_of(const cases::Case& setup,
                                   const scheme::PairGraph& graph,
                                   const SolverSetup& s) {
-  using scheme::Speeds;
-  const auto speeds = base::Registry<Speeds>("time.speeds")
-                          .add("exact", Speeds::exact)
-                          .add("bound", Speeds::bound)
-                          .add("linearised", Speeds::linearised);
   const double cfl = setup.time.cfl > 0 ? setup.time.cfl : default_cfl(setup, graph, s.integrator);
-  return {speeds.at(setup.time.speeds), cfl, scheme::frequency_factor(s.face_correction)};
+  return {scheme::speeds_menu().at(setup.time.speeds), cfl,
+          scheme::frequency_factor(s.face_correction)};
 }
 
 SolverSetup solver_setup_of(const cases::Case& setup,
                             const scheme::PairGraph& graph,
                             const scheme::AppliedBoundary& boundary) {
   using namespace scheme;
-  const auto unknowns = base::Registry<Unknowns>("scheme.unknowns")
-                            .add("F", Unknowns::F)
-                            .add("FJ", Unknowns::FJ)
-                            .add("FHJ", Unknowns::FHJ);
-  const auto reconstruction = base::Registry<Reconstruction>("scheme.reconstruction")
-                                  .add("none", Reconstruction::none)
-                                  .add("linear", Reconstruction::linear);
-  const auto impedance = base::Registry<Impedance>("scheme.impedance")
-                             .add("isotropic", Impedance::isotropic)
-                             .add("exact", Impedance::exact);
   SolverSetup s;
-  s.dissipation = {reconstruction.at(setup.scheme.reconstruction),
-                   limiter_menu().at(setup.scheme.limiter), impedance.at(setup.scheme.impedance)};
+  s.dissipation = {reconstruction_menu().at(setup.scheme.reconstruction),
+                   limiter_menu().at(setup.scheme.limiter),
+                   impedance_menu().at(setup.scheme.impedance)};
   s.dissipation_factor = setup.scheme.dissipation;
   s.face_correction = setup.scheme.face_correction;
-  s.unknowns = unknowns.at(setup.scheme.unknowns);
+  s.unknowns = unknowns_menu().at(setup.scheme.unknowns);
   s.integrator = time::integrator_menu().at(setup.time.integrator);
   s.time_step = time_step_of(setup, graph, s);
   s.angular_momentum_projection = setup.scheme.angular_momentum_projection;

@@ -1,4 +1,3 @@
-#pragma once
 /// Leapfrog in its kick-drift-kick form (velocity Verlet): v^{n+1/2} = v^n + dt/2 a^n;
 /// F, u by v^{n+1/2}; a^{n+1} = a(F^{n+1}, v^{n+1/2}); v^{n+1} = v^{n+1/2} + dt/2 a^{n+1}.
 /// One evaluation per step, second order without D_ab. D_ab is taken at v^{n+1/2}: it lags by half
@@ -11,7 +10,7 @@
 
 namespace diptych::time {
 
-inline Integrator leapfrog() {
+Integrator leapfrog() {
   return {.order = 2, .default_dt_omega = 0.92, .stages = {}, .gauss_relaxation = false};
 }
 

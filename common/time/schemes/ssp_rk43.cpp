@@ -1,4 +1,3 @@
-#pragma once
 /// SSPRK(4,3), four stages of order three (Kraaijevanger 1991; Spiteri and Ruuth 2002):
 ///   U1 = U + dt/2 L(U); U2 = U1 + dt/2 L(U1); U3 = 2/3 U + 1/3 (U2 + dt/2 L(U2)) at t + dt/2;
 ///   U^{n+1} = U3 + dt/2 L(U3).
@@ -11,7 +10,7 @@
 
 namespace diptych::time {
 
-inline Integrator ssp_rk43() {
+Integrator ssp_rk43() {
   return {.order = 3,
           .default_dt_omega = 1.73,
           .stages = {{0, 1, 0.5, 0.5},

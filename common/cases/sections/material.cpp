@@ -1,8 +1,8 @@
-#include "common/cases/material.hpp"
-
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
+#include "common/cases/sections/sections.hpp"
 
+#include <array>
 #include <fmt/format.h>
 
 namespace diptych::cases {
@@ -61,39 +61,7 @@ void check_polyconvex(const SectionValues& section, const MaterialCase& m) {
                   m.zeta_ratio, lambda_hat, poissons_ratio(m), m.lame / (2 * m.shear_modulus)));
 }
 
-/// beta and tau of one kind: both or none.
-bool read_pair(const SectionValues& branch, const std::string& kind, double& beta, double& tau) {
-  const std::string beta_name = "beta_" + kind, tau_name = "tau_" + kind;
-  if (!branch.has(beta_name) && !branch.has(tau_name)) return false;
-  beta = branch.number(beta_name);
-  tau = branch.number(tau_name);
-  return true;
-}
-
-BranchCase read_branch(const SectionValues& section, double zeta_ratio) {
-  BranchCase branch;
-  const bool has_C = read_pair(section, "C", branch.beta_C, branch.tau_C);
-  const bool has_G = read_pair(section, "G", branch.beta_G, branch.tau_G);
-  if (!has_C && !has_G) {
-    throw base::InputError(functions::prefix(section.where()) +
-                           "this material.branch is empty; give beta_C + tau_C, beta_G + tau_G, "
-                           "or both");
-  }
-  if (has_G && zeta_ratio == 0) {
-    section.fail("beta_G",
-                 "has no effect: zeta = 0 in this material (zeta^a = beta_G zeta); take "
-                 "mooney-rivlin with zeta_ratio > 0, or beta_C");
-  }
-  return branch;
-}
-
-}  // namespace
-
-MaterialCase read_material(const SectionValues& section,
-                           const std::vector<SectionValues>& branches) {
-  MaterialCase material;
-  material.model = section.menu_name("model");
-  material.density = section.number("density");
+void read_moduli(const SectionValues& section, MaterialCase& material) {
   read_constants(section, material);
   if (material.model == "mooney-rivlin") {
     material.zeta_ratio = section.number("zeta_ratio");
@@ -110,9 +78,51 @@ MaterialCase read_material(const SectionValues& section,
                                      "<= 0; use more than {:.6g}",
                                      material.lame, bulk, -2 * material.shear_modulus / 3));
   }
-  for (const SectionValues& branch : branches)
-    material.branches.push_back(read_branch(branch, material.zeta_ratio));
-  return material;
+}
+
+SectionKeys<MaterialCase> material_keys() {
+  return SectionKeys<MaterialCase>("material")
+      .key("model", &MaterialCase::model,
+           as(KeyType::name,
+              {"-", any,
+               "Law at equilibrium: Mooney-Rivlin of the paper, its limit zeta = 0, or the "
+               "isochoric-split neo-Hookean laws with pressure K (J - 1) and K/2 (J^2 - 1)/J.",
+               "\"neo-hookean\""}))
+      .key("density", &MaterialCase::density,
+           {"kg/m^3", above(0), "Density rho_R of the undeformed body.", "1100", "required"})
+      .key("youngs_modulus", KeyType::number,
+           {"Pa", above(0), "Young's modulus E of small strains.", "17e6", "with poissons_ratio"})
+      .key("poissons_ratio", KeyType::number,
+           {"-", Range{-1, 0.5, false, false}, "Poisson's ratio nu of small strains.", "0.3",
+            "with youngs_modulus",
+            "the model is compressible: use at most 0.4999 for a nearly incompressible solid"})
+      .key("shear_modulus", KeyType::number,
+           {"Pa", above(0), "Shear modulus mu of small strains.", "6.54e6",
+            "with lame or bulk_modulus"})
+      .key("lame", KeyType::number,
+           {"Pa", any, "First Lame constant lambda.", "9.81e6", "with shear_modulus"})
+      .key("bulk_modulus", KeyType::number,
+           {"Pa", above(0), "Bulk modulus K = lambda + 2 mu / 3.", "14.2e6", "with shear_modulus"})
+      .key("zeta_ratio", KeyType::number,
+           {"-", Range{0, 1, true, false},
+            "zeta/(xi + zeta), the share of the area term; admissible below lambda/(2 mu), where "
+            "lambda_hat = lambda - 4 zeta > 0 (polyconvexity, eq. 4).",
+            "0.5", "required for mooney-rivlin"});
+}
+
+}  // namespace
+
+SectionEntry material_section() {
+  const auto keys = material_keys();
+  return {{"material", false,
+           "The solid; the elastic constants are one pair of youngs_modulus + poissons_ratio, "
+           "shear_modulus + lame, or shear_modulus + bulk_modulus."},
+          keys.keys(),
+          [keys](Reading& reading, Case& setup) {
+            const SectionValues section = reading.section("material");
+            setup.material = keys.read(section);
+            read_moduli(section, setup.material);
+          }};
 }
 
 }  // namespace diptych::cases

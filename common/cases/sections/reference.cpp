@@ -1,12 +1,12 @@
-#include "common/cases/references.hpp"
-
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
 #include "common/cases/bounded_file.hpp"
+#include "common/cases/sections/sections.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <sstream>
 #include <string_view>
@@ -86,15 +86,34 @@ ReferenceCase read_reference(const SectionValues& section,
   return reference;
 }
 
+SectionKeys<ReferenceCase> reference_keys() {
+  return SectionKeys<ReferenceCase>("reference")
+      .key("probe", KeyType::text,
+           {"-", any, "Name of the probe that they belong to.", "\"tip deflection\"", "required"})
+      .key("value", KeyType::number,
+           {"that of the probe", any, "One value.", "14.735", "or reference.file"})
+      .key("time", KeyType::number, {"s", at_least(0), "Its time.", "0.08", "with value"})
+      .key("file", KeyType::path,
+           {"-", any,
+            "CSV file beside the case file: a line of names, then lines of time (s) and value (in "
+            "the unit of the probe).",
+            "\"reference.csv\"", "or reference.value"})
+      .key("source", KeyType::text,
+           {"-", any, "Where they are from, as the report shall name it.",
+            "\"solids4foam/solid-benchmarks\"", "required"});
+}
+
 }  // namespace
 
-std::vector<ReferenceCase> read_references(const std::vector<SectionValues>& entries,
-                                           const std::vector<ProbeCase>& probes,
-                                           const fs::path& folder) {
-  std::vector<ReferenceCase> references;
-  for (const SectionValues& entry : entries)
-    references.push_back(read_reference(entry, probes, folder));
-  return references;
+SectionEntry reference_section() {
+  return {{"reference", true,
+           "Values of a probe from elsewhere (literature, another code): the report draws them as "
+           "points beside the curves of both methods."},
+          reference_keys().keys(),
+          [](Reading& reading, Case& setup) {
+            for (const SectionValues& entry : reading.entries("reference"))
+              setup.references.push_back(read_reference(entry, setup.probes, reading.folder));
+          }};
 }
 
 }  // namespace diptych::cases

@@ -1,4 +1,3 @@
-#pragma once
 /// SSP-RK2 (Heun, Shu and Osher 1988): U1 = U + dt L(U); U^{n+1} = 1/2 U + 1/2 (U1 + dt L(U1)).
 /// No undamped frequency is stable: it grows by (dt omega)^4/8 a step. With D_ab waves along a line
 /// of nodes are to c dt/h = 0.76 (face correction) or 0.80, free coarse bodies are not: the default
@@ -10,7 +9,7 @@
 
 namespace diptych::time {
 
-inline Integrator ssp_rk2() {
+Integrator ssp_rk2() {
   return {.order = 2,
           .default_dt_omega = 0.5,
           .stages = {{0, 1, 1}, {0.5, 0.5, 1}},
