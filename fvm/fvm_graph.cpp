@@ -16,9 +16,11 @@ namespace {
 
 enum class Stencil { edge, integral, sbp };
 
-base::Registry<Stencil> stencils() {
-  base::Registry<Stencil> menu("stencil of fvm");
-  menu.add("edge", Stencil::edge).add("integral", Stencil::integral).add("sbp", Stencil::sbp);
+const base::Registry<Stencil>& stencils() {
+  static const auto menu = base::Registry<Stencil>("stencil of fvm")
+                               .add("edge", Stencil::edge)
+                               .add("integral", Stencil::integral)
+                               .add("sbp", Stencil::sbp);
   return menu;
 }
 
@@ -54,6 +56,10 @@ scheme::PairGraph graph_of_cells(const meshes::Mesh& mesh, meshes::Quadrature qu
 }
 
 }  // namespace
+
+const std::vector<std::string>& stencil_names() {
+  return stencils().names();
+}
 
 scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) {
   const Stencil stencil = stencils().at(options.stencil);

@@ -18,6 +18,9 @@ struct Options {
   int order = 4;  ///< of sbp
 };
 
+/// What Options::stencil may be.
+const std::vector<std::string>& stencil_names();
+
 scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options);
 
 /// What build_graph makes of a mesh, where that depends on more than the options.

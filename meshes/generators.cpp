@@ -4,6 +4,7 @@
 #include "meshes/generators.hpp"
 
 #include "common/base/error.hpp"
+#include "meshes/cell_topology.hpp"
 #include "meshes/gmsh.hpp"
 
 #include <algorithm>
@@ -152,6 +153,17 @@ void make_groups(const Lattice& lattice, Mesh& mesh) {
 }
 
 }  // namespace
+
+const base::Registry<CellType>& cell_menu() {
+  static const auto menu = [] {
+    base::Registry<CellType> all("cell type");
+    for (const CellType type :
+         {CellType::hexahedron, CellType::tetrahedron, CellType::quadrilateral, CellType::triangle})
+      all.add(name_of(type), type);
+    return all;
+  }();
+  return menu;
+}
 
 Mesh box(CellType type, const Vec3& lower, const Vec3& upper, const std::array<int, 3>& cells) {
   Mesh mesh;

@@ -1,12 +1,16 @@
 #pragma once
 /// Meshes made here: a box of one cell type.
 
+#include "common/base/registry.hpp"
 #include "meshes/mesh.hpp"
 
 #include <array>
 #include <cstdint>
 
 namespace diptych::meshes {
+
+/// The cells that case files may ask for, by name: hexahedron, tetrahedron, ...
+const base::Registry<CellType>& cell_menu();
 
 /// A box [lower, upper] divided into cells[0] x cells[1] (x cells[2]) blocks; each block is one
 /// hexahedron (quadrilateral), two prisms or six tetrahedra (two triangles), of equal orientation

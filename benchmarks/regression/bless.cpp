@@ -4,11 +4,11 @@
 #include "benchmarks/regression/table.hpp"
 #include "benchmarks/run/backends.hpp"
 #include "benchmarks/run/case_check.hpp"
+#include "benchmarks/run/menus.hpp"
 #include "benchmarks/run/provenance.hpp"
 #include "benchmarks/run/run_case.hpp"
 #include "benchmarks/terminal/progress.hpp"
 #include "common/base/error.hpp"
-#include "common/cases/reader.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/io/run_record.hpp"
 
@@ -28,7 +28,7 @@ constexpr double seconds_a_pair = 1.5e-8, stages_a_step = 3;
 
 /// Of both methods on levels 0 and 1: half the spacing is 2^d as many pairs and twice the steps.
 void check_affordable(const ListedCase& entry) {
-  const cases::Case setup = cases::read_case(entry.file);
+  const cases::Case setup = harness::read_case(entry.file);
   const double finer = 1 + std::pow(2.0, cases::dimension_of(setup.mesh) + 1);
   double seconds = 0;
   std::int64_t steps = 0;

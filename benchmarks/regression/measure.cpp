@@ -4,11 +4,11 @@
 #include "benchmarks/convergence/convergence.hpp"
 #include "benchmarks/regression/regress.hpp"
 #include "benchmarks/run/interruption.hpp"
+#include "benchmarks/run/menus.hpp"
 #include "benchmarks/run/provenance.hpp"
 #include "benchmarks/run/run_case.hpp"
 #include "benchmarks/run/scene.hpp"
 #include "common/base/error.hpp"
-#include "common/cases/reader.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/run/probes.hpp"
 
@@ -329,9 +329,9 @@ RegressMeasurement measure_regress(const std::string& case_file,
                                    int threads) {
   parallel::set_threads(threads);
   const std::vector<std::string> set = overriding(size.set, overrides);
-  const cases::Case setup = cases::read_case(case_file, set);
+  const cases::Case setup = harness::read_case(case_file, set);
   const cases::Case canary =
-      cases::read_case(case_file, overriding(overriding(size.set, {"time.cfl=0.3"}), overrides));
+      harness::read_case(case_file, overriding(overriding(size.set, {"time.cfl=0.3"}), overrides));
   RegressMeasurement measurement;
   std::vector<LevelRecord> records;
   double energy = 0;

@@ -7,11 +7,11 @@
 #include "benchmarks/regression/report.hpp"
 #include "benchmarks/run/backends.hpp"
 #include "benchmarks/run/interruption.hpp"
+#include "benchmarks/run/menus.hpp"
 #include "benchmarks/run/provenance.hpp"
 #include "benchmarks/terminal/progress.hpp"
 #include "benchmarks/terminal/schedule.hpp"
 #include "common/base/error.hpp"
-#include "common/cases/reader.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/io/run_record.hpp"
 #include "meshes/gmsh.hpp"
@@ -74,7 +74,7 @@ std::vector<RegressRow> judged(const ListedCase& entry, const RegressRequest& re
   const std::string path = baseline_path(request, entry.name);
   const bool blesses = !request.bless.empty(), has_baseline = fs::exists(path);
   const RegressBaseline old = has_baseline ? read_baseline(path, entry.name) : RegressBaseline{};
-  const std::string mesh = cases::read_case(entry.file, old.set).mesh.file;
+  const std::string mesh = harness::read_case(entry.file, old.set).mesh.file;
   if (fs::path(mesh).extension() == ".geo" && !meshes::has_gmsh()) {
     RegressCheck check{"run", "", Verdict::skipped, 0, 0, "its mesh needs the gmsh program"};
     return {{entry.name, "both", {check}}};

@@ -1,6 +1,7 @@
 #include "benchmarks/run/backends.hpp"
 
 #include "common/base/error.hpp"
+#include "common/scheme/option_menus.hpp"
 #include "fvm/fvm_graph.hpp"
 #include "sph/sph_graph.hpp"
 
@@ -10,16 +11,8 @@ namespace diptych::harness {
 
 namespace {
 
-const base::Registry<scheme::Precision>& precision_menu() {
-  static const auto menu = base::Registry<scheme::Precision>("scheme.precision")
-                               .add("double", scheme::Precision::full)
-                               .add("mixed", scheme::Precision::mixed)
-                               .add("single", scheme::Precision::single);
-  return menu;
-}
-
 scheme::PairGraph in_precision(scheme::PairGraph graph, const std::string& precision) {
-  set_precision(graph, precision_menu().at(precision));
+  set_precision(graph, scheme::precision_menu().at(precision));
   return graph;
 }
 

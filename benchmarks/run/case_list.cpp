@@ -1,9 +1,9 @@
 #include "benchmarks/run/case_list.hpp"
 
 #include "benchmarks/run/data_folder.hpp"
+#include "benchmarks/run/menus.hpp"
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
-#include "common/cases/reader.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -115,7 +115,7 @@ std::vector<ListedCase> listed_cases(const std::string& asked) {
 std::vector<std::pair<std::string, std::string>> shipped_cases() {
   std::vector<std::pair<std::string, std::string>> cases;
   for (const ListedCase& entry : listed_cases())
-    cases.emplace_back(entry.name, cases::read_case(entry.file).title);
+    cases.emplace_back(entry.name, harness::read_case(entry.file).title);
   return cases;
 }
 

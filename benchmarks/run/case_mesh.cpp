@@ -19,11 +19,6 @@ namespace diptych::harness {
 namespace {
 
 meshes::Mesh box_of(const cases::MeshCase& box, int level) {
-  static const std::map<std::string, meshes::CellType> types{
-      {"hexahedron", meshes::CellType::hexahedron},
-      {"tetrahedron", meshes::CellType::tetrahedron},
-      {"quadrilateral", meshes::CellType::quadrilateral},
-      {"triangle", meshes::CellType::triangle}};
   std::array<int, 3> cells = box.cells;
   for (int& n : cells) {
     if ((static_cast<std::int64_t>(n) << level) > 1'000'000) {
@@ -32,7 +27,7 @@ meshes::Mesh box_of(const cases::MeshCase& box, int level) {
     }
     n <<= level;
   }
-  return meshes::box(types.at(box.element), box.lower, box.upper, cells);
+  return meshes::box(meshes::cell_menu().at(box.element), box.lower, box.upper, cells);
 }
 
 /// Removes a folder at the end of a scope; one that cannot be removed is left behind.

@@ -4,6 +4,7 @@
 #include "benchmarks/run/case_mesh.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/memory_estimate.hpp"
+#include "benchmarks/run/menus.hpp"
 #include "benchmarks/run/output_folder.hpp"
 #include "benchmarks/run/run_case.hpp"
 #include "benchmarks/run/scene.hpp"
@@ -13,7 +14,6 @@
 #include "benchmarks/study/work_precision.hpp"
 #include "benchmarks/terminal/status_line.hpp"
 #include "common/base/error.hpp"
-#include "common/cases/reader.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/io/run_record.hpp"
 #include "common/parallel/for_chunks.hpp"
@@ -161,7 +161,7 @@ std::vector<report::Breakdown> study_variants(const StudyRequest& asked) {
   std::iota(levels.begin(), levels.end(), request.level);
   for (const cases::Case& one : cases)
     require_memory(one, request.methods, levels);
-  const cases::Case base_case = cases::read_case(request.case_file, request.overrides);
+  const cases::Case base_case = harness::read_case(request.case_file, request.overrides);
   OutputFolder output(request.directory, base_case, OutputKind::study, request.force);
   const StudyRuns runs = runs_of_study(request, variants, cases, output);
   if (!runs.curves.empty()) {  // else interrupted in the first run, or all broke down

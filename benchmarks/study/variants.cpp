@@ -1,7 +1,7 @@
 #include "benchmarks/study/variants.hpp"
 
+#include "benchmarks/run/menus.hpp"
 #include "common/base/error.hpp"
-#include "common/cases/reader.hpp"
 
 namespace diptych::harness {
 
@@ -45,7 +45,7 @@ cases::Case case_of_variant(const std::string& path,
                             const Variant& variant) {
   std::vector<std::string> all = overrides;
   all.insert(all.end(), variant.overrides.begin(), variant.overrides.end());
-  return cases::read_case(path, all);
+  return harness::read_case(path, all);
 }
 
 }  // namespace diptych::harness

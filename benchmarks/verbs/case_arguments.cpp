@@ -5,7 +5,7 @@
 #include "benchmarks/run/case_list.hpp"
 #include "benchmarks/run/case_mesh.hpp"
 #include "benchmarks/run/interruption.hpp"
-#include "common/cases/reader.hpp"
+#include "benchmarks/run/menus.hpp"
 #include "common/parallel/thread_count.hpp"
 
 #include <cstdio>
@@ -43,7 +43,7 @@ std::string CaseArguments::file() const {
 
 cases::Case CaseArguments::read() const {
   harness::check_level(level);
-  return cases::read_case(file(), overrides);
+  return harness::read_case(file(), overrides);
 }
 
 std::vector<std::string> CaseArguments::methods() const {

@@ -1,10 +1,10 @@
 /// diptych list: the cases of a folder with their titles.
 
 #include "benchmarks/run/case_list.hpp"
+#include "benchmarks/run/menus.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
 #include "common/base/error.hpp"
-#include "common/cases/reader.hpp"
 
 #include <cstdio>
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ int list(const ListArguments& arguments) {
   size_t n_broken = 0;
   for (const harness::ListedCase& entry : cases) {
     try {
-      print(fmt::format("{:<32} {}\n", entry.name, cases::read_case(entry.file).title));
+      print(fmt::format("{:<32} {}\n", entry.name, harness::read_case(entry.file).title));
     } catch (const base::InputError& error) {
       std::fputs(fmt::format("diptych: {}\n", error.what()).c_str(), stderr);
       ++n_broken;

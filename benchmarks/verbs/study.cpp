@@ -3,10 +3,10 @@
 
 #include "benchmarks/run/breakdowns.hpp"
 #include "benchmarks/run/interruption.hpp"
+#include "benchmarks/run/menus.hpp"
 #include "benchmarks/study/study_verb.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
-#include "common/cases/reader.hpp"
 
 #include <memory>
 
@@ -28,7 +28,7 @@ int study(const StudyArguments& arguments) {
   request.threads = arguments.threads;
   request.quiet = arguments.quiet;
   request.force = arguments.force;
-  request.directory = arguments.output_folder(cases::read_case(request.case_file));
+  request.directory = arguments.output_folder(harness::read_case(request.case_file));
   if (arguments.stability) {
     harness::study_stability(request);
     return harness::exit_code_of_study(

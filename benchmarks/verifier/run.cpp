@@ -3,11 +3,11 @@
 #include "benchmarks/run/backends.hpp"
 #include "benchmarks/run/case_list.hpp"
 #include "benchmarks/run/interruption.hpp"
+#include "benchmarks/run/menus.hpp"
 #include "benchmarks/run/resumption.hpp"
 #include "benchmarks/terminal/progress.hpp"
 #include "benchmarks/verifier/verification.hpp"
 #include "common/base/error.hpp"
-#include "common/cases/reader.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -80,7 +80,7 @@ VerificationRow row_of(const VerificationTable& table,
                     fmt::format("row_{}", i + 1) / sequence.method;
   if (repetition > 0) folder += fmt::format("_again_{}", repetition);
   run_options.directory = folder.string();
-  const cases::Case setup = cases::read_case(find_case(entry.case_name), overrides_of(entry, i));
+  const cases::Case setup = harness::read_case(find_case(entry.case_name), overrides_of(entry, i));
   VerificationRow row;
   row.label = label_of(entry, i);
   const auto finished = options.fresh ? std::nullopt : finished_run(setup, run_options);
@@ -185,7 +185,8 @@ std::vector<PlannedRun> planned_runs(const VerificationTable& table,
   const VerificationResult result = unrun(table, options);
   std::vector<int> dimension;  // of each run of the table: what it varies does not change it
   for (const VerificationRun& entry : result.table.runs) {
-    const cases::Case setup = cases::read_case(find_case(entry.case_name), overrides_of(entry, 0));
+    const cases::Case setup =
+        harness::read_case(find_case(entry.case_name), overrides_of(entry, 0));
     dimension.push_back(cases::dimension_of(setup.mesh));
   }
   std::vector<PlannedRun> runs;

@@ -1,7 +1,8 @@
 #pragma once
 /// A case as plain structs: what a case file says once every key has been checked. Units are SI
-/// unless the user keeps another consistent system; each key's unit stands in the table of
-/// case_keys.cpp, from which `diptych explain` and the reference page are made.
+/// unless the user keeps another consistent system; each key's unit stands in its
+/// entry in sections/, from which `diptych explain` and the reference page are made. Defaults stand
+/// here.
 
 #include "common/algebra/vectors.hpp"
 #include "common/cases/probe_fields.hpp"
@@ -52,9 +53,8 @@ struct MaterialCase {
 
 /// [[boundary]]
 struct BoundaryCase {
-  std::vector<std::string> groups;  ///< mesh groups
-  std::string type;  ///< entry of the boundary menu: traction, pressure, fixed, velocity, symmetry,
-                     ///< skew-symmetry
+  std::vector<std::string> groups;    ///< mesh groups
+  std::string type;                   ///< entry of the boundary menu
   functions::VectorExpression value;  ///< traction (Pa, dead, per reference area) or velocity (m/s)
   bool manufactured = false;          ///< traction or velocity of the manufactured motion instead
   functions::Expression pressure;     ///< Pa, follower pressure
@@ -91,7 +91,7 @@ struct OutputCase {
 /// [[probe]]
 struct ProbeCase {
   std::string name, unit;
-  std::string kind;                     ///< point, mean, integral, least, greatest, reaction
+  std::string kind = "point";           ///< point, mean, integral, least, greatest, reaction
   functions::Expression quantity;       ///< of the fields of `fields` and of place and time
   std::shared_ptr<ProbeFields> fields;  ///< what the expression reads
   Vec3 at = Vec3::Zero();               ///< m

@@ -1,7 +1,7 @@
 #include "common/cases/copy.hpp"
 
 #include "common/base/error.hpp"
-#include "common/cases/values.hpp"
+#include "common/cases/sections/sections.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -31,6 +31,19 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
+SectionKeys<CaseRecord> record_keys() {
+  return SectionKeys<CaseRecord>("record")
+      .key("file", &CaseRecord::file,
+           as(KeyType::path, {"-", any,
+                              "The case file that this is a copy of: it names the case, and "
+                              "relative paths start there.",
+                              "\"/home/me/cube/case.toml\"", "in a copy"}))
+      .key("overrides", &CaseRecord::overrides,
+           as(KeyType::texts,
+              {"-", any, "What the command line had set (--set), read before any --set of now.",
+               "[\"time.end=0.1\", \"sph.kappa=0.75\"]"}));
+}
+
 }  // namespace
 
 std::string case_copy(const Case& setup) {
@@ -52,12 +65,18 @@ bool is_case_copy(const std::string& text) {
 CaseRecord record_of(const Value& document, const std::string& path) {
   const Member* member = document.find("record");
   if (member == nullptr) return {};
-  const functions::Vocabulary none;
-  const SectionValues section(document, &member->value, "record", none, 3);
-  CaseRecord record;
-  record.file = (fs::path(path).parent_path() / section.text("file")).lexically_normal().string();
-  record.overrides = section.texts("overrides");
+  const Menus none;
+  const Reading reading{.document = document, .menus = none};
+  CaseRecord record = record_keys().read(reading.section("record"));
+  record.file = (fs::path(path).parent_path() / record.file).lexically_normal().string();
   return record;
+}
+
+SectionEntry record_section() {
+  return {{"record", false,
+           "Of the copy of a case file that a run leaves among its results; not for other files."},
+          record_keys().keys(),
+          [](Reading&, Case&) {}};  // record_of() has read it: it says what to read
 }
 
 std::vector<std::string> merged_overrides(const std::vector<std::string>& first,

@@ -45,13 +45,8 @@ std::string facts(const Key& key) {
 }
 
 std::string header(const Section& section) {
-  const std::string path =
-      section.path == "functions.*" ? "functions.NAME" : std::string(section.path);
+  const std::string path = section.path == "functions.*" ? "functions.NAME" : section.path;
   return section.is_list ? "[[" + path + "]]" : "[" + path + "]";
-}
-
-std::string menu_text(const Key& key) {
-  return base::joined({key.menu.begin(), key.menu.end()});
 }
 
 /// Text of a Markdown table cell.
@@ -64,11 +59,12 @@ std::string cell(std::string_view text) {
   return safe;
 }
 
-std::string markdown_row(const Key& key) {
+std::string markdown_row(const Key& key, const Menus& menus) {
   std::string standard = key.standard.empty() ? "" : fmt::format("`{}`", key.standard);
-  if (!key.need.empty()) standard += (standard.empty() ? "" : "; ") + std::string(key.need);
+  if (!key.need.empty()) standard += (standard.empty() ? "" : "; ") + key.need;
   std::string admissible = key.range.is_all() ? "" : key.range.text();
-  if (!key.menu.empty()) admissible = menu_text(key);
+  const std::vector<std::string>& menu = names_of(key, menus);
+  if (!menu.empty()) admissible = base::joined(menu);
   const std::string name = key.path == "parameters.*" ? "NAME" : last_of(key.path);
   return fmt::format("| `{}` | {} | {} | {} | {} | {} | `{} = {}` |\n", name, type_name(key.type),
                      key.unit, cell(standard), cell(admissible), cell(key.meaning), name,
@@ -81,7 +77,8 @@ constexpr std::string_view markdown_head =
 
 constexpr std::string_view page_head =
     "# Keys of a case file\n\n"
-    "Made from the table in `common/cases/keys.cpp`; `diptych explain KEY` prints one entry.\n\n"
+    "Made from the entries in `common/cases/sections`; `diptych explain KEY` prints one of "
+    "them.\n\n"
     "A case file is TOML. Unknown, duplicate and ill-typed keys are errors. A number may be "
     "written as\ntext with an expression of parameters and `pi` (`end = \"1.25*2*pi/omega\"`); a "
     "field may use the\nreference position `x`, `y`, `z` (m), the time `t` (s) and the functions "
@@ -125,6 +122,11 @@ std::string table_path(const std::string& path) {
   return clean;
 }
 
+const std::vector<std::string>& names_of(const Key& key, const Menus& menus) {
+  const auto above = menus.find(key.path);
+  return key.menu.empty() && above != menus.end() ? above->second : key.menu;
+}
+
 const Key* find_key(std::string_view path) {
   for (const Key& key : keys()) {
     if (key.path == path) return &key;
@@ -155,7 +157,7 @@ std::string key_suggestion(const std::string& path) {
   for (const Key& key : keys()) {
     if (section_of(key.path) == section) siblings.emplace_back(key.path);
     all.emplace_back(key.path);
-    const bool is_users = key.path.find('*') != std::string_view::npos;
+    const bool is_users = key.path.find('*') != std::string::npos;
     if (last_of(key.path) == last && !is_users)
       return fmt::format("; did you mean '{}'?", key.path);
   }
@@ -206,11 +208,12 @@ std::string type_name(KeyType type) {
   return "";
 }
 
-std::string explain(const std::string& path) {
+std::string explain(const std::string& path, const Menus& menus) {
   const std::string wanted = table_path(path);
   if (const Key* key = find_key(wanted)) {
     std::string text = fmt::format("{}: {}\n{}\n", path, facts(*key), key->meaning);
-    if (!key->menu.empty()) text += fmt::format("one of: {}\n", menu_text(*key));
+    const std::vector<std::string>& menu = names_of(*key, menus);
+    if (!menu.empty()) text += fmt::format("one of: {}\n", base::joined(menu));
     if (!key->advice.empty()) text += fmt::format("note: {}\n", key->advice);
     const std::string name = wanted == "parameters.*" ? "NAME" : last_of(wanted);
     return text + fmt::format("example: {} = {}\n", name, key->example);
@@ -226,17 +229,17 @@ std::string explain(const std::string& path) {
   return text;
 }
 
-std::string reference_page() {
+std::string reference_page(const Menus& menus) {
   std::string page(page_head);
   page += fmt::format("\n## Top of the file\n\n{}", markdown_head);
   for (const Key& key : keys()) {
-    if (section_of(key.path).empty()) page += markdown_row(key);
+    if (section_of(key.path).empty()) page += markdown_row(key, menus);
   }
   for (const Section& section : sections()) {
     page +=
         fmt::format("\n## `{}`\n\n{}\n\n{}", header(section), cell(section.meaning), markdown_head);
     for (const Key& key : keys()) {
-      if (section_of(key.path) == section.path) page += markdown_row(key);
+      if (section_of(key.path) == section.path) page += markdown_row(key, menus);
     }
   }
   return page;

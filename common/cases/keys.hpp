@@ -1,43 +1,15 @@
 #pragma once
 /// Every key of a case file in one table: the reader checks against it, `diptych explain` and the
-/// reference page are made from it. A new key is one entry in case_keys.cpp and one line in the
-/// reader; a new name in a menu is one word below (and its entry in the registry of its room).
-/// Test: tests/common/cases/keys_test.cpp.
+/// reference page are made from it. The keys of a section stand in its file in sections/, each
+/// with where its value goes. Test: tests/common/cases/keys_test.cpp.
 
-#include <array>
 #include <limits>
-#include <span>
+#include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace diptych::cases {
-
-/// Names that keys may take.
-namespace menus {
-using Name = std::string_view;
-inline constexpr std::array<Name, 4> elements{"hexahedron", "tetrahedron", "quadrilateral",
-                                              "triangle"};
-inline constexpr std::array<Name, 4> models{"mooney-rivlin", "neo-hookean", "neo-hookean-isochoric",
-                                            "neo-hookean-isochoric-j2"};
-inline constexpr std::array<Name, 7> boundaries{
-    "traction", "pressure", "fixed", "velocity", "symmetry", "skew-symmetry", "rigid-wall"};
-inline constexpr std::array<Name, 6> probe_kinds{"point", "mean",     "integral",
-                                                 "least", "greatest", "reaction"};
-inline constexpr std::array<Name, 2> internals{"virgin", "relaxed"};
-inline constexpr std::array<Name, 3> speeds{"exact", "bound", "linearised"};
-inline constexpr std::array<Name, 4> integrators{"leapfrog", "ssp-rk2", "ssp-rk3", "ssp-rk43"};
-inline constexpr std::array<Name, 3> unknowns{"F", "FJ", "FHJ"};
-inline constexpr std::array<Name, 2> reconstructions{"none", "linear"};
-inline constexpr std::array<Name, 4> limiters{"none", "barth-jespersen", "venkatakrishnan",
-                                              "sign-preserving"};
-inline constexpr std::array<Name, 2> impedances{"isotropic", "exact"};
-inline constexpr std::array<Name, 3> precisions{"double", "mixed", "single"};
-inline constexpr std::array<Name, 3> kernels{"cubic-spline", "quintic-spline", "wendland-c2"};
-inline constexpr std::array<Name, 3> stencils{"edge", "integral", "sbp"};
-inline constexpr std::array<Name, 5> functions{"expression", "zener_mode", "zener_slab",
-                                               "zener_wave", "uniaxial_wave"};
-inline constexpr std::array<Name, 3> signals{"step", "one-minus-cosine", "sine"};
-}  // namespace menus
 
 enum class KeyType {
   text,          ///< any text
@@ -56,6 +28,13 @@ enum class KeyType {
   tensor_field   ///< rows of them
 };
 
+/// What holds where a key is missing.
+enum class Presence {
+  standard,  ///< its default
+  required,  ///< nothing: it must be there
+  optional   ///< nothing: what it is for is left out
+};
+
 /// Admissible numbers.
 struct Range {
   double least = -std::numeric_limits<double>::infinity();
@@ -69,26 +48,33 @@ struct Range {
 };
 
 struct Key {
-  std::string_view path;  ///< section.key; section.*.key where the user names the section
+  std::string path;  ///< section.key; section.*.key where the user names the section
   KeyType type;
-  std::string_view unit;      ///< SI; "-" where there is none
-  std::string_view standard;  ///< default as it would be written, or empty
-  std::string_view need;      ///< where there is no default: "required", "with mesh.file", ...
+  Presence presence;
+  std::string unit;      ///< SI; "-" where there is none
+  std::string standard;  ///< default as it would be written, or empty
+  std::string need;      ///< where there is no default: "required", "with mesh.file", ...
   Range range;
-  std::span<const std::string_view> menu;
-  std::string_view meaning;  ///< one sentence
-  std::string_view example;  ///< as it would be written after "key = "
-  std::string_view advice;   ///< what to do about a number out of range, or empty
+  std::vector<std::string> menu;  ///< of a name; empty where rooms above this one hold it
+  std::string meaning;            ///< one sentence
+  std::string example;            ///< as it would be written after "key = "
+  std::string advice;             ///< what to do about a number out of range, or empty
 };
 
 struct Section {
-  std::string_view path;
+  std::string path;
   bool is_list;  ///< [[section]]
-  std::string_view meaning;
+  std::string meaning;
 };
 
-std::span<const Key> keys();
-std::span<const Section> sections();
+/// The names of the registries that stand in rooms above this one: path of a key -> names.
+using Menus = std::map<std::string, std::vector<std::string>>;
+
+const std::vector<Key>& keys();
+const std::vector<Section>& sections();
+
+/// The names that a key takes; none where it is no name, or its menu is above and not in `menus`.
+const std::vector<std::string>& names_of(const Key& key, const Menus& menus);
 
 /// Table path of a path with the user's names and indices: "material.branch.0.tau_C" ->
 /// "material.branch.tau_C", "parameters.E" -> "parameters.*".
@@ -108,9 +94,9 @@ std::string type_name(KeyType type);
 
 /// What `diptych explain KEY` prints, of a key or of a section.
 /// @throws base::InputError on an unknown key
-std::string explain(const std::string& path);
+std::string explain(const std::string& path, const Menus& menus = {});
 
 /// All keys as a Markdown page.
-std::string reference_page();
+std::string reference_page(const Menus& menus = {});
 
 }  // namespace diptych::cases

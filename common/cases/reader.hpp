@@ -1,8 +1,9 @@
 #pragma once
-/// Case files (TOML) to cases. Every key is checked against the table of case_keys.cpp: unknown,
+/// Case files (TOML) to cases. Every key is checked against the table of keys.hpp: unknown,
 /// duplicate, ill-typed, missing, inadmissible and idle keys are errors with file:line:column.
 
 #include "common/cases/case.hpp"
+#include "common/cases/keys.hpp"
 
 #include <string>
 #include <vector>
@@ -12,14 +13,19 @@ namespace diptych::cases {
 /// @param path       of a case file, or of a folder that holds case.toml
 /// @param overrides  "key=value", as of --set: "material.poissons_ratio=0.45",
 ///                   "parameters.tau=1e-3", "material.branch.0.tau_C=1e-3"
+/// @param menus      of the rooms above; a name whose menu is not among them is looked up, and
+///                   refused, by the room that takes it
 /// @throws base::InputError, base::EnvironmentError (cannot be read)
-Case read_case(const std::string& path, const std::vector<std::string>& overrides = {});
+Case read_case(const std::string& path,
+               const std::vector<std::string>& overrides = {},
+               const Menus& menus = {});
 
 /// The same of a text in memory.
 /// @param name  stands for the path: in messages, and as the base of relative mesh files
 Case case_from_text(const std::string& text,
                     const std::string& name,
-                    const std::vector<std::string>& overrides = {});
+                    const std::vector<std::string>& overrides = {},
+                    const Menus& menus = {});
 
 /// Name of the case in this file: the folder of a .../NAME/case.toml, else the file without its
 /// ending.

@@ -44,7 +44,7 @@ void check_section(const Member& member, const Section& section, const std::stri
 }
 
 void check_table(const Value& table, const std::string& path) {
-  constexpr Section functions{"functions", false, ""};
+  const Section functions{"functions", false, ""};
   for (const Member& member : table.members) {
     const std::string child = path.empty() ? member.name : path + "." + member.name;
     // Quoted names with points and the like would pass for paths.
@@ -71,18 +71,6 @@ void check_user_name(const Value& document, const std::string& key, const std::s
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
   throw base::InputError(where + "the case file has no '" + shown(name) + "' in [" + section + "]" +
                          (names.empty() ? "" : base::suggestion(name, names)));
-}
-
-template <class Number>
-Number parsed(std::string_view text) {
-  Number value{};
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
-}
-
-/// A default without its quotes.
-std::string unquoted(std::string_view text) {
-  return text.size() >= 2 ? std::string(text.substr(1, text.size() - 2)) : "";
 }
 
 bool is_constant(const functions::Expression& expression, double value) {
@@ -114,16 +102,27 @@ void apply_overrides(Value& document, const std::vector<std::string>& overrides)
   }
 }
 
-SectionValues::SectionValues(const Value& document,
-                             const Value* table,
-                             std::string path,
-                             const functions::Vocabulary& vocabulary,
-                             int dimension)
-    : document_(document),
-      table_(table),
-      path_(std::move(path)),
-      vocabulary_(vocabulary),
-      dimension_(dimension) {}
+const Value* Reading::table(const std::string& name) const {
+  const Member* member = document.find(name);
+  return member == nullptr ? nullptr : &member->value;
+}
+
+SectionValues Reading::section(const std::string& name) const {
+  return {*this, name.empty() ? &document : table(name), name};
+}
+
+std::vector<SectionValues> Reading::entries(const std::string& path) const {
+  const size_t dot = path.find('.');
+  const Value* list = table(path.substr(0, dot));
+  if (list != nullptr && dot != std::string::npos) {
+    const Member* member = list->find(path.substr(dot + 1));
+    list = member == nullptr ? nullptr : &member->value;
+  }
+  std::vector<SectionValues> all;
+  for (size_t i = 0; list != nullptr && i < list->elements.size(); ++i)
+    all.emplace_back(*this, &list->elements[i], fmt::format("{}.{}", path, i));
+  return all;
+}
 
 const Value* SectionValues::find(const std::string& name) const {
   const Member* member = table_ == nullptr ? nullptr : table_->find(name);
@@ -135,7 +134,7 @@ const Key& SectionValues::key(const std::string& name) const {
 }
 
 functions::SourcePlace SectionValues::where() const {
-  return table_ == nullptr ? document_.where : table_->where;
+  return table_ == nullptr ? reading_.document.where : table_->where;
 }
 
 functions::SourcePlace SectionValues::where(const std::string& name) const {
@@ -151,6 +150,10 @@ void SectionValues::refuse(const std::string& name, const std::string& reason) c
   if (has(name)) fail(name, reason);
 }
 
+bool SectionValues::is_wanted(const std::string& name) const {
+  return has(name) || key(name).presence == Presence::required;
+}
+
 const Value& SectionValues::required(const std::string& name) const {
   const Value* value = find(name);
   if (value == nullptr) {
@@ -162,8 +165,8 @@ const Value& SectionValues::required(const std::string& name) const {
 void SectionValues::wrong_type(const Value& value, const std::string& name) const {
   const Key& entry = key(name);
   std::string takes = type_name(entry.type);
-  if (!entry.menu.empty())
-    takes += " (" + base::joined({entry.menu.begin(), entry.menu.end()}) + ")";
+  const std::vector<std::string>& menu = names_of(entry, reading_.menus);
+  if (!menu.empty()) takes += " (" + base::joined(menu) + ")";
   throw base::InputError(fmt::format("{}{} is {}; it takes {}, as in {} = {}",
                                      functions::prefix(value.where), path_of(name),
                                      described(value), takes, name, entry.example));
@@ -176,7 +179,8 @@ double SectionValues::number_of(const Value& value, const std::string& name) con
   } else if (value.kind == Value::Kind::real) {
     result = value.real;
   } else if (value.kind == Value::Kind::text) {
-    result = functions::constant_value(value.text, vocabulary_.parameters, value.text_where);
+    result =
+        functions::constant_value(value.text, reading_.vocabulary.parameters, value.text_where);
   } else {
     wrong_type(value, name);
   }
@@ -188,7 +192,7 @@ double SectionValues::number_of(const Value& value, const std::string& name) con
     throw base::InputError(found + " is too small for full precision; use 0 or change the units");
   if (!entry.range.admits(result)) {
     throw base::InputError(found + " is not admissible; it must be " + entry.range.text() +
-                           (entry.advice.empty() ? "" : ": " + std::string(entry.advice)));
+                           (entry.advice.empty() ? "" : ": " + entry.advice));
   }
   return result;
 }
@@ -205,28 +209,20 @@ std::int64_t SectionValues::integer_of(const Value& value, const std::string& na
 }
 
 double SectionValues::number(const std::string& name) const {
-  const std::string_view standard = key(name).standard;
-  if (!has(name) && !standard.empty()) return parsed<double>(standard);
   return number_of(required(name), name);
 }
 
 std::int64_t SectionValues::integer(const std::string& name) const {
-  const std::string_view standard = key(name).standard;
-  if (!has(name) && !standard.empty()) return parsed<std::int64_t>(standard);
   return integer_of(required(name), name);
 }
 
 bool SectionValues::flag(const std::string& name) const {
-  const std::string_view standard = key(name).standard;
-  if (!has(name) && !standard.empty()) return standard == "true";
   const Value& value = required(name);
   if (value.kind != Value::Kind::flag) wrong_type(value, name);
   return value.flag;
 }
 
 std::string SectionValues::text(const std::string& name) const {
-  const std::string_view standard = key(name).standard;
-  if (!has(name) && !standard.empty()) return unquoted(standard);
   const Value& value = required(name);
   if (value.kind != Value::Kind::text) wrong_type(value, name);
   const bool is_plain = std::all_of(value.text.begin(), value.text.end(),
@@ -237,10 +233,11 @@ std::string SectionValues::text(const std::string& name) const {
 
 std::string SectionValues::menu_name(const std::string& name) const {
   const std::string found = text(name);
-  const auto& menu = key(name).menu;
-  if (std::find(menu.begin(), menu.end(), found) != menu.end()) return found;
-  fail(name, fmt::format("= '{}' is not on its menu{}", shown(found),
-                         base::suggestion(found, {menu.begin(), menu.end()})));
+  const std::vector<std::string>& menu = names_of(key(name), reading_.menus);
+  // a menu that is not known here is asked by who takes the name
+  if (menu.empty() || std::find(menu.begin(), menu.end(), found) != menu.end()) return found;
+  fail(name,
+       fmt::format("= '{}' is not on its menu{}", shown(found), base::suggestion(found, menu)));
 }
 
 const std::vector<Value>& SectionValues::entries(const Value& value,
@@ -250,7 +247,7 @@ const std::vector<Value>& SectionValues::entries(const Value& value,
   if (static_cast<int>(value.elements.size()) != n) {
     throw base::InputError(fmt::format("{}{} has {} entries; in this {}-D case it takes {}",
                                        functions::prefix(value.where), path_of(name),
-                                       value.elements.size(), dimension_, n));
+                                       value.elements.size(), reading_.dimension, n));
   }
   return value.elements;
 }
@@ -273,11 +270,10 @@ std::vector<std::string> SectionValues::groups(const std::string& name) const {
 }
 
 std::vector<std::string> SectionValues::texts(const std::string& name) const {
-  const Value* value = find(name);
+  const Value& value = required(name);
+  if (value.kind != Value::Kind::list) wrong_type(value, name);
   std::vector<std::string> list;
-  if (value == nullptr) return list;
-  if (value->kind != Value::Kind::list) wrong_type(*value, name);
-  for (const Value& entry : value->elements) {
+  for (const Value& entry : value.elements) {
     if (entry.kind != Value::Kind::text) wrong_type(entry, name);
     list.push_back(entry.text);
   }
@@ -285,40 +281,31 @@ std::vector<std::string> SectionValues::texts(const std::string& name) const {
 }
 
 std::vector<double> SectionValues::numbers(const std::string& name) const {
-  const Value* value = find(name);
+  const Value& value = required(name);
+  if (value.kind != Value::Kind::list) wrong_type(value, name);
   std::vector<double> result;
-  if (value == nullptr) return result;
-  if (value->kind != Value::Kind::list) wrong_type(*value, name);
-  for (const Value& entry : value->elements)
+  for (const Value& entry : value.elements)
     result.push_back(number_of(entry, name));
   return result;
 }
 
-Vec3 SectionValues::vector(const std::string& name, const Vec3& standard, double third) const {
-  Vec3 result = standard;
-  if (const Value* value = find(name)) {
-    const std::vector<Value>& list = entries(*value, name, dimension_);
-    for (int i = 0; i < dimension_; ++i)
-      result[i] = number_of(list[static_cast<size_t>(i)], name);
-  }
-  if (dimension_ == 2) result[2] = third;
+Vec3 SectionValues::vector(const std::string& name) const {
+  Vec3 result = Vec3::Zero();
+  const std::vector<Value>& list = entries(required(name), name, reading_.dimension);
+  for (int i = 0; i < reading_.dimension; ++i)
+    result[i] = number_of(list[static_cast<size_t>(i)], name);
   return result;
 }
 
-Vec3 SectionValues::required_vector(const std::string& name) const {
-  required(name);
-  return vector(name, Vec3::Zero(), 0);
-}
-
 Vec3 SectionValues::direction(const std::string& name) const {
-  const Vec3 value = required_vector(name);
+  const Vec3 value = vector(name);
   if (!(value.norm() > 0)) fail(name, "is no direction; give a vector that is not 0");
   return value.normalized();
 }
 
 std::vector<std::int64_t> SectionValues::counts(const std::string& name) const {
   std::vector<std::int64_t> result;
-  for (const Value& entry : entries(required(name), name, dimension_))
+  for (const Value& entry : entries(required(name), name, reading_.dimension))
     result.push_back(integer_of(entry, name));
   return result;
 }
@@ -331,7 +318,7 @@ functions::Expression SectionValues::field_of(const Value& value,
 }
 
 functions::Expression SectionValues::scalar_field(const std::string& name) const {
-  return scalar_field(name, vocabulary_);
+  return scalar_field(name, reading_.vocabulary);
 }
 
 functions::Expression SectionValues::scalar_field(const std::string& name,
@@ -342,17 +329,16 @@ functions::Expression SectionValues::scalar_field(const std::string& name,
 }
 
 functions::VectorExpression SectionValues::vector_field(const std::string& name) const {
-  if (!has(name) && !key(name).standard.empty()) return {};
-  const std::vector<Value>& list = entries(required(name), name, dimension_);
+  const std::vector<Value>& list = entries(required(name), name, reading_.dimension);
   functions::VectorExpression field;
   for (size_t i = 0; i < list.size(); ++i)
-    field.component[i] = field_of(list[i], name, vocabulary_);
+    field.component[i] = field_of(list[i], name, reading_.vocabulary);
   return field;
 }
 
 std::vector<exact::ExpressionText> SectionValues::vector_texts(const std::string& name) const {
   std::vector<exact::ExpressionText> texts;
-  for (const Value& value : entries(required(name), name, dimension_)) {
+  for (const Value& value : entries(required(name), name, reading_.dimension)) {
     const bool is_text = value.kind == Value::Kind::text;
     texts.push_back({is_text ? value.text : fmt::format("{}", number_of(value, name)),
                      is_text ? value.text_where : value.where});
@@ -365,28 +351,20 @@ bool SectionValues::is_word(const std::string& name, const std::string& word) co
   return value != nullptr && value->kind == Value::Kind::text && value->text == word;
 }
 
-std::optional<functions::VectorExpression> SectionValues::vector_field_if(
-    const std::string& name) const {
-  if (!has(name)) return std::nullopt;
-  return vector_field(name);
-}
-
-std::optional<functions::TensorExpression> SectionValues::tensor_field_if(const std::string& name,
-                                                                          bool plane) const {
-  const Value* value = find(name);
-  if (value == nullptr) return std::nullopt;
-  const bool is_plane = plane && dimension_ == 2 && value->elements.size() == 2;
+functions::TensorExpression SectionValues::tensor_field(const std::string& name, bool plane) const {
+  const Value& value = required(name);
+  const bool is_plane = plane && reading_.dimension == 2 && value.elements.size() == 2;
   const int n = is_plane ? 2 : 3;
-  const std::vector<Value>& rows = entries(*value, name, n);
+  const std::vector<Value>& rows = entries(value, name, n);
   functions::TensorExpression field;
   if (is_plane) field.component[8] = functions::Expression(1.0);
   for (int i = 0; i < n; ++i) {
     const std::vector<Value>& row = entries(rows[static_cast<size_t>(i)], name, n);
     for (int j = 0; j < n; ++j)
       field.component[static_cast<size_t>(3 * i + j)] =
-          field_of(row[static_cast<size_t>(j)], name, vocabulary_);
+          field_of(row[static_cast<size_t>(j)], name, reading_.vocabulary);
   }
-  if (plane && dimension_ == 2) {
+  if (plane && reading_.dimension == 2) {
     const auto& f = field.component;
     if (!f[2].is_zero() || !f[5].is_zero() || !f[6].is_zero() || !f[7].is_zero() ||
         !is_constant(f[8], 1))

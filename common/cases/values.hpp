@@ -9,8 +9,10 @@
 #include "common/functions/expressions.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace diptych::cases {
@@ -25,16 +27,29 @@ void check_keys(const Value& document);
 /// @throws base::InputError
 void apply_overrides(Value& document, const std::vector<std::string>& overrides);
 
+class SectionValues;
+
+/// A document while it is read: what its sections need to know of those before them.
+struct Reading {
+  const Value& document;
+  const Menus& menus;
+  std::filesystem::path folder{};      ///< that relative paths start from
+  functions::Vocabulary vocabulary{};  ///< of parameters and functions
+  int dimension = 3;
+
+  const Value* table(const std::string& name) const;
+  SectionValues section(const std::string& name) const;
+  /// Entries of the list at `path`: "probe", "material.branch".
+  std::vector<SectionValues> entries(const std::string& path) const;
+};
+
 /// One section of the file: [section], or an entry of [[section]].
 class SectionValues {
  public:
   /// @param table  null where the file has no such section: defaults hold
   /// @param path   "mesh", "material.branch.0"
-  SectionValues(const Value& document,
-                const Value* table,
-                std::string path,
-                const functions::Vocabulary& vocabulary,
-                int dimension);
+  SectionValues(const Reading& reading, const Value* table, std::string path)
+      : reading_(reading), table_(table), path_(std::move(path)) {}
 
   bool has(const std::string& name) const { return find(name) != nullptr; }
   /// Place of a value, of the section where it is missing.
@@ -44,34 +59,33 @@ class SectionValues {
     return path_.empty() ? name : path_ + "." + name;
   }
 
-  /// Each returns the default of the table where the key is missing.
-  /// @throws base::InputError on a missing key without default, a wrong type, range or name
+  /// Whether the key is there, or must be.
+  bool is_wanted(const std::string& name) const;
+  KeyType type_of(const std::string& name) const { return key(name).type; }
+
+  /// @throws base::InputError on a missing key, a wrong type, range or name
   double number(const std::string& name) const;
   std::int64_t integer(const std::string& name) const;
   bool flag(const std::string& name) const;
   std::string text(const std::string& name) const;
   std::string menu_name(const std::string& name) const;
-  std::vector<std::string> texts(const std::string& name) const;  ///< empty where missing
+  std::vector<std::string> texts(const std::string& name) const;
   std::vector<std::string> groups(const std::string& name) const;
   std::vector<double> numbers(const std::string& name) const;
-  /// d numbers; the third is `third` in 2-D.
-  Vec3 vector(const std::string& name, const Vec3& standard, double third) const;
-  Vec3 required_vector(const std::string& name) const;  ///< 0 as the third in 2-D
-  Vec3 direction(const std::string& name) const;        ///< the same as a unit vector, not 0
+  Vec3 vector(const std::string& name) const;     ///< d numbers; 0 as the third in 2-D
+  Vec3 direction(const std::string& name) const;  ///< the same as a unit vector, not 0
   std::vector<std::int64_t> counts(const std::string& name) const;  ///< d of them
   functions::Expression scalar_field(const std::string& name) const;
   /// With more names than those of the case.
   functions::Expression scalar_field(const std::string& name,
                                      const functions::Vocabulary& vocabulary) const;
-  functions::VectorExpression vector_field(const std::string& name) const;  ///< zero where missing
+  functions::VectorExpression vector_field(const std::string& name) const;
   /// The entries of vector_field as they were written.
   std::vector<exact::ExpressionText> vector_texts(const std::string& name) const;
   /// Whether the value is this word, without being an expression.
   bool is_word(const std::string& name, const std::string& word) const;
-  std::optional<functions::VectorExpression> vector_field_if(const std::string& name) const;
   /// 3x3, or in 2-D where `plane` 2x2 with 1 in the third place of the diagonal.
-  std::optional<functions::TensorExpression> tensor_field_if(const std::string& name,
-                                                             bool plane) const;
+  functions::TensorExpression tensor_field(const std::string& name, bool plane) const;
 
   /// @throws base::InputError "key has no effect ..." where the key is there
   void refuse(const std::string& name, const std::string& reason) const;
@@ -89,11 +103,9 @@ class SectionValues {
                                  const functions::Vocabulary& vocabulary) const;
   const std::vector<Value>& entries(const Value& value, const std::string& name, int n) const;
 
-  const Value& document_;
+  const Reading& reading_;
   const Value* table_;
   std::string path_;
-  const functions::Vocabulary& vocabulary_;
-  int dimension_;
 };
 
 }  // namespace diptych::cases

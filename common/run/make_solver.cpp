@@ -5,6 +5,7 @@
 #include "common/run/default_cfl.hpp"
 #include "common/run/model_menu.hpp"
 #include "common/scheme/dissipation/limiters/limiter_menu.hpp"
+#include "common/scheme/option_menus.hpp"
 
 namespace diptych::run {
 
@@ -21,7 +22,7 @@ void follow_motion(const std::shared_ptr<const exact::Motion>& motion,
 scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::PairGraph& graph) {
   std::vector<scheme::PlacedCondition> conditions;
   for (const cases::BoundaryCase& boundary : setup.boundaries) {
-    const auto maker = scheme::boundary_menu().at(boundary.type);
+    const auto make = scheme::boundary_menu().at(boundary.type).make;
     scheme::BoundaryValues values;
     values.vector = boundary.value;
     values.scalar = boundary.pressure;
@@ -31,7 +32,7 @@ scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::Pair
         boundary.value.depends_on_time() || boundary.pressure.depends_on_time();
     if (boundary.manufactured) follow_motion(setup.motion, values);
     for (const std::string& group : boundary.groups) {
-      conditions.push_back({maker(values), &boundary_group(graph, group, boundary.where)});
+      conditions.push_back({make(values), &boundary_group(graph, group, boundary.where)});
     }
   }
   scheme::VectorFunction body_force;
@@ -44,29 +45,17 @@ scheme::TimeStepRule time_step_of(const cases::Case& setup,
                                   scheme::Body<Dim>& body,
                                   double geometric_rate,
                                   const time::Integrator& integrator) {
-  using scheme::Speeds;
-  const auto speeds = base::Registry<Speeds>("time.speeds")
-                          .add("exact", Speeds::exact)
-                          .add("bound", Speeds::bound)
-                          .add("linearised", Speeds::linearised);
   const double cfl =
       setup.time.cfl > 0 ? setup.time.cfl : default_cfl(setup, body, geometric_rate, integrator);
-  return {speeds.at(setup.time.speeds), cfl,
+  return {scheme::speeds_menu().at(setup.time.speeds), cfl,
           scheme::frequency_factor(setup.scheme.face_correction)};
 }
 
 scheme::SweepOptions sweep_options_of(const cases::Case& setup) {
-  using scheme::Impedance, scheme::Reconstruction;
-  const auto reconstruction = base::Registry<Reconstruction>("scheme.reconstruction")
-                                  .add("none", Reconstruction::none)
-                                  .add("linear", Reconstruction::linear);
-  const auto impedance = base::Registry<Impedance>("scheme.impedance")
-                             .add("isotropic", Impedance::isotropic)
-                             .add("exact", Impedance::exact);
   scheme::SweepOptions options;
-  options.dissipation = {reconstruction.at(setup.scheme.reconstruction),
+  options.dissipation = {scheme::reconstruction_menu().at(setup.scheme.reconstruction),
                          scheme::limiter_menu().at(setup.scheme.limiter),
-                         impedance.at(setup.scheme.impedance)};
+                         scheme::impedance_menu().at(setup.scheme.impedance)};
   options.dissipation_factor = setup.scheme.dissipation;
   options.face_correction = setup.scheme.face_correction;
   options.energy_budget = setup.scheme.energy_budget;
@@ -76,18 +65,14 @@ scheme::SweepOptions sweep_options_of(const cases::Case& setup) {
 scheme::BodyOptions body_options_of(const cases::Case& setup,
                                     const scheme::MaterialModel& material,
                                     const time::Integrator& integrator) {
-  using scheme::Unknowns;
-  const auto unknowns = base::Registry<Unknowns>("scheme.unknowns")
-                            .add("F", Unknowns::F)
-                            .add("FJ", Unknowns::FJ)
-                            .add("FHJ", Unknowns::FHJ);
   const auto n_branches = static_cast<int>(material.branches().size());
   scheme::BodyOptions options;
   options.rho_R = material.rho_R();
   options.n_branches = n_branches;
   options.has_G = material.has_H();
-  options.unknowns = unknowns.at(setup.scheme.unknowns);
-  options.exact_impedance = setup.scheme.impedance == "exact";
+  options.unknowns = scheme::unknowns_menu().at(setup.scheme.unknowns);
+  options.exact_impedance =
+      scheme::impedance_menu().at(setup.scheme.impedance) == scheme::Impedance::exact;
   options.keeps_L_0 = integrator.gauss_relaxation && n_branches > 0;
   options.face_correction = setup.scheme.face_correction != 0;
   return options;

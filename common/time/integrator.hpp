@@ -2,7 +2,7 @@
 /// Time integrators as rows of coefficients. An SSP Runge-Kutta stage is
 ///   U^(i) = alpha U^n + beta (U^(i-1) + part dt L(U^(i-1))),  a state at time t + time dt.
 /// Leapfrog (velocity Verlet) evaluates forces once a step: kick, drift, evaluate, kick.
-/// Adding a scheme: a file in schemes/ and a line in integrator_menu.cpp.
+/// Adding a scheme: a file in schemes/ and a line in schemes.def.
 
 #include "common/base/registry.hpp"
 
@@ -27,7 +27,11 @@ struct Integrator {
   int evaluations_per_step() const { return is_leapfrog() ? 1 : static_cast<int>(stages.size()); }
 };
 
-/// leapfrog, ssp-rk2, ssp-rk3, ssp-rk43
+#define DIPTYCH_INTEGRATOR(name, function) Integrator function();
+#include "common/time/schemes/schemes.def"
+#undef DIPTYCH_INTEGRATOR
+
+/// All of schemes.def by name.
 const base::Registry<Integrator>& integrator_menu();
 
 }  // namespace diptych::time

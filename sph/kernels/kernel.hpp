@@ -1,6 +1,6 @@
 #pragma once
 /// Smoothing kernels W(r, h) = sigma_d / h^d f(r/h), normalised to int W dV = 1.
-/// To add one: a file beside this one, and a line in kernels().
+/// To add one: a file beside this one, and a line in kernels.def.
 /// Test: tests/graphs/kernels_test.cpp.
 
 #include "common/base/registry.hpp"
@@ -27,11 +27,11 @@ struct Kernel {
   }
 };
 
-Kernel cubic_spline();
-Kernel quintic_spline();
-Kernel wendland_c2();
+#define DIPTYCH_KERNEL(name, function) Kernel function();
+#include "sph/kernels/kernels.def"
+#undef DIPTYCH_KERNEL
 
-/// The menu: cubic-spline, quintic-spline, wendland-c2.
+/// All of kernels.def by name.
 base::Registry<Kernel> kernels();
 
 }  // namespace diptych::sph

@@ -4,9 +4,9 @@ namespace diptych::sph {
 
 base::Registry<Kernel> kernels() {
   base::Registry<Kernel> menu("kernel");
-  menu.add("cubic-spline", cubic_spline())
-      .add("quintic-spline", quintic_spline())
-      .add("wendland-c2", wendland_c2());
+#define DIPTYCH_KERNEL(name, function) menu.add(name, function());
+#include "sph/kernels/kernels.def"
+#undef DIPTYCH_KERNEL
   return menu;
 }
 

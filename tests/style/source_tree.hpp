@@ -36,10 +36,10 @@ inline const std::map<std::string, std::set<std::string>>& permitted_rooms() {
     const auto scheme = with(algebra, {"common/parallel", "common/physics"});
     const auto above = with(scheme, {"common/scheme"});  // what stands on the scheme
     const auto exact = with(above, {"common/functions"});
-    const auto cases = with(exact, {"common/exact"});
-    const auto run = with(cases, {"common/time", "common/cases", "common/io"});
+    const auto cases = with(exact, {"common/exact", "common/time", "meshes"});
+    const auto run = with(cases, {"common/cases", "common/io"});
     const auto graph = with(above, {"common/closure", "meshes"});
-    const auto all = with(run, {"common/run", "meshes", "sph", "fvm", "postprocess"});
+    const auto all = with(run, {"common/run", "sph", "fvm", "postprocess"});
     const auto terminal = with(all, {"benchmarks/terminal"});
     const auto runs = with(terminal, {"benchmarks/run"});
     const auto studies =

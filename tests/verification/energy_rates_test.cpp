@@ -138,7 +138,7 @@ class LoadedBody {
           };
       for (const auto& patch : graph_.patches) {
         if (patch.name != group) continue;
-        placed.push_back({scheme::boundary_menu().at(type)(values), &patch});
+        placed.push_back({scheme::boundary_menu().at(type).make(values), &patch});
       }
     }
     return placed;

@@ -1,7 +1,7 @@
 #pragma once
 /// Boundary conditions (notes 3.6). A condition acts on a patch: it constrains velocity
 /// components of its nodes (strongly, after every stage), or loads its nodes with forces, or both.
-/// Adding one: a file here and a line in boundary_menu.cpp.
+/// Adding one: a file here and a line in conditions.def.
 
 #include "common/base/registry.hpp"
 #include "common/scheme/graph/pair_graph.hpp"
@@ -66,10 +66,27 @@ class BoundaryCondition {
   virtual Vec3 force(const LoadedNode& node, double t) const;
 };
 
-using BoundaryMaker = std::unique_ptr<BoundaryCondition> (*)(const BoundaryValues& values);
+/// A condition as case files know it.
+struct BoundaryKind {
+  enum class Takes { nothing, vector, scalar, plane };  ///< members of BoundaryValues
+  enum class Acts {
+    load,       ///< forces: with any other kind of load, and with a constraint
+    constrain,  ///< some components of the velocity: with loads
+    hold,       ///< all of them: alone
+    touch       ///< a wall that the group may touch: with loads and constraints
+  };
+  std::unique_ptr<BoundaryCondition> (*make)(const BoundaryValues& values);
+  Takes takes = Takes::nothing;
+  Acts acts = Acts::load;
+  std::string note{};  ///< what stands behind its name in the reference of keys, or empty
+};
 
-/// fixed, velocity, symmetry, skew-symmetry, rigid-wall, traction, pressure
-const base::Registry<BoundaryMaker>& boundary_menu();
+#define DIPTYCH_BOUNDARY(name, function) BoundaryKind function##_condition();
+#include "common/scheme/boundary/conditions.def"
+#undef DIPTYCH_BOUNDARY
+
+/// All of conditions.def by name.
+const base::Registry<BoundaryKind>& boundary_menu();
 
 /// Unit normal of a node's share of a patch; components below 1e-12 are rounding and become 0.
 Vec3 unit_normal(const Vec3& area);

@@ -1,18 +1,15 @@
-#include "common/scheme/boundary/load_conditions.hpp"
-#include "common/scheme/boundary/rigid_wall.hpp"
-#include "common/scheme/boundary/velocity_conditions.hpp"
+#include "common/scheme/boundary/boundary_condition.hpp"
 
 namespace diptych::scheme {
 
-const base::Registry<BoundaryMaker>& boundary_menu() {
-  static const auto menu = base::Registry<BoundaryMaker>("boundary condition")
-                               .add("fixed", make_fixed)
-                               .add("velocity", make_velocity)
-                               .add("symmetry", make_symmetry)
-                               .add("skew-symmetry", make_skew_symmetry)
-                               .add("rigid-wall", make_rigid_wall)
-                               .add("traction", make_traction)
-                               .add("pressure", make_pressure);
+const base::Registry<BoundaryKind>& boundary_menu() {
+  static const auto menu = [] {
+    base::Registry<BoundaryKind> all("boundary condition");
+#define DIPTYCH_BOUNDARY(name, function) all.add(name, function##_condition());
+#include "common/scheme/boundary/conditions.def"
+#undef DIPTYCH_BOUNDARY
+    return all;
+  }();
   return menu;
 }
 

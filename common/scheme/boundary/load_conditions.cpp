@@ -1,7 +1,7 @@
 /// Forces on a patch: dead traction per reference area, traction of a known motion, follower
 /// pressure.
 
-#include "common/scheme/boundary/load_conditions.hpp"
+#include "common/scheme/boundary/boundary_condition.hpp"
 
 namespace diptych::scheme {
 
@@ -45,14 +45,24 @@ class Pressure : public BoundaryCondition {
   BoundaryValues values_;
 };
 
-}  // namespace
-
 std::unique_ptr<BoundaryCondition> make_traction(const BoundaryValues& values) {
   if (values.known) return std::make_unique<KnownTraction>();
   return std::make_unique<Traction>(values);
 }
 std::unique_ptr<BoundaryCondition> make_pressure(const BoundaryValues& values) {
   return std::make_unique<Pressure>(values);
+}
+
+using enum BoundaryKind::Takes;
+using enum BoundaryKind::Acts;
+
+}  // namespace
+
+BoundaryKind traction_condition() {
+  return {make_traction, vector, load, "dead, per undeformed area"};
+}
+BoundaryKind pressure_condition() {
+  return {make_pressure, scalar, load, "follows the surface"};
 }
 
 }  // namespace diptych::scheme

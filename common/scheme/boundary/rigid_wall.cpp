@@ -18,10 +18,16 @@ class Wall : public BoundaryCondition {
   RigidWall wall_;
 };
 
-}  // namespace
-
 std::unique_ptr<BoundaryCondition> make_rigid_wall(const BoundaryValues& values) {
   return std::make_unique<Wall>(values);
+}
+
+}  // namespace
+
+BoundaryKind rigid_wall_condition() {
+  return {make_rigid_wall, BoundaryKind::Takes::plane, BoundaryKind::Acts::touch,
+          "frictionless contact with a fixed rigid plane in space, which the group may touch and "
+          "leave"};
 }
 
 void WallContacts::add(const RigidWall& wall, const WallCandidate& candidate) {

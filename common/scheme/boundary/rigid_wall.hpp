@@ -22,8 +22,6 @@
 
 namespace diptych::scheme {
 
-std::unique_ptr<BoundaryCondition> make_rigid_wall(const BoundaryValues& values);
-
 /// A node that may touch a wall.
 struct WallCandidate {
   std::int32_t node = 0;

@@ -1,6 +1,6 @@
 /// Conditions on the velocity: fixed, velocity, symmetry, skew-symmetry.
 
-#include "common/scheme/boundary/velocity_conditions.hpp"
+#include "common/scheme/boundary/boundary_condition.hpp"
 
 namespace diptych::scheme {
 
@@ -54,8 +54,6 @@ class SkewSymmetry : public BoundaryCondition {
   }
 };
 
-}  // namespace
-
 std::unique_ptr<BoundaryCondition> make_fixed(const BoundaryValues&) {
   return std::make_unique<PrescribedVelocity>(VectorFunction{});
 }
@@ -67,6 +65,24 @@ std::unique_ptr<BoundaryCondition> make_symmetry(const BoundaryValues&) {
 }
 std::unique_ptr<BoundaryCondition> make_skew_symmetry(const BoundaryValues&) {
   return std::make_unique<SkewSymmetry>();
+}
+
+using enum BoundaryKind::Takes;
+using enum BoundaryKind::Acts;
+
+}  // namespace
+
+BoundaryKind fixed_condition() {
+  return {make_fixed, nothing, hold};
+}
+BoundaryKind velocity_condition() {
+  return {make_velocity, vector, hold};
+}
+BoundaryKind symmetry_condition() {
+  return {make_symmetry, nothing, constrain, "normal velocity zero, tangentially free"};
+}
+BoundaryKind skew_symmetry_condition() {
+  return {make_skew_symmetry, nothing, constrain, "tangential velocity zero, normally free"};
 }
 
 }  // namespace diptych::scheme

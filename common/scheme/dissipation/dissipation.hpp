@@ -8,21 +8,50 @@
 
 #include "common/algebra/layout.hpp"
 #include "common/physics/wave_speeds.hpp"
-#include "common/scheme/dissipation/limiters/barth_jespersen.hpp"
-#include "common/scheme/dissipation/limiters/sign_preserving.hpp"
-#include "common/scheme/dissipation/limiters/slope_limited.hpp"
-#include "common/scheme/dissipation/limiters/venkatakrishnan.hpp"
+
+#define DIPTYCH_LIMITER(name, id, Type)  // the headers
+#include "common/scheme/dissipation/limiters/limiters.def"
+#undef DIPTYCH_LIMITER
 
 namespace diptych::scheme {
 
 enum class Reconstruction { none, linear };
-enum class PairLimiter { none, sign_preserving, barth_jespersen, venkatakrishnan };
+enum class PairLimiter {
+#define DIPTYCH_LIMITER(name, id, Type) id,
+#include "common/scheme/dissipation/limiters/limiters.def"
+#undef DIPTYCH_LIMITER
+};
 enum class Impedance { isotropic, exact };
+
+/// use.operator()<limiter, Type>() of the one that is asked for.
+template <class Use>
+constexpr auto with_limiter(PairLimiter limiter, const Use& use) {
+  switch (limiter) {
+#define DIPTYCH_LIMITER(name, id, Type) \
+  case PairLimiter::id:                 \
+    return use.template operator()<PairLimiter::id, Type>();
+#include "common/scheme/dissipation/limiters/limiters.def"
+#undef DIPTYCH_LIMITER
+  }
+  __builtin_unreachable();
+}
 
 /// Limiters that are a function of the slopes of both nodes.
 constexpr bool limits_slopes(PairLimiter limiter) {
-  return limiter == PairLimiter::barth_jespersen || limiter == PairLimiter::venkatakrishnan;
+  return with_limiter(limiter, []<PairLimiter, class Limiter>() { return Limiter::of_slopes; });
 }
+
+template <PairLimiter limiter>
+struct LimiterType;
+#define DIPTYCH_LIMITER(name, id, Type_) \
+  template <>                            \
+  struct LimiterType<PairLimiter::id> {  \
+    using Type = Type_;                  \
+  };
+#include "common/scheme/dissipation/limiters/limiters.def"
+#undef DIPTYCH_LIMITER
+template <PairLimiter limiter>
+using LimiterOf = typename LimiterType<limiter>::Type;
 
 /// Largest D_ab over that of the same jump without limiter.
 constexpr double strength_of(PairLimiter limiter) {

@@ -67,11 +67,9 @@ DIPTYCH_INLINE Vector<T> reconstructed_jump(const Vector<T>& plain,
   Vector<T> n{};
   for (int i = 0; i < Dim; ++i)
     n[i] = h[i] * inverse;
-  if constexpr (limiter == PairLimiter::sign_preserving) limit_sign_preserving<Dim>(jump, plain, n);
-  if constexpr (limiter == PairLimiter::barth_jespersen)
-    return slope_limited_jump<BarthJespersen, Dim>(plain, slopes.a, slopes.b, n);
-  if constexpr (limiter == PairLimiter::venkatakrishnan)
-    return slope_limited_jump<Venkatakrishnan, Dim>(plain, slopes.a, slopes.b, n);
+  if constexpr (limiter != PairLimiter::none) {
+    jump = LimiterOf<limiter>::template limited<Dim>(jump, plain, slopes.a, slopes.b, n);
+  }
   return jump;
 }
 

@@ -3,11 +3,13 @@
 namespace diptych::scheme {
 
 const base::Registry<PairLimiter>& limiter_menu() {
-  static const auto menu = base::Registry<PairLimiter>("scheme.limiter")
-                               .add("none", PairLimiter::none)
-                               .add("barth-jespersen", PairLimiter::barth_jespersen)
-                               .add("venkatakrishnan", PairLimiter::venkatakrishnan)
-                               .add("sign-preserving", PairLimiter::sign_preserving);
+  static const auto menu = [] {
+    base::Registry<PairLimiter> all("scheme.limiter");
+#define DIPTYCH_LIMITER(name, id, Type) all.add(name, PairLimiter::id);
+#include "common/scheme/dissipation/limiters/limiters.def"
+#undef DIPTYCH_LIMITER
+    return all;
+  }();
   return menu;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The limiters of the reconstruction by name. Adding one: a header beside this one, a value of
-/// PairLimiter and its line in momentum.hpp, a line here.
+/// The limiters of the reconstruction by name. Adding one: a header beside this one, its two lines
+/// in limiters.def.
 
 #include "common/base/registry.hpp"
 #include "common/scheme/dissipation/dissipation.hpp"

@@ -37,4 +37,18 @@ DIPTYCH_INLINE void limit_sign_preserving(Vector<T>& jump,
     jump[i] = limited_n * n[i] + share_t * plain_t[i];
 }
 
+struct SignPreserving {
+  static constexpr bool of_slopes = false;
+  template <int Dim, class T>
+  DIPTYCH_INLINE static Vector<T> limited(const Vector<T>& reconstructed,
+                                          const Vector<T>& plain,
+                                          const Vector<T>&,
+                                          const Vector<T>&,
+                                          const Vector<T>& n) {
+    Vector<T> jump = reconstructed;
+    limit_sign_preserving<Dim>(jump, plain, n);
+    return jump;
+  }
+};
+
 }  // namespace diptych::scheme

@@ -83,4 +83,23 @@ DIPTYCH_INLINE Vector<T> slope_limited_jump(const Vector<T>& plain,
   return jump;
 }
 
+/// A limiter that is a function of two slopes: Slope::factor(forward, backward).
+template <class Slope>
+struct SlopeLimited {
+  static constexpr bool of_slopes = true;  ///< needs those of both nodes, not their sum alone
+  template <int Dim, class T>
+  DIPTYCH_INLINE static Vector<T> limited(const Vector<T>&,
+                                          const Vector<T>& plain,
+                                          const Vector<T>& l_a,
+                                          const Vector<T>& l_b,
+                                          const Vector<T>& n) {
+    return slope_limited_jump<Slope, Dim>(plain, l_a, l_b, n);
+  }
+};
+
+/// Reconstructed jumps as they are.
+struct NoLimiter {
+  static constexpr bool of_slopes = false;
+};
+
 }  // namespace diptych::scheme

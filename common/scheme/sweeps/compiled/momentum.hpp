@@ -59,18 +59,10 @@ MomentumFunction<Dim> momentum_sweep() {
 /// Sweeps of linear reconstruction with one impedance, by limiter.
 template <int Dim, Impedance impedance, bool has_H>
 MomentumFunction<Dim> limited_sweep(PairLimiter limiter) {
-  using enum PairLimiter;
-  constexpr auto linear = Reconstruction::linear;
-  switch (limiter) {
-    case sign_preserving:
-      return momentum_sweep<Dim, {linear, sign_preserving, impedance}, has_H>();
-    case barth_jespersen:
-      return momentum_sweep<Dim, {linear, barth_jespersen, impedance}, has_H>();
-    case venkatakrishnan:
-      return momentum_sweep<Dim, {linear, venkatakrishnan, impedance}, has_H>();
-    default:
-      return momentum_sweep<Dim, {linear, none, impedance}, has_H>();
-  }
+  return with_limiter(limiter, []<PairLimiter which, class>() {
+    constexpr DissipationKind kind{Reconstruction::linear, which, impedance};
+    return momentum_sweep<Dim, kind, has_H>();
+  });
 }
 
 template <int Dim, Impedance impedance, bool has_H>

@@ -1,0 +1,47 @@
+#include "common/cases/sections/sections.hpp"
+
+#include <fmt/format.h>
+
+namespace diptych::cases {
+
+namespace {
+
+void check(const SectionValues& section, const FvmCase& fvm) {
+  if (fvm.stencil != "sbp") {
+    section.refuse("order",
+                   fmt::format("has no effect on stencil = \"{}\"; it is for sbp", fvm.stencil));
+  }
+  if (fvm.order % 2 != 0) {
+    section.fail("order",
+                 fmt::format("= {} is not the order of an operator; use 2, 4 or 6", fvm.order));
+  }
+}
+
+}  // namespace
+
+SectionEntry fvm_section() {
+  const auto keys =
+      SectionKeys<FvmCase>("fvm")
+          .key("stencil", &FvmCase::stencil,
+               as(KeyType::name, {"-", any,
+                                  "Pair areas by nodal quadrature (edge), by 2 int N_a grad N_b dV "
+                                  "(integral), or from operators that sum by parts along the lines "
+                                  "of nodes (sbp), on boxes of hexahedra or quadrilaterals.",
+                                  "\"sbp\""}))
+          .key("order", &FvmCase::order,
+               {"-", between(2, 6),
+                "With stencil = \"sbp\", order of the derivatives inside: 2 (the edge stencil), 4 "
+                "or 6; half of it at boundaries. On lines of fewer than 8 (4) or 12 nodes (6) it "
+                "falls to the next. 6 takes scheme.limiter = \"sign-preserving\" or none of the "
+                "reconstruction.",
+                "6"});
+  return {{"fvm", false, "What only the finite volumes need."},
+          keys.keys(),
+          [keys](Reading& reading, Case& setup) {
+            const SectionValues section = reading.section("fvm");
+            setup.fvm = keys.read(section);
+            check(section, setup.fvm);
+          }};
+}
+
+}  // namespace diptych::cases

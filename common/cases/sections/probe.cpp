@@ -1,0 +1,114 @@
+#include "common/base/error.hpp"
+#include "common/cases/sections/sections.hpp"
+
+#include <fmt/format.h>
+
+namespace diptych::cases {
+
+namespace {
+
+/// Names and units make up the headers of columns, "name [unit]".
+std::string label(const SectionValues& section, const char* key, const char* forbidden) {
+  const std::string text = section.text(key);
+  if (!text.empty() && text.find_first_of(forbidden) == std::string::npos) return text;
+  section.fail(key, text.empty() ? std::string("is empty; give it a text for the column's header")
+                                 : fmt::format("= '{}' holds one of {} and cannot be part of the "
+                                               "header of a column",
+                                               text, forbidden));
+}
+
+SectionKeys<ProbeCase> probe_keys() {
+  return SectionKeys<ProbeCase>("probe")
+      .key("name", KeyType::text,
+           {"-", any, "What the quantity is called; its column is \"name [unit]\".",
+            "\"tip deflection\"", "required"})
+      .key("unit", KeyType::text,
+           {"-", any, "Unit of the quantity; \"-\" for none.", "\"m\"", "required"})
+      .key("kind", &ProbeCase::kind,
+           one_of({"point", "mean", "integral", "least", "greatest", "reaction"},
+                  "point (value at the node nearest to `at`), mean (over the area of the groups, "
+                  "or over the volume of the body), integral (the same, not divided), least, "
+                  "greatest (over the nodes of the groups or of the body), reaction (force that "
+                  "supports and walls exert on the nodes of the groups).",
+                  "\"mean\""))
+      .key("quantity", KeyType::scalar_field,
+           {"that of probe.unit", any,
+            "Expression of the fields at a node: displacement ux, uy, uz, velocity vx, vy, vz, "
+            "deformation gradient Fxx ... Fzz, first Piola-Kirchhoff stress Pxx ... Pzz, Cauchy "
+            "stress sxx, syy, szz, sxy, syz, sxz, von Mises stress mises, pressure p, Jacobian J; "
+            "of the reference position x, y, z, the time t and parameters.",
+            "\"ux\"", "required but with reaction"})
+      .key("at", KeyType::vector,
+           {"m", any, "Reference position in the body; the nearest node is taken.", "[0, 0, 6]",
+            "with point"})
+      .key("group", KeyType::groups,
+           {"-", any, "Mesh group, or a list of them.", "\"x_max\"",
+            "with reaction; optional with mean ... greatest"})
+      .key("direction", KeyType::vector,
+           {"-", any, "The component of the reaction along this vector; any length but 0.",
+            "[0, 0, 1]", "with reaction"})
+      .key("every_step", &ProbeCase::every_step,
+           {"-", any, "Also evaluate it after every step, for steps.csv.", "true"})
+      .key("oscillation", &ProbeCase::oscillation,
+           {"-", any,
+            "Read period, logarithmic decrement and mean of an oscillation from its values.",
+            "true"});
+}
+
+/// What the kind takes; the rest must not be there.
+void read_quantity(const SectionValues& section,
+                   functions::Vocabulary vocabulary,
+                   ProbeCase& probe) {
+  probe.where = section.where();
+  probe.name = label(section, "name", "[]/");
+  probe.unit = label(section, "unit", "[]");
+  const auto refuse = [&](const char* name) {
+    section.refuse(name, fmt::format("has no effect on kind = \"{}\"; remove it", probe.kind));
+  };
+  if (probe.kind == "reaction") {
+    refuse("quantity");
+    probe.direction = section.direction("direction");
+  } else {
+    refuse("direction");
+    probe.fields = std::make_shared<ProbeFields>();
+    probe.fields->check_names(vocabulary, probe.where);
+    vocabulary.time_functions.push_back(probe.fields);
+    probe.quantity = section.scalar_field("quantity", vocabulary);
+  }
+  if (probe.kind == "point") {
+    refuse("group");
+    probe.at = section.vector("at");
+  } else {
+    refuse("at");
+    if (probe.kind == "reaction" || section.has("group")) probe.groups = section.groups("group");
+  }
+}
+
+std::vector<ProbeCase> read_probes(const Reading& reading, const SectionKeys<ProbeCase>& keys) {
+  std::vector<ProbeCase> probes;
+  for (const SectionValues& entry : reading.entries("probe")) {
+    ProbeCase probe = keys.read(entry);
+    read_quantity(entry, reading.vocabulary, probe);
+    for (const ProbeCase& other : probes) {
+      if (other.name != probe.name) continue;
+      throw base::InputError(fmt::format("{}a probe is already called '{}' (line {}); rename one",
+                                         functions::prefix(probe.where), probe.name,
+                                         other.where.line));
+    }
+    probes.push_back(std::move(probe));
+  }
+  return probes;
+}
+
+}  // namespace
+
+SectionEntry probe_section() {
+  const auto keys = probe_keys();
+  return {{"probe", true,
+           "A quantity of interest: a column of history.csv, an entry of summary.json, a value in "
+           "each field file."},
+          keys.keys(),
+          [keys](Reading& reading, Case& setup) { setup.probes = read_probes(reading, keys); }};
+}
+
+}  // namespace diptych::cases

@@ -1,0 +1,75 @@
+#include "common/cases/sections/sections.hpp"
+#include "common/scheme/dissipation/limiters/limiter_menu.hpp"
+#include "common/scheme/option_menus.hpp"
+
+#include <fmt/format.h>
+
+namespace diptych::cases {
+
+namespace {
+
+SectionKeys<SchemeCase> scheme_keys() {
+  return SectionKeys<SchemeCase>("scheme")
+      .key(
+          "unknowns", &SchemeCase::unknowns,
+          one_of(scheme::unknowns_menu().names(),
+                 "Strain measures with evolution equations of their own; the others follow from F.",
+                 "\"F\""))
+      .key("reconstruction", &SchemeCase::reconstruction,
+           one_of(scheme::reconstruction_menu().names(),
+                  "Reconstruction of the states on both sides of a pair.", "\"none\""))
+      .key("limiter", &SchemeCase::limiter,
+           one_of(scheme::limiter_menu().names(),
+                  "Limiter of the linear reconstruction. At fronts: venkatakrishnan, with "
+                  "scheme.face_correction = \"1/6\".",
+                  "\"venkatakrishnan\""))
+      .key("impedance", &SchemeCase::impedance,
+           one_of(scheme::impedance_menu().names(),
+                  "Impedance of the dissipation: of the two wave speeds, or the exact matrix.",
+                  "\"exact\""))
+      .key("dissipation", &SchemeCase::dissipation,
+           {"-", at_least(0), "Factor of the dissipation D_ab.", "0"})
+      .key("face_correction", &SchemeCase::face_correction,
+           {"-", between(0, 0.25),
+            "Factor kappa_f of the face correction with its adjoint: 0 none, 1/6 fourth-order "
+            "first derivatives on a lattice, 1/8 exact face values of quadratics.",
+            "\"1/6\""})
+      .key("precision", &SchemeCase::precision,
+           one_of(scheme::precision_menu().names(),
+                  "Precision of what the sweeps keep. mixed: pseudo-areas C_ab in single, half the "
+                  "memory of irregular nodes, 1e-7 of error. single: the state and the sums over "
+                  "pairs too; half the memory, some 1e-5 of error relative to the largest speed.",
+                  "\"single\""))
+      .key("angular_momentum_projection", &SchemeCase::angular_momentum_projection,
+           {"-", any, "Correct the forces so that angular momentum is conserved.", "true"})
+      .key("energy_budget", &SchemeCase::energy_budget,
+           {"-", any, "Sum up stored, dissipated and external work.", "false"});
+}
+
+void check(const SectionValues& section, const SchemeCase& scheme) {
+  if (scheme.reconstruction == "none" && scheme.limiter != "none") {
+    section.fail("limiter", fmt::format("= '{}' has no effect with reconstruction = \"none\"; use "
+                                        "limiter = \"none\"",
+                                        scheme.limiter));
+  }
+  if (scheme.precision == "single" && scheme.impedance == "exact") {
+    section.fail("precision",
+                 "= \"single\" has no exact impedance; use \"mixed\" or \"double\", or "
+                 "impedance = \"isotropic\"");
+  }
+}
+
+}  // namespace
+
+SectionEntry scheme_section() {
+  const auto keys = scheme_keys();
+  return {{"scheme", false, "The scheme that both methods share."},
+          keys.keys(),
+          [keys](Reading& reading, Case& setup) {
+            const SectionValues section = reading.section("scheme");
+            setup.scheme = keys.read(section);
+            check(section, setup.scheme);
+          }};
+}
+
+}  // namespace diptych::cases

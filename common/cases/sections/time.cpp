@@ -1,0 +1,35 @@
+#include "common/cases/sections/sections.hpp"
+#include "common/scheme/option_menus.hpp"
+#include "common/time/integrator.hpp"
+
+namespace diptych::cases {
+
+SectionEntry time_section() {
+  const auto keys =
+      SectionKeys<TimeCase>("time")
+          .key("end", &TimeCase::end,
+               {"s", above(0), "Final time; the run starts at t = 0.", "\"1.25*2*pi/omega\"",
+                "required"})
+          .key("integrator", &TimeCase::integrator,
+               one_of(time::integrator_menu().names(),
+                      "Time integrator. ssp-rk3: third order, branches by GEXP; leapfrog: one "
+                      "evaluation a step, second order but for its dissipation, which lags half a "
+                      "step; ssp-rk43: four stages of third order, the cheapest with slope "
+                      "limiters and strong dissipation.",
+                      "\"leapfrog\""))
+          .key("cfl", &TimeCase::cfl,
+               optional({"-", Range{0, 10, false, true},
+                         "Time step as a fraction of the bound of the graph.", "0.5",
+                         "optional; found from the graph and the integrator"}))
+          .key("speeds", &TimeCase::speeds,
+               one_of(scheme::speeds_menu().names(),
+                      "Wave speeds of the time step: of the current state pair by pair, the "
+                      "largest of the current state for all pairs (a little smaller step), or of "
+                      "the undeformed body (a stiffening body can then exceed the stable step).",
+                      "\"bound\""))
+          .key("max_steps", &TimeCase::max_steps,
+               {"-", at_least(0), "The run stops after so many steps; 0 sets no limit.", "1000"});
+  return plain_section({"time", false, "How long and how."}, keys, &Case::time);
+}
+
+}  // namespace diptych::cases

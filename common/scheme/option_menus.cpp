@@ -1,0 +1,43 @@
+#include "common/scheme/option_menus.hpp"
+
+namespace diptych::scheme {
+
+const base::Registry<Unknowns>& unknowns_menu() {
+  static const auto menu = base::Registry<Unknowns>("scheme.unknowns")
+                               .add("F", Unknowns::F)
+                               .add("FJ", Unknowns::FJ)
+                               .add("FHJ", Unknowns::FHJ);
+  return menu;
+}
+
+const base::Registry<Reconstruction>& reconstruction_menu() {
+  static const auto menu = base::Registry<Reconstruction>("scheme.reconstruction")
+                               .add("none", Reconstruction::none)
+                               .add("linear", Reconstruction::linear);
+  return menu;
+}
+
+const base::Registry<Impedance>& impedance_menu() {
+  static const auto menu = base::Registry<Impedance>("scheme.impedance")
+                               .add("isotropic", Impedance::isotropic)
+                               .add("exact", Impedance::exact);
+  return menu;
+}
+
+const base::Registry<Precision>& precision_menu() {
+  static const auto menu = base::Registry<Precision>("scheme.precision")
+                               .add("double", Precision::full)
+                               .add("mixed", Precision::mixed)
+                               .add("single", Precision::single);
+  return menu;
+}
+
+const base::Registry<Speeds>& speeds_menu() {
+  static const auto menu = base::Registry<Speeds>("time.speeds")
+                               .add("exact", Speeds::exact)
+                               .add("bound", Speeds::bound)
+                               .add("linearised", Speeds::linearised);
+  return menu;
+}
+
+}  // namespace diptych::scheme

@@ -1,0 +1,5 @@
+#include "common/physics/materials/plain_rubber.hpp"
+
+#include "common/run/models/compile.hpp"
+
+DIPTYCH_COMPILE_MATERIAL(plain_rubber, diptych::physics::PlainRubber)
