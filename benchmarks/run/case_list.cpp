@@ -3,7 +3,6 @@
 #include "benchmarks/run/data_folder.hpp"
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
-#include "common/cases/reader.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -109,13 +108,6 @@ std::vector<ListedCase> listed_cases(const std::string& asked) {
   if (cases.empty()) throw base::InputError(no_case_in(folder, asked));
   std::sort(cases.begin(), cases.end(),
             [](const ListedCase& a, const ListedCase& b) { return a.name < b.name; });
-  return cases;
-}
-
-std::vector<std::pair<std::string, std::string>> shipped_cases() {
-  std::vector<std::pair<std::string, std::string>> cases;
-  for (const ListedCase& entry : listed_cases())
-    cases.emplace_back(entry.name, cases::read_case(entry.file).title);
   return cases;
 }
 
