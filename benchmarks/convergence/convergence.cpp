@@ -1,5 +1,6 @@
 #include "benchmarks/convergence/convergence.hpp"
 
+#include "benchmarks/terminal/text.hpp"
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
 #include "postprocess/report/orders.hpp"
@@ -23,10 +24,6 @@ bool is_on_demand(const std::string& name) {
       "involution H", "involution J", "least cell J"};
   return names.count(name) > 0 || name.rfind("linear momentum ", 0) == 0 ||
          name.rfind("angular momentum ", 0) == 0;
-}
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 void check_names(const std::vector<LevelRecord>& records, const std::vector<std::string>& wanted) {
@@ -123,15 +120,22 @@ std::vector<MethodConvergence> convergence_of(const std::vector<LevelRecord>& re
 std::optional<report::GridConvergence> estimate(const MethodConvergence& study,
                                                 const Quantity& quantity,
                                                 size_t level) {
-  if (quantity.is_error || level < 2) return std::nullopt;
-  const auto h = [&](size_t i) { return study.levels[i].spacing; };
-  const auto f = [&](size_t i) { return quantity.values[i]; };
-  for (size_t i = level - 2; i <= level; ++i) {
-    if (!std::isfinite(f(i))) return std::nullopt;
-  }
-  if (!(h(level) < h(level - 1) && h(level - 1) < h(level - 2))) return std::nullopt;
-  return report::grid_convergence({h(level), h(level - 1), h(level - 2)},
-                                  {f(level), f(level - 1), f(level - 2)});
+  if (quantity.is_error) return std::nullopt;
+  std::vector<double> spacings;
+  for (size_t i = 0; i <= level; ++i)
+    spacings.push_back(study.levels[i].spacing);
+  const auto begin = quantity.values.begin();
+  return report::finest_convergence(spacings,
+                                    {begin, begin + static_cast<std::ptrdiff_t>(level) + 1});
+}
+
+double error_bar(const MethodConvergence& study, const Quantity& quantity, size_t level) {
+  if (const auto g = estimate(study, quantity, level)) return g->error_bar;
+  const bool two = level == 1 && std::isfinite(quantity.values[0] + quantity.values[1]) &&
+                   study.levels[1].spacing < study.levels[0].spacing;
+  if (!two) return nothing;
+  return report::two_grid_error_bar({study.levels[1].spacing, study.levels[0].spacing},
+                                    {quantity.values[1], quantity.values[0]});
 }
 
 double order_of_error(const MethodConvergence& study, const Quantity& quantity, size_t level) {

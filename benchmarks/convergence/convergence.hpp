@@ -47,9 +47,9 @@ std::optional<report::GridConvergence> estimate(const MethodConvergence& study,
 /// log(e_coarse/e_fine)/log(h_coarse/h_fine) of an error at `level` and the one before.
 double order_of_error(const MethodConvergence& study, const Quantity& quantity, size_t level);
 
-/// Error bar of the finest value from all levels, with two of them from these; NaN where there is
+/// Error bar of the value at `level`, from three levels or from the first two; NaN where there is
 /// none.
-double error_bar(const MethodConvergence& study, const Quantity& quantity);
+double error_bar(const MethodConvergence& study, const Quantity& quantity, size_t level);
 
 /// Scalars of one method for a terminal of 100 columns; empty where there are none.
 std::string quantity_table(const MethodConvergence& study);

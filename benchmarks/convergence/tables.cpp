@@ -1,6 +1,7 @@
 /// The forms that a study of refinement is written in.
 
 #include "benchmarks/convergence/convergence.hpp"
+#include "benchmarks/terminal/text.hpp"
 #include "postprocess/report/orders.hpp"
 
 #include <cmath>
@@ -11,21 +12,14 @@ namespace diptych::harness {
 namespace {
 
 std::string titled(const Quantity& quantity) {
-  return quantity.unit == "-" ? quantity.name : quantity.name + " [" + quantity.unit + "]";
+  return with_unit(quantity.name, quantity.unit);
 }
 
 /// Seven digits: enough to see what the third grid changes.
-std::string value_text(double value) {
-  return std::isfinite(value) ? fmt::format("{:.7g}", value) : "-";
-}
-std::string order_text(double value) {
-  return std::isfinite(value) ? fmt::format("{:.2f}", value) : "-";
-}
-std::string short_text(double value) {
-  return std::isfinite(value) ? fmt::format("{:.1e}", value) : "-";
-}
+constexpr const char *value_format = "{:.7g}", *order_format = "{:.2f}", *bar_format = "{:.1e}";
+
 std::string percent(double fraction) {
-  return std::isfinite(fraction) ? fmt::format("{:.2g} %", 100 * fraction) : "-";
+  return number_text(100 * fraction, "{:.2g} %");
 }
 
 /// What stands in a row of scalars, of the finest levels.
@@ -36,33 +30,26 @@ struct ScalarRow {
 ScalarRow row_of(const MethodConvergence& study, const Quantity& quantity) {
   const size_t last = quantity.values.size() - 1;
   ScalarRow row;
-  row.finest = value_text(quantity.values[last]);
+  row.finest = number_text(quantity.values[last], value_format);
   if (const auto g = estimate(study, quantity, last)) {
-    row.extrapolated = value_text(g->extrapolated);
-    row.order = order_text(g->order);
+    row.extrapolated = number_text(g->extrapolated, value_format);
+    row.order = number_text(g->order, order_format);
     row.index = percent(g->index);
-    row.bar = short_text(g->error_bar);
+    row.bar = number_text(g->error_bar, bar_format);
     if (g->kind != report::Convergence::monotone) row.remark = report::convergence_name(g->kind);
-  } else if (const double bar = error_bar(study, quantity); std::isfinite(bar)) {
-    row.bar = short_text(bar);
+  } else if (const double bar = error_bar(study, quantity, last); std::isfinite(bar)) {
+    row.bar = number_text(bar, bar_format);
     row.index = quantity.values[1] != 0 ? percent(bar / std::abs(quantity.values[1])) : "-";
     row.remark = "two grids";
   }
   return row;
 }
 
-/// RFC 4180.
 std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
+  return text.find_first_of(",\"\n") == std::string::npos ? text : quoted(text);
 }
 std::string csv_number(double value) {
-  return std::isfinite(value) ? fmt::format("{:.17g}", value) : "";
+  return number_text(value, "{:.17g}", "");
 }
 
 /// Text for LaTeX: special characters escaped, m^2 as m$^{2}$.
@@ -108,10 +95,8 @@ std::string tex_errors(const MethodConvergence& study) {
     text += fmt::format("{} & {}", tex_number(fmt::format("{:.4g}", study.levels[i].spacing)),
                         study.levels[i].nodes);
     for (const Quantity* column : columns) {
-      const double e = column->values[i];
-      text +=
-          fmt::format(" & {} & {}", std::isfinite(e) ? tex_number(fmt::format("{:.2e}", e)) : "--",
-                      tex_number(order_text(order_of_error(study, *column, i))));
+      text += fmt::format(" & {} & {}", tex_number(number_text(column->values[i], "{:.2e}")),
+                          tex_number(number_text(order_of_error(study, *column, i), order_format)));
     }
     text += " \\\\\n";
   }
@@ -157,6 +142,30 @@ std::string quantity_table(const MethodConvergence& study) {
   if (!study.zero.empty())
     text += fmt::format("zero on every level: {}\n", fmt::join(study.zero, ", "));
   return text;
+}
+
+std::string agreement_table(const std::vector<MethodConvergence>& studies) {
+  if (studies.size() != 2 || studies[0].levels.back().level != studies[1].levels.back().level)
+    return "";
+  std::string lines;
+  for (const Quantity& one : studies[0].scalars) {
+    for (const Quantity& other : studies[1].scalars) {
+      if (other.name != one.name) continue;
+      const double difference = std::abs(one.values.back() - other.values.back());
+      const double bars = error_bar(studies[0], one, one.values.size() - 1) +
+                          error_bar(studies[1], other, other.values.size() - 1);
+      if (!std::isfinite(difference + bars)) continue;
+      lines += fmt::format("{:<48} {:>10.2e} {:>10.2e}  {}\n", one.name + " [" + one.unit + "]",
+                           difference, bars, difference <= bars ? "agree" : "DIFFER");
+    }
+  }
+  if (lines.empty()) return "";
+  std::string text =
+      fmt::format("{}, {} and {} on level {}: apart, and the sum of their error bars\n",
+                  studies[0].case_name, report::method_title(studies[0].method),
+                  report::method_title(studies[1].method), studies[0].levels.back().level);
+  text += std::string(80, '-') + "\n";
+  return text + lines;
 }
 
 std::string convergence_csv(const std::vector<MethodConvergence>& studies) {

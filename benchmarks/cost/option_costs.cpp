@@ -1,5 +1,8 @@
 #include "benchmarks/cost/option_costs.hpp"
 
+#include "benchmarks/probes/machine_probes.hpp"
+#include "benchmarks/run/backends.hpp"
+#include "benchmarks/run/case_mesh.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/scene.hpp"
 #include "benchmarks/terminal/status_line.hpp"
@@ -9,8 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
-#include <filesystem>
 #include <fmt/format.h>
 #include <limits>
 #include <map>
@@ -20,7 +21,7 @@ namespace diptych::harness {
 
 namespace {
 
-const char* const scene_text = R"toml(
+constexpr char scene_text[] = R"toml(
 [mesh]
 element = "{element}"
 lower = [0, 0{third}]
@@ -85,32 +86,19 @@ std::vector<Option> options() {
       {"fields for a frame (each)", "", {}, 0, Work::snapshot}};
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
-}
-
 std::string text_of(int dimension, int cells) {
+  using fmt::arg;
   const bool solid = dimension == 3;
   const int n = solid ? cells : static_cast<int>(std::lround(std::pow(cells + 1, 1.5))) - 1;
-  std::string text = replaced(scene_text, "{element}", solid ? "hexahedron" : "quadrilateral");
-  text = replaced(text, "{third_upper}", solid ? ", 1" : "");
-  text = replaced(text, "{third_cells}", solid ? fmt::format(", {}", n) : "");
-  text = replaced(text, "{third}", solid ? ", 0" : "");
-  return replaced(text, "{n}", std::to_string(n));
-}
-
-double processor_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  return fmt::format(scene_text, arg("element", solid ? "hexahedron" : "quadrilateral"),
+                     arg("third", solid ? ", 0" : ""), arg("third_upper", solid ? ", 1" : ""),
+                     arg("third_cells", solid ? fmt::format(", {}", n) : ""), arg("n", n));
 }
 
 /// Seconds of one stage, history row or set of fields.
 double measured(run::Solver& solver, Work work) {
   constexpr int n = 4;
-  const double start = processor_seconds();
+  const double start = probes::seconds(1);
   for (int i = 0; i < n; ++i) {
     if (work == Work::balance) {
       solver.balance();
@@ -120,7 +108,7 @@ double measured(run::Solver& solver, Work work) {
       solver.step(1e6);
     }
   }
-  const double each = (processor_seconds() - start) / n;
+  const double each = (probes::seconds(1) - start) / n;
   return work == Work::stage ? each / solver.evaluations_per_step() : each;
 }
 

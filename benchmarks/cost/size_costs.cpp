@@ -1,5 +1,8 @@
 #include "benchmarks/cost/size_costs.hpp"
 
+#include "benchmarks/probes/machine_probes.hpp"
+#include "benchmarks/run/backends.hpp"
+#include "benchmarks/run/case_mesh.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/memory.hpp"
 #include "benchmarks/run/scene.hpp"
@@ -10,9 +13,6 @@
 #include "common/run/solver.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <ctime>
-#include <filesystem>
 #include <fmt/format.h>
 #include <limits>
 
@@ -48,17 +48,6 @@ constexpr Graph graphs[] = {{"SPH", "sph", "hexahedron"},
                             {"FVM hexahedra", "fvm", "hexahedron"},
                             {"FVM tetrahedra", "fvm", "tetrahedron"}};
 
-/// Of the process with one thread, which a busy machine does not stretch; of the clock with more.
-double seconds() {
-  if (parallel::n_threads() > 1) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-  }
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
 /// At least this much work is timed, in steps.
 constexpr double least_node_steps = 3e6;
 constexpr int least_steps = 12;
@@ -70,9 +59,10 @@ SizeRow measured(const Graph& kind, int side, const std::vector<std::string>& ov
   row.graph = kind.name;
   const std::int64_t before = settled_memory();
   reset_peak_rss();
-  double start = seconds();
+  const int threads = parallel::n_threads();
+  double start = probes::seconds(threads);
   const auto lap = [&] {
-    const double now = seconds(), taken = now - start;
+    const double now = probes::seconds(threads), taken = now - start;
     start = now;
     return taken;
   };

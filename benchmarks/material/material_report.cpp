@@ -13,6 +13,11 @@ double strain(const MaterialPath& path, const PathPoint& point) {
   return path.loading == Loading::shear ? point.state.F(0, 1) : point.state.F(0, 0) - 1;
 }
 
+/// P11, or P12 in shear: what the loop shows.
+double main_stress(const MaterialPath& path, const PathPoint& point) {
+  return path.loading == Loading::shear ? point.P(0, 1) : point.P(0, 0);
+}
+
 const char* stress_name(const MaterialPath& path) {
   return path.loading == Loading::shear ? "P12" : "P11";
 }
@@ -30,10 +35,6 @@ void add_tensor(std::string& row, const run::Mat3& M) {
 }
 
 }  // namespace
-
-double main_stress(const MaterialPath& path, const PathPoint& point) {
-  return path.loading == Loading::shear ? point.P(0, 1) : point.P(0, 0);
-}
 
 std::string path_table(const cases::Case& setup,
                        const MaterialPath& path,

@@ -23,7 +23,4 @@ std::string path_svg(const cases::Case& setup,
                      const MaterialPath& path,
                      const std::vector<PathPoint>& points);
 
-/// P11, or P12 in shear: what the loop shows.
-double main_stress(const MaterialPath& path, const PathPoint& point);
-
 }  // namespace diptych::harness

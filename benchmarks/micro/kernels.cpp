@@ -14,20 +14,13 @@
 
 #include <benchmark/benchmark.h>
 #include <cstdio>
-#include <ctime>
 
 namespace diptych::micro {
 namespace {
 
 probes::MachineProbes machine;  // measured before the first kernel
 
-/// Processor time of this thread, or, for work of several threads, time of the wall  [s]. On a
-/// shared machine the former does not count what others take.
-double seconds(int threads) {
-  timespec t{};
-  clock_gettime(threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+using probes::seconds;
 
 /// Runs the kernel and reports.
 /// @param work    per directed pair; nothing: not counted

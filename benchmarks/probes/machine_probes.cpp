@@ -13,18 +13,16 @@
 
 namespace diptych::probes {
 
-namespace {
-
-using algebra::AlignedArray;
-using algebra::InstructionSet;
-/// Processor time of this thread, or, for several threads, time of the wall  [s]: on a busy machine
-/// the former does not count what others take.
 double seconds(int threads) {
   timespec t{};
   clock_gettime(threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
+namespace {
+
+using algebra::AlignedArray;
+using algebra::InstructionSet;
 template <class T, int bytes>
 struct VectorOf {
   using type __attribute__((vector_size(bytes))) = T;

@@ -11,6 +11,10 @@
 
 namespace diptych::probes {
 
+/// Processor time of this thread, or, for work of several threads, time of the wall  [s]: on a
+/// shared machine the former does not count what others take.
+double seconds(int threads);
+
 /// Of one precision and number of threads; the best of a few repetitions.
 struct Peak {
   double bandwidth = 0;  ///< byte/s

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sstream>
+#include <regex>
 
 namespace diptych::harness {
 
@@ -35,20 +35,8 @@ Json figures_json(const std::string& where, const RegressFigures& figures) {
 
 /// Each figure on one line, so that a change of it is one line of a difference.
 std::string with_figures_in_line(const std::string& json) {
-  std::istringstream lines(json);
-  std::string text, before;
-  for (std::string line; std::getline(lines, line);) {
-    const std::string words = line.substr(std::min(line.find_first_not_of(' '), line.size()));
-    const bool joins = words.rfind("\"value\":", 0) == 0 || words.rfind("\"scale\":", 0) == 0 ||
-                       before.rfind("\"scale\":", 0) == 0;
-    if (joins) {
-      text += (before.rfind("\"value\":", 0) == 0 ? " " : "") + words;
-    } else {
-      text += (text.empty() ? "" : "\n") + line;
-    }
-    before = words;
-  }
-  return text + "\n";
+  static const std::regex figure(R"(\{\n *("value": [^\n]*)\n *("scale": [^\n]*)\n *\})");
+  return std::regex_replace(json, figure, "{$1 $2}") + "\n";
 }
 
 /// Keys of an object as they are read; what was not asked for is an error.

@@ -1,19 +1,18 @@
-#include "benchmarks/regression/bless.hpp"
+/// New baselines: at what size a case is recorded, and the record.
 
-#include "benchmarks/regression/cases.hpp"
-#include "benchmarks/regression/table.hpp"
+#include "benchmarks/regression/verb.hpp"
 #include "benchmarks/run/backends.hpp"
 #include "benchmarks/run/case_check.hpp"
 #include "benchmarks/run/menus.hpp"
 #include "benchmarks/run/provenance.hpp"
 #include "benchmarks/run/run_case.hpp"
+#include "benchmarks/terminal/output.hpp"
 #include "benchmarks/terminal/progress.hpp"
 #include "common/base/error.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/io/run_record.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -96,8 +95,7 @@ RegressBaseline recorded(const RegressRequest& request,
   RegressBaseline record = record_of(size, now, request.why);
   const std::string text = to_json(record);  // before anything is said of it
   const std::string path = baseline_path(request, size.case_name);
-  std::fputs(fmt::format("{}  output: {}\n", difference_text(old, record), path).c_str(), stdout);
-  std::fflush(stdout);
+  print(fmt::format("{}  output: {}\n", difference_text(old, record), path));
   io::make_directory(baselines_folder(request.baselines_folder));
   io::write_file_atomically(path, text);
   return record;

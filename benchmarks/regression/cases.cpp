@@ -1,5 +1,6 @@
-#include "benchmarks/regression/cases.hpp"
+/// Which cases a regression takes and where their baselines are.
 
+#include "benchmarks/regression/verb.hpp"
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 #include "common/io/run_record.hpp"
@@ -109,11 +110,11 @@ RegressBaseline read_baseline(const std::string& path, const std::string& case_n
   return baseline;
 }
 
-std::vector<RegressRow> orphans(const RegressRequest& request) {
+std::vector<RegressedCase> orphans(const RegressRequest& request) {
   std::set<std::string> names;
   for (const ListedCase& entry : listed_cases(request.cases_folder))
     names.insert(entry.name);
-  std::vector<RegressRow> rows;
+  std::vector<RegressedCase> gone;
   std::error_code error;
   for (const auto& entry :
        fs::directory_iterator(baselines_folder(request.baselines_folder), error)) {
@@ -123,11 +124,12 @@ std::vector<RegressRow> orphans(const RegressRequest& request) {
         "no case of this name in {}: remove the file, or bring "
         "the case back",
         cases_folder(request.cases_folder));
-    rows.push_back({name, "-", {failure("record", entry.path().filename().string(), note)}});
+    const RegressCheck check = failure("record", entry.path().filename().string(), note);
+    gone.push_back({name, "", baseline_path(request, name), 0, {{name, "-", {check}}}});
   }
-  std::sort(rows.begin(), rows.end(),
-            [](const RegressRow& a, const RegressRow& b) { return a.case_name < b.case_name; });
-  return rows;
+  std::sort(gone.begin(), gone.end(),
+            [](const RegressedCase& a, const RegressedCase& b) { return a.name < b.name; });
+  return gone;
 }
 
 }  // namespace diptych::harness

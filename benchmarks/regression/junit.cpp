@@ -1,48 +1,27 @@
 /// JUnit XML of a regression.
 
 #include "benchmarks/regression/report.hpp"
+#include "benchmarks/terminal/text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <pugixml.hpp>
+#include <regex>
 #include <sstream>
 
 namespace diptych::harness {
 
 namespace {
 
-constexpr const char* replacement = "\xEF\xBF\xBD";  // U+FFFD
-
-/// Bytes of the UTF-8 character at `at`; 0 where there is none that XML 1.0 may hold.
-size_t character_bytes(const std::string& text, size_t at) {
-  const auto byte = [&](size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
-  };
-  const unsigned first = byte(at);
-  if (first < 0x80) return first >= 0x20 || first == '\t' || first == '\n' || first == '\r' ? 1 : 0;
-  const size_t n = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (first < 0xC2 || first > 0xF4) return 0;
-  unsigned code = first & (0x7Fu >> n);
-  for (size_t i = 1; i < n; ++i) {
-    if ((byte(at + i) & 0xC0u) != 0x80u) return 0;
-    code = code << 6 | (byte(at + i) & 0x3Fu);
-  }
-  const bool overlong = (n == 3 && code < 0x800) || (n == 4 && code < 0x10000);
-  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-  const bool none = overlong || surrogate || code == 0xFFFE || code == 0xFFFF || code > 0x10FFFF;
-  return none ? 0 : n;
-}
-
-/// The text with signs of replacement for what XML cannot hold even escaped; the rest is escaped by
-/// the library.
+/// The text with signs of replacement (U+FFFD) for what XML cannot hold even escaped: bytes that
+/// are no UTF-8, control characters, U+FFFE and U+FFFF. The rest is escaped by the library.
 std::string xml_text(const std::string& text) {
-  std::string sound;
-  for (size_t at = 0; at < text.size();) {
-    const size_t n = character_bytes(text, at);
-    sound += n == 0 ? replacement : text.substr(at, n);
-    at += n == 0 ? 1 : n;
-  }
-  return sound;
+  using nlohmann::json;
+  static const std::regex none("[\\x00-\\x08\\x0B\\x0C\\x0E-\\x1F]|\xEF\xBF[\xBE\xBF]");
+  const std::string sound = json(text).dump(-1, ' ', false, json::error_handler_t::replace);
+  return std::regex_replace(json::parse(sound).get<std::string>(), none, "\xEF\xBF\xBD");
 }
 
 void set(pugi::xml_node node, const char* name, const std::string& value) {
@@ -51,10 +30,6 @@ void set(pugi::xml_node node, const char* name, const std::string& value) {
 
 void set_seconds(pugi::xml_node node, double seconds) {
   set(node, "time", fmt::format("{:.3f}", seconds));
-}
-
-std::string number(double value) {
-  return std::isfinite(value) ? fmt::format("{:.9g}", value) : "none";
 }
 
 bool is_error(const RegressCheck& check) {
@@ -71,18 +46,25 @@ std::string message_of(const RegressCheck& check) {
 
 std::string details_of(const RegressCheck& check) {
   return fmt::format("{}: {}\nmeasured: {}\nbound: {}\n{}", check.name, check.figure,
-                     number(check.measured), number(check.bound), check.note);
+                     number_text(check.measured, "{:.9g}", "none"),
+                     number_text(check.bound, "{:.9g}", "none"), check.note);
 }
 
-struct Counts {
-  size_t tests = 0, failures = 0, errors = 0, skipped = 0;
-  void add(const RegressCheck& check) {
-    ++tests;
-    errors += is_error(check) ? 1 : 0;
-    failures += check.verdict == Verdict::failed && !is_error(check) ? 1 : 0;
-    skipped += check.verdict == Verdict::skipped ? 1 : 0;
-  }
-};
+size_t count_errors(const std::vector<RegressRow>& rows) {
+  size_t n = 0;
+  for (const RegressRow& row : rows)
+    n += static_cast<size_t>(std::count_if(row.checks.begin(), row.checks.end(), is_error));
+  return n;
+}
+
+/// Numbers of checks as attributes.
+void set_counts(pugi::xml_node node, const std::vector<RegressRow>& rows) {
+  const VerdictCounts n = count_verdicts(rows);
+  const size_t errors = count_errors(rows);
+  set(node, "tests", std::to_string(n.all()));
+  set(node, "failures", std::to_string(n.of(Verdict::failed) - errors));
+  set(node, "errors", std::to_string(errors));
+}
 
 void add_testcase(pugi::xml_node suite, const RegressRow& row, const RegressCheck& check) {
   pugi::xml_node test = suite.append_child("testcase");
@@ -124,17 +106,10 @@ std::string timestamp(const std::string& date) {
 }
 
 void add_suite(pugi::xml_node suites, const RegressedCase& entry, const io::Provenance& p) {
-  Counts counts;
-  for (const RegressRow& row : entry.rows) {
-    for (const RegressCheck& check : row.checks)
-      counts.add(check);
-  }
   pugi::xml_node suite = suites.append_child("testsuite");
   set(suite, "name", entry.name);
-  set(suite, "tests", std::to_string(counts.tests));
-  set(suite, "failures", std::to_string(counts.failures));
-  set(suite, "errors", std::to_string(counts.errors));
-  set(suite, "skipped", std::to_string(counts.skipped));
+  set_counts(suite, entry.rows);
+  set(suite, "skipped", std::to_string(count_verdicts(entry.rows).of(Verdict::skipped)));
   set_seconds(suite, entry.seconds);
   set(suite, "timestamp", timestamp(p.date));
   add_properties(suite, entry, p);
@@ -161,26 +136,17 @@ RegressedCase unfinished(const RegressReport& report) {
 }  // namespace
 
 std::string junit_xml(const RegressReport& report) {
-  std::vector<RegressedCase> cases = report.cases;
-  if (report.state != RegressState::done) cases.push_back(unfinished(report));
-  Counts counts;
-  for (const RegressedCase& entry : cases) {
-    for (const RegressRow& row : entry.rows) {
-      for (const RegressCheck& check : row.checks)
-        counts.add(check);
-    }
-  }
+  RegressReport whole = report;
+  if (report.state != RegressState::done) whole.cases.push_back(unfinished(report));
   pugi::xml_document document;
   pugi::xml_node declaration = document.append_child(pugi::node_declaration);
   set(declaration, "version", "1.0");
   set(declaration, "encoding", "UTF-8");
   pugi::xml_node suites = document.append_child("testsuites");
   set(suites, "name", "diptych regress");
-  set(suites, "tests", std::to_string(counts.tests));
-  set(suites, "failures", std::to_string(counts.failures));
-  set(suites, "errors", std::to_string(counts.errors));
+  set_counts(suites, whole.rows());
   set_seconds(suites, report.seconds);
-  for (const RegressedCase& entry : cases)
+  for (const RegressedCase& entry : whole.cases)
     add_suite(suites, entry, report.provenance);
   std::ostringstream text;
   document.save(text, " ");

@@ -1,8 +1,11 @@
 /// Runs a case for the regression: five steps of the canary, level 0, and level 1 where it is
 /// affordable.
 
+#include "benchmarks/campaign/campaign.hpp"
 #include "benchmarks/convergence/convergence.hpp"
 #include "benchmarks/regression/regress.hpp"
+#include "benchmarks/run/backends.hpp"
+#include "benchmarks/run/breakdowns.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/menus.hpp"
 #include "benchmarks/run/provenance.hpp"
@@ -59,21 +62,14 @@ void add_field(RegressFigures& figures,
   figures[name + " projection"] = {projection / n, scale};
 }
 
-std::vector<double> flat(const std::vector<algebra::Vec3>& field,
-                         const std::vector<std::int32_t>& order) {
-  std::vector<double> values(3 * field.size());
+/// Components of a field in the user's numbering of the nodes, row by row.
+template <class Value>
+std::vector<double> flat(const std::vector<Value>& field, const std::vector<std::int32_t>& order) {
+  constexpr int n = Value::SizeAtCompileTime, n_columns = Value::ColsAtCompileTime;
+  std::vector<double> values(n * field.size());
   for (size_t a = 0; a < field.size(); ++a)
-    for (int i = 0; i < 3; ++i)
-      values[3 * order[a] + i] = field[a][i];
-  return values;
-}
-
-std::vector<double> flat(const std::vector<run::Mat3>& field,
-                         const std::vector<std::int32_t>& order) {
-  std::vector<double> values(9 * field.size());
-  for (size_t a = 0; a < field.size(); ++a)
-    for (int k = 0; k < 9; ++k)
-      values[9 * order[a] + k] = field[a](k / 3, k % 3);
+    for (int k = 0; k < n; ++k)
+      values[n * order[a] + k] = field[a](k / n_columns, k % n_columns);
   return values;
 }
 
@@ -110,13 +106,11 @@ NaturalScales measure_canary(const cases::Case& setup,
   add_field(figures.canary, "H", flat(s.H, order), 1);
   add_field(figures.canary, "J", flat(s.J, order), 1);
   add_field(figures.canary, "stress", flat(s.P, order), natural.stress);
-  for (size_t k = 0; k < s.A.size(); ++k) {
-    if (!s.A[k].empty())
-      add_field(figures.canary, fmt::format("A{}", k + 1), flat(s.A[k], order), 1);
-  }
-  for (size_t k = 0; k < s.S.size(); ++k) {
-    if (!s.S[k].empty())
-      add_field(figures.canary, fmt::format("S{}", k + 1), flat(s.S[k], order), 1);
+  for (const auto& [name, branches] : {std::pair("A", &s.A), std::pair("S", &s.S)}) {
+    for (size_t k = 0; k < branches->size(); ++k) {
+      if (!(*branches)[k].empty())
+        add_field(figures.canary, fmt::format("{}{}", name, k + 1), flat((*branches)[k], order), 1);
+    }
   }
   return natural;
 }
@@ -282,12 +276,11 @@ std::map<std::string, BarredValue> barred(const MethodConvergence& study,
                                           const std::map<std::string, double>& floors) {
   std::map<std::string, BarredValue> values;
   for (const Quantity& q : study.scalars) {
-    const double h[2] = {study.levels[1].spacing, study.levels[0].spacing};
-    const double f[2] = {q.values[1], q.values[0]};
+    const double value = q.values[1];
     const auto floor = floors.find(q.name);
-    const double size = std::max(std::abs(f[0]), floor == floors.end() ? 0.0 : floor->second);
+    const double size = std::max(std::abs(value), floor == floors.end() ? 0.0 : floor->second);
     // no figure is known better than the regression keeps it
-    values[q.name] = {f[0], report::two_grid_error_bar(h, f) + std::sqrt(eps) * size};
+    values[q.name] = {value, error_bar(study, q, 1) + std::sqrt(eps) * size};
   }
   return values;
 }
@@ -321,6 +314,16 @@ void add_agreement(const cases::Case& setup,
   if (measurement.agreement.empty()) measurement.no_agreement = "no level 1 of both methods";
 }
 
+RunOptions quiet_options(const std::string& method, int level, int threads) {
+  RunOptions options;
+  options.method = method;
+  options.level = level;
+  options.threads = threads;
+  options.fields = false;
+  options.quiet = true;
+  return options;
+}
+
 }  // namespace
 
 RegressMeasurement measure_regress(const std::string& case_file,
@@ -333,29 +336,15 @@ RegressMeasurement measure_regress(const std::string& case_file,
   const cases::Case canary =
       harness::read_case(case_file, overriding(overriding(size.set, {"time.cfl=0.3"}), overrides));
   RegressMeasurement measurement;
-  std::vector<LevelRecord> records;
-  double energy = 0;
-  NaturalScales natural{};
+  std::map<std::string, NaturalScales> natural;  // of each method
+  std::vector<CampaignRun> plan;
   for (const std::string& method : method_menu().names()) {
     MethodMeasurement& now = measurement.methods[method];
-    RunOptions options;
-    options.method = method;
-    options.threads = threads;
-    options.fields = false;
-    options.quiet = true;
     const auto start = std::chrono::steady_clock::now();
     try {
-      natural = measure_canary(canary, method, now.figures);
-      for (options.level = 0; options.level < size.levels; ++options.level) {
-        const RunResult run = run_case(setup, options);
-        if (interrupt_requested()) return measurement;
-        records.push_back(record_of(setup, run));
-        if (options.level > 0) continue;
-        add_errors(run.summary, now.figures.errors);
-        add_quantities(run, natural, now.figures.quantities);
-        now.conservation = conservation_of(setup, run);
-        energy = std::max(energy, energy_scale(run.history));
-      }
+      natural[method] = measure_canary(canary, method, now.figures);
+      for (int level = 0; level < size.levels; ++level)
+        plan.push_back({&setup, quiet_options(method, level, threads), method, method});
     } catch (const base::BreakdownError& error) {
       now.failure = error.what();
     } catch (const base::Interruption&) {
@@ -363,10 +352,29 @@ RegressMeasurement measure_regress(const std::string& case_file,
     }
     now.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
+  std::vector<LevelRecord> records;
+  double energy = 0;
+  const auto add = [&](size_t, const CampaignResult& made, const Schedule&) {
+    const RunResult& run = made.run;
+    const io::RunSummary& s = run.summary;
+    MethodMeasurement& now = measurement.methods[s.method];
+    now.seconds += s.wall_seconds;
+    if (s.status == "breakdown") {
+      if (now.failure.empty()) now.failure = breakdown_message(s);
+      return;
+    }
+    records.push_back(record_of(setup, run));
+    if (s.level > 0) return;
+    add_errors(s, now.figures.errors);
+    add_quantities(run, natural[s.method], now.figures.quantities);
+    now.conservation = conservation_of(setup, run);
+    energy = std::max(energy, energy_scale(run.history));
+  };
+  if (!make_runs(plan, TakeOver::nothing, add)) return measurement;
   if (size.levels < 2) {
     measurement.no_agreement = "one level only: " + size.one_level_because;
   } else {
-    add_agreement(setup, records, energy, natural, measurement);
+    add_agreement(setup, records, energy, natural[method_menu().names().back()], measurement);
   }
   return measurement;
 }

@@ -1,6 +1,5 @@
 #include "benchmarks/regression/report.hpp"
 
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -50,21 +49,14 @@ Json case_json(const RegressedCase& entry) {
 }
 
 Json totals_json(const RegressReport& report) {
-  std::array<size_t, 4> n{};
-  size_t all = 0;
-  for (const RegressRow& row : report.rows()) {
-    all += row.checks.size();
-    for (const RegressCheck& check : row.checks)
-      ++n.at(static_cast<size_t>(check.verdict));
-  }
-  const auto of = [&](Verdict verdict) { return n.at(static_cast<size_t>(verdict)); };
+  const VerdictCounts n = count_verdicts(report.rows());
   return {{"cases", report.cases.size()},
           {"cases_wanted", report.n_wanted},
-          {"checks", all},
-          {"met", of(Verdict::met)},
-          {"known", of(Verdict::known)},
-          {"failed", of(Verdict::failed)},
-          {"skipped", of(Verdict::skipped)}};
+          {"checks", n.all()},
+          {"met", n.of(Verdict::met)},
+          {"known", n.of(Verdict::known)},
+          {"failed", n.of(Verdict::failed)},
+          {"skipped", n.of(Verdict::skipped)}};
 }
 
 Json provenance_json(const io::Provenance& p) {

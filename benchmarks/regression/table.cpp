@@ -1,4 +1,7 @@
-#include "benchmarks/regression/table.hpp"
+/// The regression on a terminal.
+
+#include "benchmarks/regression/report.hpp"
+#include "benchmarks/terminal/text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,11 +15,6 @@ namespace diptych::harness {
 namespace {
 
 constexpr size_t most_lines = 6;  ///< failures, or changes, that are shown one by one
-
-size_t count(const std::vector<RegressCheck>& checks, Verdict verdict) {
-  return std::count_if(checks.begin(), checks.end(),
-                       [&](const RegressCheck& check) { return check.verdict == verdict; });
-}
 
 /// How far up to its bound, or beyond it; infinite where a number is missing.
 double load(const RegressCheck& check) {
@@ -38,10 +36,11 @@ std::vector<RegressCheck> sorted(std::vector<RegressCheck> checks) {
   return checks;
 }
 
-std::string counts_text(const std::vector<RegressCheck>& checks) {
+std::string counts_text(const RegressRow& row) {
+  const VerdictCounts counts = count_verdicts({row});
   std::string text;
   const auto add = [&](Verdict verdict, const char* word) {
-    const size_t n = count(checks, verdict);
+    const size_t n = counts.of(verdict);
     if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, word);
   };
   add(Verdict::failed, "FAILED");
@@ -63,7 +62,7 @@ std::string line_of(const RegressRow& row) {
   } else if (!row.checks.empty()) {
     worst = row.checks.front().note;
   }
-  return fmt::format("{:<29} {:<4} {:<16} {}\n", row.case_name, row.method, counts_text(row.checks),
+  return fmt::format("{:<29} {:<4} {:<16} {}\n", row.case_name, row.method, counts_text(row),
                      worst);
 }
 
@@ -156,24 +155,27 @@ std::string size_text(const RegressBaseline& now) {
                      now.levels == 1 ? "level 0 only: " + now.one_level_because : "levels 0 and 1");
 }
 
-std::string value_text(double value) {
-  return std::isfinite(value) ? fmt::format("{:.9g}", value) : "none";
-}
-
 }  // namespace
 
 std::string regress_table(const std::vector<RegressRow>& rows) {
   std::string text = fmt::format("{:<29} {:<4} {:<16} {}\n", "case", "", "checks",
                                  "nearest to its bound, or worst beyond");
-  std::array<size_t, 4> total{};
-  for (const RegressRow& row : rows) {
+  for (const RegressRow& row : rows)
     text += line_of(row) + failures_of(row);
-    for (const Verdict verdict : {Verdict::met, Verdict::known, Verdict::failed, Verdict::skipped})
-      total.at(static_cast<size_t>(verdict)) += count(row.checks, verdict);
-  }
+  const VerdictCounts n = count_verdicts(rows);
   return text + skips_of(rows) +
          fmt::format("{} checks met, {} failed; {} beyond their bounds as recorded, {} skipped\n",
-                     total[0], total[2], total[1], total[3]);
+                     n.of(Verdict::met), n.of(Verdict::failed), n.of(Verdict::known),
+                     n.of(Verdict::skipped));
+}
+
+VerdictCounts count_verdicts(const std::vector<RegressRow>& rows) {
+  VerdictCounts counts;
+  for (const RegressRow& row : rows) {
+    for (const RegressCheck& check : row.checks)
+      ++counts.n.at(static_cast<size_t>(check.verdict));
+  }
+  return counts;
 }
 
 bool has_failed(const std::vector<RegressRow>& rows) {
@@ -220,8 +222,9 @@ std::string difference_text(const RegressBaseline& old, const RegressBaseline& n
     text += changes.empty() ? "  no figure differs\n" : "";
   }
   for (size_t i = 0; i < changes.size() && i < most_lines; ++i) {
-    text += fmt::format("  {}: {} -> {} ({:.1e})\n", changes[i].name, value_text(changes[i].old),
-                        value_text(changes[i].now), changes[i].relative);
+    text += fmt::format("  {}: {} -> {} ({:.1e})\n", changes[i].name,
+                        number_text(changes[i].old, "{:.9g}", "none"),
+                        number_text(changes[i].now, "{:.9g}", "none"), changes[i].relative);
   }
   if (changes.size() > most_lines)
     text += fmt::format("  and {} more that differ less\n", changes.size() - most_lines);

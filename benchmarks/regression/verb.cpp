@@ -2,13 +2,11 @@
 
 #include "benchmarks/regression/verb.hpp"
 
-#include "benchmarks/regression/bless.hpp"
-#include "benchmarks/regression/cases.hpp"
-#include "benchmarks/regression/report.hpp"
 #include "benchmarks/run/backends.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/menus.hpp"
 #include "benchmarks/run/provenance.hpp"
+#include "benchmarks/terminal/output.hpp"
 #include "benchmarks/terminal/progress.hpp"
 #include "benchmarks/terminal/schedule.hpp"
 #include "common/base/error.hpp"
@@ -28,15 +26,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 std::vector<RegressRow> rows_of(const std::string& name,
                                 const RegressBaseline& baseline,
@@ -124,29 +117,17 @@ void write_files(const RegressRequest& request, const RegressReport& report) {
   if (!request.json.empty()) write(request.json, regress_json(report));
 }
 
-void add_orphans(const RegressRequest& request, RegressReport& report) {
-  for (const RegressRow& row : orphans(request)) {
-    RegressedCase entry;
-    entry.name = row.case_name;
-    entry.baseline = baseline_path(request, row.case_name);
-    entry.rows = {row};
-    report.cases.push_back(entry);
-  }
-}
-
 void print_table(const RegressRequest& request, const RegressReport& report) {
   const std::string table =
       regress_table(report.rows()) + fmt::format("{}\n", duration_text(report.seconds));
   const std::string file = (fs::path(request.directory) / "regress.txt").string();
-  std::fputs(table.c_str(), stdout);
-  std::fflush(stdout);
+  print(table);
   io::write_file_atomically(file, table);
   std::string written = "output: " + file;
   for (const std::string& path : {request.junit, request.json}) {
     if (!path.empty()) written += ", " + path;
   }
-  std::fputs((written + "\n").c_str(), stdout);
-  std::fflush(stdout);
+  print(written + "\n");
 }
 
 }  // namespace
@@ -154,22 +135,22 @@ void print_table(const RegressRequest& request, const RegressReport& report) {
 void regress(const RegressRequest& request) {
   const std::vector<ListedCase> cases = wanted_cases(request);
   io::make_directory(request.directory);
-  const Stopwatch all;
+  const auto start = Clock::now();
   RegressReport report;
   report.provenance = provenance("");
   report.cases_folder = cases_folder(request.cases_folder);
   report.baselines_folder = baselines_folder(request.baselines_folder);
-  if (request.cases.empty() && request.bless.empty()) add_orphans(request, report);
+  if (request.cases.empty() && request.bless.empty()) report.cases = orphans(request);
   report.n_wanted = report.cases.size() + cases.size();
   write_files(request, report);  // a kill leaves no file of an earlier check
   // cases have nothing in common: those to come take what those that are over took in the mean
   Schedule schedule(std::vector<PlannedRun>(cases.size(), {"", "case", 0, 3}));
   for (size_t i = 0; i < cases.size(); ++i) {
-    const Stopwatch one;
+    const auto begin = Clock::now();
     RegressedCase entry{cases[i].name, cases[i].file, baseline_path(request, cases[i].name), 0, {}};
     entry.rows = judged_or_failed(cases[i], request);
     if (interrupt_requested()) break;
-    entry.seconds = one.seconds();
+    entry.seconds = seconds_since(begin);
     report.cases.push_back(entry);
     schedule.finish(entry.seconds);
     if (!request.quiet) {
@@ -182,7 +163,7 @@ void regress(const RegressRequest& request) {
                  stderr);
     }
   }
-  report.seconds = all.seconds();
+  report.seconds = seconds_since(start);
   report.state = interrupt_requested() ? RegressState::interrupted : RegressState::done;
   write_files(request, report);
   print_table(request, report);

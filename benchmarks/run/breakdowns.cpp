@@ -33,6 +33,10 @@ report::Breakdown breakdown_of(const io::RunSummary& run) {
           failure.place};
 }
 
+std::string breakdown_message(const io::RunSummary& run) {
+  return fmt::format("{} level {}: {}", run.method, run.level, run.failure->message);
+}
+
 std::string breakdown_table(const std::vector<report::Breakdown>& breakdowns) {
   if (breakdowns.empty()) return "";
   const std::string head = fmt::format("{:<12}{:>6}{:>13}{:>10}{:>10}  {}", "broke down", "level",

@@ -13,6 +13,9 @@ namespace diptych::harness {
 /// @pre the run has the status "breakdown"
 report::Breakdown breakdown_of(const io::RunSummary& run);
 
+/// "fvm level 0: ..." @pre the same
+std::string breakdown_message(const io::RunSummary& run);
+
 /// A table and, below it, what each run said; empty where there is none.
 std::string breakdown_table(const std::vector<report::Breakdown>& breakdowns);
 

@@ -112,13 +112,6 @@ std::vector<ListedCase> listed_cases(const std::string& asked) {
   return cases;
 }
 
-std::vector<std::pair<std::string, std::string>> shipped_cases() {
-  std::vector<std::pair<std::string, std::string>> cases;
-  for (const ListedCase& entry : listed_cases())
-    cases.emplace_back(entry.name, harness::read_case(entry.file).title);
-  return cases;
-}
-
 std::string find_case(const std::string& word, const std::string& asked) {
   if (asked.empty() || !may_be_name(word)) {
     if (std::string file = file_of_path(word); !file.empty()) return file;

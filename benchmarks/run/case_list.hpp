@@ -3,7 +3,6 @@
 /// those of the user (--cases). Test: tests/command_line/case_folder_test.cpp
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace diptych::harness {
@@ -20,9 +19,6 @@ struct ListedCase {
 /// @param asked  as of cases_folder
 /// @throws base::InputError where there is none: the folder, and what it should hold
 std::vector<ListedCase> listed_cases(const std::string& asked = {});
-
-/// (name, title) of the shipped cases, by name.
-std::vector<std::pair<std::string, std::string>> shipped_cases();
 
 /// Path of a case file: the word where it is a file or a folder with a case.toml, else the case of
 /// that name. With `asked` a word without '/' that does not end in .toml is a name.

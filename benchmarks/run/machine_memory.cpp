@@ -1,4 +1,4 @@
-#include "benchmarks/run/machine_memory.hpp"
+#include "benchmarks/run/memory.hpp"
 
 #include <algorithm>
 #include <filesystem>

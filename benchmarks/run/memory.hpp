@@ -1,9 +1,11 @@
 #pragma once
-/// Memory of the process as the system counts it (Linux), and what a run gives back.
+/// Memory of the process as the system counts it (Linux), what it can still have, and what a run
+/// gives back. Tests: tests/harness/memory_test.cpp, tests/harness/memory_estimate_test.cpp
 
 #include "common/scheme/graph/pair_graph.hpp"
 
 #include <cstdint>
+#include <string>
 
 namespace diptych::harness {
 
@@ -28,6 +30,16 @@ class RunMemory {
  private:
   std::int64_t held_;  ///< by earlier runs
 };
+
+struct AvailableMemory {
+  std::int64_t bytes = 0;
+  std::string limit;  ///< what sets it: "of this machine", "of the control group", ...
+};
+
+/// The least of what the system can give without swapping (MemAvailable), what is left of the
+/// control groups of the process (memory.max, as containers and schedulers set it), and what is
+/// left of the limit of its address space (ulimit -v).
+AvailableMemory available_memory();
 
 /// Frees rows, neighbours, reverse pairs and C_ab, which the solver has made its own of. Nodes,
 /// volumes and boundary stay; n_pairs() is 0 from now on.

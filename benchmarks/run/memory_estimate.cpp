@@ -1,7 +1,7 @@
 #include "benchmarks/run/memory_estimate.hpp"
 
 #include "benchmarks/run/case_mesh.hpp"
-#include "benchmarks/run/machine_memory.hpp"
+#include "benchmarks/run/memory.hpp"
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 #include "fvm/sbp_operator.hpp"

@@ -19,13 +19,13 @@ std::string input_hash(const cases::Case& setup, const std::vector<NodeMeasure>&
   return cases::case_hash(all, {});
 }
 
-std::optional<FinishedRun> finished_run(const cases::Case& setup, const RunOptions& options) {
+std::optional<RunResult> finished_run(const cases::Case& setup, const RunOptions& options) {
   if (options.directory.empty()) return std::nullopt;
   const fs::path summary = fs::path(options.directory) / "summary.json";
   const fs::path history = fs::path(options.directory) / "history.csv";
   std::error_code error;
   if (!fs::exists(summary, error) || !fs::exists(history, error)) return std::nullopt;
-  FinishedRun run;
+  RunResult run;
   try {
     run.summary = io::summary_from_json(io::read_file(summary.string()), summary.string());
     run.history = io::history_from_csv(io::read_file(history.string()), history.string());

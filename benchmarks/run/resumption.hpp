@@ -14,13 +14,9 @@ namespace diptych::harness {
 /// Hash of all that a run is given: case file, overrides, the bytes of its mesh file, measures.
 std::string input_hash(const cases::Case& setup, const std::vector<NodeMeasure>& measures);
 
-/// Summary and history of the finished run in options.directory, where method, level, input and
-/// program are those that a run with these options would have.
-struct FinishedRun {
-  io::RunSummary summary;
-  std::vector<io::HistoryRow> history;
-  std::vector<io::HistoryColumn> exact;  ///< empty where the case has no exact solution
-};
-std::optional<FinishedRun> finished_run(const cases::Case& setup, const RunOptions& options);
+/// Summary, history and exact columns (where the case has an exact solution) of the finished run in
+/// options.directory, where method, level, input and program are those that a run with these
+/// options would have.
+std::optional<RunResult> finished_run(const cases::Case& setup, const RunOptions& options);
 
 }  // namespace diptych::harness

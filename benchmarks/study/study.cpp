@@ -1,12 +1,10 @@
 #include "benchmarks/study/study.hpp"
 
+#include "benchmarks/campaign/campaign.hpp"
 #include "benchmarks/run/breakdowns.hpp"
-#include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/memory_estimate.hpp"
 #include "benchmarks/run/output_folder.hpp"
-#include "benchmarks/run/resumption.hpp"
 #include "common/base/text.hpp"
-#include "common/cases/reader.hpp"
 #include "common/run/field_norms.hpp"
 
 #include <algorithm>
@@ -30,15 +28,6 @@ std::map<std::string, double> differences_of(const RunResult& a, const RunResult
   return differences;
 }
 
-Schedule schedule_of(const cases::Case& setup, const StudyOptions& options) {
-  std::vector<PlannedRun> runs;
-  for (const int level : options.levels) {
-    for (const std::string& method : options.methods)
-      runs.push_back({method, method, level, cases::dimension_of(setup.mesh)});
-  }
-  return Schedule(std::move(runs));
-}
-
 std::string run_directory(const StudyOptions& options, int level, const std::string& method) {
   if (options.directory.empty()) return {};
   std::filesystem::path path = options.directory;
@@ -60,50 +49,18 @@ RunOptions run_options(const StudyOptions& options, int level, const std::string
   return run;
 }
 
-void add_run(Study& study,
-             const RunOptions& options,
-             const io::RunSummary& summary,
-             const std::vector<io::HistoryRow>& history,
-             const std::vector<io::HistoryColumn>& exact) {
-  study.runs.push_back(summary);
-  study.directories.push_back(options.directory);
-  study.histories[options.method] = history;
-  study.exact[options.method] = exact;
-}
-
-/// All methods on one level.
-void run_level(const cases::Case& setup,
-               const StudyOptions& options,
-               int level,
-               OutputFolder& output,
-               Schedule& schedule,
-               Study& study) {
-  std::vector<RunResult> results;
-  for (const std::string& method : options.methods) {
-    RunOptions run = run_options(options, level, method);
-    if (const auto finished = options.resume ? finished_run(setup, run) : std::nullopt) {
-      add_run(study, run, finished->summary, finished->history, finished->exact);
-      study.taken_over.push_back(run.directory);
-      schedule.finish(finished->summary.wall_seconds);
-      continue;
+/// All methods on all levels, coarse to fine.
+std::vector<CampaignRun> plan_of(const cases::Case& setup,
+                                 const StudyOptions& options,
+                                 OutputFolder& output) {
+  std::vector<CampaignRun> plan;
+  for (const int level : options.levels) {
+    for (const std::string& method : options.methods) {
+      plan.push_back({&setup, run_options(options, level, method), method, method});
+      plan.back().options.before_writing = [&output] { output.prepare(); };
     }
-    run.schedule = &schedule;
-    run.before_writing = [&output] { output.prepare(); };
-    RunResult result = attempt_case(setup, run);
-    if (result.summary.status == "breakdown") {
-      schedule.finish(std::nullopt);
-      study.breakdowns.push_back(breakdown_of(result.summary));
-    } else {
-      schedule.finish(result.summary.wall_seconds);
-      add_run(study, run, result.summary, result.history, result.exact);
-      if (run.shapes) study.shapes[method] = std::move(result.shapes);
-      results.push_back(std::move(result));
-    }
-    if (interrupt_requested()) return;
   }
-  // of the finest level only, and only where both were run now
-  if (results.size() == 2 && level == options.levels.back())
-    study.differences = differences_of(results[0], results[1]);
+  return plan;
 }
 
 }  // namespace
@@ -115,16 +72,27 @@ Study run_study(const cases::Case& setup, const StudyOptions& options) {
                       options.force);
   if (has_levels) output.ask_for(options.levels, options.methods, !options.resume);
   Study study;
-  Schedule schedule = schedule_of(setup, options);
-  try {
-    for (const int level : options.levels) {
-      run_level(setup, options, level, output, schedule, study);
-      if (interrupt_requested()) return study;
+  std::vector<RunResult> finest;  // those that were run now
+  const auto plan = plan_of(setup, options, output);
+  const auto add = [&](size_t number, CampaignResult made, const Schedule&) {
+    const RunOptions& run = plan[number].options;
+    RunResult& result = made.run;
+    if (result.summary.status == "breakdown") {
+      study.breakdowns.push_back(breakdown_of(result.summary));
+      return;
     }
-    output.prepare();  // where all runs were taken over
-  } catch (const base::Interruption&) {
-    // while a mesh was made: what was finished before stands
-  }
+    study.runs.push_back(result.summary);
+    study.directories.push_back(run.directory);
+    study.histories[run.method] = result.history;
+    study.exact[run.method] = result.exact;
+    if (made.taken_over) study.taken_over.push_back(run.directory);
+    if (made.taken_over || run.level != options.levels.back()) return;
+    if (run.shapes) study.shapes[run.method] = std::move(result.shapes);
+    finest.push_back(std::move(result));
+  };
+  if (!make_runs(plan, options.resume ? TakeOver::finished : TakeOver::nothing, add)) return study;
+  if (finest.size() == 2) study.differences = differences_of(finest[0], finest[1]);
+  output.prepare();  // where all runs were taken over
   return study;
 }
 
@@ -143,13 +111,6 @@ std::vector<std::string> material_lines(const cases::MaterialCase& m) {
   return lines;
 }
 
-/// Of the second level; zero where the two levels have no ratio of spacings.
-double two_level_bar(const MethodConvergence& method, const Quantity& scalar) {
-  const double coarse = method.levels[0].spacing, fine = method.levels[1].spacing;
-  if (!(fine < coarse) || !std::isfinite(scalar.values[0])) return 0;
-  return report::two_grid_error_bar({fine, coarse}, {scalar.values[1], scalar.values[0]});
-}
-
 /// Scalars of one method with the error bars that each level and those before it give.
 void add_quantities(const MethodConvergence& method, report::StudyReport& report) {
   for (const Quantity& scalar : method.scalars) {
@@ -157,10 +118,9 @@ void add_quantities(const MethodConvergence& method, report::StudyReport& report
     for (size_t i = 0; i < scalar.values.size(); ++i) {
       if (!std::isfinite(scalar.values[i])) continue;
       series.estimate = estimate(method, scalar, i);
-      double bar = series.estimate ? series.estimate->error_bar : 0;
-      if (i == 1) bar = two_level_bar(method, scalar);
-      series.points.push_back(
-          {method.levels[i].level, method.levels[i].spacing, scalar.values[i], bar});
+      const double bar = error_bar(method, scalar, i);
+      series.points.push_back({method.levels[i].level, method.levels[i].spacing, scalar.values[i],
+                               std::isfinite(bar) ? bar : 0});
     }
     if (!series.points.empty())
       report.quantities[{scalar.name, scalar.unit}].push_back(std::move(series));

@@ -8,36 +8,33 @@
 #include "benchmarks/run/output_folder.hpp"
 #include "benchmarks/run/run_case.hpp"
 #include "benchmarks/run/scene.hpp"
-#include "benchmarks/study/study_runs.hpp"
 #include "benchmarks/study/variant_quantities.hpp"
 #include "benchmarks/study/variants.hpp"
 #include "benchmarks/study/work_precision.hpp"
+#include "benchmarks/terminal/output.hpp"
 #include "benchmarks/terminal/status_line.hpp"
 #include "common/base/error.hpp"
+#include "common/cases/reader.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/io/run_record.hpp"
 #include "common/parallel/for_chunks.hpp"
-#include "common/parallel/thread_count.hpp"
 #include "common/time/integrator.hpp"
 
-#include <cstdio>
-#include <filesystem>
 #include <fmt/format.h>
-#include <numeric>
 
 namespace diptych::harness {
 
 namespace {
 
-void print(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  std::fflush(stdout);
-}
-
-void write(const StudyRequest& request, const std::string& name, const std::string& text) {
-  const std::string file = (std::filesystem::path(request.directory) / name).string();
-  io::write_file_atomically(file, text);
-  print("output: " + file + "\n");
+/// All are read, and what they ask of the machine is known, before the first is run.
+std::vector<cases::Case> cases_of(const StudyRequest& request,
+                                  const std::vector<Variant>& variants) {
+  std::vector<cases::Case> cases;
+  for (const Variant& variant : variants)
+    cases.push_back(case_of_variant(request.case_file, request.overrides, variant));
+  for (const cases::Case& setup : cases)
+    require_memory(setup, request.run.methods, request.run.levels);
+  return cases;
 }
 
 /// Limits of one variant with one method, integrator by integrator.
@@ -47,7 +44,7 @@ void add_limits(const StudyRequest& request,
                 const std::string& method,
                 StatusLine& status,
                 std::vector<StabilityLimit>& limits) {
-  const scheme::PairGraph graph = graph_of(setup, method, request.level).graph;
+  const scheme::PairGraph graph = graph_of(setup, method, request.run.levels.front()).graph;
   for (const std::string& integrator : request.integrators) {
     const std::string name =
         fmt::format("{}{}{} {}", label, label.empty() ? "" : " ", method, integrator);
@@ -71,7 +68,7 @@ void add_limits(const StudyRequest& request,
 
 void study_stability(const StudyRequest& asked) {
   StudyRequest request = asked;
-  if (request.fresh) {
+  if (!request.run.resume) {
     throw base::InputError(
         "--fresh has no effect with --stability, which keeps no runs; remove it");
   }
@@ -84,36 +81,31 @@ void study_stability(const StudyRequest& asked) {
     time::integrator_menu().at(integrator);
   if (request.stability.n_steps < 40) throw base::InputError("--steps must be 40 or more");
   const auto variants = variants_of(request.variations);
-  std::vector<cases::Case> cases;  // all are read before the first runs
-  for (const Variant& variant : variants)
-    cases.push_back(case_of_variant(request.case_file, request.overrides, variant));
-  for (const cases::Case& setup : cases)
-    require_memory(setup, request.methods, {request.level});
-  OutputFolder output(request.directory, cases.front(), OutputKind::stability, request.force);
-  parallel::set_threads(request.threads);
+  const auto cases = cases_of(request, variants);
+  OutputFolder output(request.run.directory, cases.front(), OutputKind::stability,
+                      request.run.force);
+  parallel::set_threads(request.run.threads);
   std::vector<StabilityLimit> limits;
-  StatusLine status(request.quiet);
+  StatusLine status(request.run.quiet);
   for (size_t i = 0; i < variants.size(); ++i) {
-    for (const std::string& method : request.methods) {
+    for (const std::string& method : request.run.methods) {
       if (interrupt_requested()) break;
       add_limits(request, cases[i], variants[i].label, method, status, limits);
     }
   }
   print(fmt::format("{}, level {}: largest stable time step, as a factor on the graph bound\n",
-                    cases.front().name, request.level));
+                    cases.front().name, request.run.levels.front()));
   print(stability_table(limits));
   output.prepare();
-  write(request, "stability.csv", stability_csv(limits));
+  write_output(request.run.directory, "stability.csv", stability_csv(limits));
 }
 
 namespace {
 
 /// What holds for a study whatever the case has. @return with its defaults
 StudyRequest checked(StudyRequest request, const cases::Case& setup) {
-  if (request.n_levels < 1) throw base::InputError("--levels must be 1 or more");
   if (request.repeats == StudyRequest::by_default) request.repeats = has_exact(setup) ? 3 : 1;
   if (request.repeats < 1) throw base::InputError("--repeats must be 1 or more");
-  check_levels(request.level, request.n_levels);
   if (!has_exact(setup) && !request.field.empty()) {
     throw base::InputError(setup.name +
                            " has no exact solution to measure errors against: --field has no "
@@ -123,13 +115,13 @@ StudyRequest checked(StudyRequest request, const cases::Case& setup) {
 }
 
 void show_errors(const StudyRequest& request, const cases::Case& setup, const StudyRuns& runs) {
-  const auto machine = probes::measure_machine(request.threads);
+  const auto machine = probes::measure_machine(request.run.threads);
   const std::string title =
       fmt::format("Work and precision: {}", setup.title.empty() ? setup.name : setup.title);
   print(setup.name + "\n" + work_precision_table(runs.curves, runs.field, machine));
-  write(request, "work_precision.csv", work_precision_csv(runs.curves));
-  write(request, "work_precision.html",
-        work_precision_html(title, runs.curves, runs.field, machine));
+  write_output(request.run.directory, "work_precision.csv", work_precision_csv(runs.curves));
+  write_output(request.run.directory, "work_precision.html",
+               work_precision_html(title, runs.curves, runs.field, machine));
 }
 
 void show_quantities(const StudyRequest& request,
@@ -143,26 +135,20 @@ void show_quantities(const StudyRequest& request,
   print(fmt::format("{}{}: quantities of each variant, method and level\n",
                     has_exact(setup) ? "\n" : "", setup.name));
   print(quantities_table(study));
-  write(request, "quantities.csv", quantities_csv(study));
-  write(request, "quantities.html", quantities_html(title, study));
+  write_output(request.run.directory, "quantities.csv", quantities_csv(study));
+  write_output(request.run.directory, "quantities.html", quantities_html(title, study));
 }
 
 }  // namespace
 
 std::vector<report::Breakdown> study_variants(const StudyRequest& asked) {
   const auto variants = variants_of(asked.variations);
-  std::vector<cases::Case> cases;  // all are read before the first runs
-  for (const Variant& variant : variants)
-    cases.push_back(case_of_variant(asked.case_file, asked.overrides, variant));
+  const auto cases = cases_of(asked, variants);
   const cases::Case& setup = cases.front();
   const StudyRequest request = checked(asked, setup);
   check_quantities(setup, request.quantities);
-  std::vector<int> levels(static_cast<size_t>(request.n_levels));
-  std::iota(levels.begin(), levels.end(), request.level);
-  for (const cases::Case& one : cases)
-    require_memory(one, request.methods, levels);
   const cases::Case base_case = harness::read_case(request.case_file, request.overrides);
-  OutputFolder output(request.directory, base_case, OutputKind::study, request.force);
+  OutputFolder output(request.run.directory, base_case, OutputKind::study, request.run.force);
   const StudyRuns runs = runs_of_study(request, variants, cases, output);
   if (!runs.curves.empty()) {  // else interrupted in the first run, or all broke down
     if (has_exact(setup)) show_errors(request, setup, runs);

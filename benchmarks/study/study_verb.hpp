@@ -1,9 +1,13 @@
 #pragma once
 /// What `diptych study` does with a case and its variants: stability limits; error against cost;
 /// quantities where there is no exact solution, or where they are asked for.
+/// Test: tests/command_line/study_test.cpp
 
 #include "benchmarks/cost/stability.hpp"
-#include "postprocess/report/study_report.hpp"
+#include "benchmarks/run/output_folder.hpp"
+#include "benchmarks/study/study.hpp"
+#include "benchmarks/study/variants.hpp"
+#include "benchmarks/study/work_precision.hpp"
 
 #include <limits>
 #include <string>
@@ -14,18 +18,12 @@ namespace diptych::harness {
 struct StudyRequest {
   std::string case_file;
   std::vector<std::string> overrides, variations;  ///< of --set and --vary
-  std::vector<std::string> methods;
-  std::vector<std::string> integrators;  ///< stability only; empty: all
-  int level = 0;                         ///< the first
+  StudyOptions run;                                ///< stability: of its first level
+  std::vector<std::string> integrators;            ///< stability only; empty: all
   static constexpr int by_default = std::numeric_limits<int>::min();
-  int n_levels = 3;
   int repeats = by_default;  ///< timings of every run; by default 3, without an exact solution 1
   std::string field;         ///< whose error is shown; empty: the first that the case measures
   std::vector<std::string> quantities;  ///< to show; empty: only without an exact solution
-  int threads = 0;
-  std::string directory;
-  bool quiet = false, fresh = false;
-  bool force = false;  ///< results of another case in the folder may be replaced
   StabilityOptions stability;
 };
 
@@ -40,5 +38,23 @@ void study_stability(const StudyRequest& request);
 /// @return the runs that broke down
 /// @throws base::InputError before the first run
 std::vector<report::Breakdown> study_variants(const StudyRequest& request);
+
+struct StudyRuns {
+  std::vector<WorkCurve> curves;              ///< those with a run at least
+  std::string field;                          ///< whose error is shown, or empty
+  std::vector<report::Breakdown> breakdowns;  ///< with the variant in the message
+};
+
+bool has_exact(const cases::Case& setup);
+
+/// Every variant, method and level, timed as often as asked. Repetitions go round the curves, so
+/// that a slow minute of the machine hits all of them.
+/// @param cases   of the variants
+/// @param output  prepared once the first run has shown that what was asked makes sense
+/// @throws base::InputError where --field is not measured, after the first run
+StudyRuns runs_of_study(const StudyRequest& request,
+                        const std::vector<Variant>& variants,
+                        const std::vector<cases::Case>& cases,
+                        OutputFolder& output);
 
 }  // namespace diptych::harness

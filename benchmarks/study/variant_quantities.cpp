@@ -1,5 +1,6 @@
 #include "benchmarks/study/variant_quantities.hpp"
 
+#include "benchmarks/terminal/text.hpp"
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
 
@@ -13,10 +14,6 @@ namespace diptych::harness {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 /// The probe of "tip displacement, period"; the name itself where it is of no probe.
 std::string probe_of(const std::string& name) {
@@ -69,11 +66,9 @@ bool is_shown_by_default(const std::string& name, const StudyRuns& runs) {
   bool any = false, any_not_zero = false;
   for (const WorkCurve& curve : runs.curves) {
     for (const WorkPoint& point : curve.points) {
-      for (const RunQuantity& q : quantities_of_run(point)) {
-        if (q.name != name || !std::isfinite(q.value)) continue;
-        any = true;
-        any_not_zero = any_not_zero || q.value != 0;
-      }
+      const double value = value_of(point, name);
+      any = any || std::isfinite(value);
+      any_not_zero = any_not_zero || (std::isfinite(value) && value != 0);
     }
   }
   const bool is_energy =
@@ -92,6 +87,13 @@ std::vector<RunQuantity> quantities_of_run(const WorkPoint& point) {
   for (const RunQuantity& q : common_quantities(point))
     all.push_back(q);
   return all;
+}
+
+double value_of(const WorkPoint& point, const std::string& quantity) {
+  for (const RunQuantity& q : quantities_of_run(point)) {
+    if (q.name == quantity) return q.value;
+  }
+  return nothing;
 }
 
 void check_quantities(const cases::Case& setup, const std::vector<std::string>& wanted) {

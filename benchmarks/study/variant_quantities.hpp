@@ -3,7 +3,7 @@
 /// cost, for every variant, method and level; as text for a terminal, CSV, and a page of plots
 /// against the parameter that varies. Test: tests/harness/variant_quantities_test.cpp
 
-#include "benchmarks/study/study_runs.hpp"
+#include "benchmarks/study/study_verb.hpp"
 
 #include <string>
 #include <vector>
@@ -20,6 +20,9 @@ struct RunQuantity {
 /// amplitude; energies at the end; least J, energy residual, steps, nodes, seconds of the time
 /// loop.
 std::vector<RunQuantity> quantities_of_run(const WorkPoint& point);
+
+/// One of them; NaN where the run does not have it.
+double value_of(const WorkPoint& point, const std::string& quantity);
 
 /// @param wanted  of --quantity: a name, the name of a probe (all of it), or 'all'
 /// @throws base::InputError for a name that the case does not have, with those it has

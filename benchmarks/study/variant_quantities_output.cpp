@@ -1,8 +1,9 @@
 /// The quantities of a study as text, CSV and a page.
 
 #include "benchmarks/study/variant_quantities.hpp"
+#include "benchmarks/terminal/text.hpp"
+#include "postprocess/report/curve_page.hpp"
 #include "postprocess/report/orders.hpp"
-#include "postprocess/report/parameter_page.hpp"
 #include "postprocess/report/study_report.hpp"
 
 #include <algorithm>
@@ -47,10 +48,7 @@ double value_of(const VariantStudy& study,
   for (const WorkCurve& curve : study.curves) {
     if (curve.variant != variant || curve.method != column.method) continue;
     for (const WorkPoint& point : curve.points) {
-      if (point.run.level != column.level) continue;
-      for (const RunQuantity& q : quantities_of_run(point)) {
-        if (q.name == quantity) return q.value;
-      }
+      if (point.run.level == column.level) return value_of(point, quantity);
     }
   }
   return nothing;
@@ -65,14 +63,6 @@ std::string unit_of(const VariantStudy& study, const std::string& quantity) {
   return "-";
 }
 
-std::string titled(const std::string& name, const std::string& unit) {
-  return unit == "-" ? name : name + " [" + unit + "]";
-}
-
-std::string number(double value) {
-  return std::isfinite(value) ? fmt::format("{:.5g}", value) : "-";
-}
-
 /// Rows of one quantity for some of the columns.
 std::string block(const VariantStudy& study,
                   const std::string& quantity,
@@ -85,21 +75,12 @@ std::string block(const VariantStudy& study,
   for (const Variant& variant : study.variants) {
     text += fmt::format("{:<{}}", variant.label.empty() ? "as it stands" : variant.label, width);
     for (const MethodLevel& column : columns)
-      text += fmt::format("{:>{}}", number(value_of(study, variant.label, column, quantity)),
+      text += fmt::format("{:>{}}",
+                          number_text(value_of(study, variant.label, column, quantity), "{:.5g}"),
                           column_width);
     text += "\n";
   }
   return text;
-}
-
-/// RFC 4180.
-std::string quoted(const std::string& text) {
-  std::string cell(1, '"');
-  for (const char c : text) {
-    if (c == '"') cell += c;
-    cell += c;
-  }
-  return cell + '"';
 }
 
 /// Keys that vary, of any variant.
@@ -170,7 +151,7 @@ report::Panel panel_of(const VariantStudy& study,
   report::Panel panel;
   const std::string unit = unit_of(study, quantity);
   panel.title = quantity;
-  panel.y_label = titled(quantity, unit);
+  panel.y_label = with_unit(quantity, unit);
   panel.x_label = key ? varied_keys(study)[*key] : "spacing [m]";
   for (const MethodLevel& column : columns_of(study)) {
     for (const WorkCurve& curve : study.curves) {
@@ -181,7 +162,7 @@ report::Panel panel_of(const VariantStudy& study,
         report::Curve& line =
             curve_named(panel, key ? column.title() + label_without(variant, *key) : curve.name());
         line.x.push_back(key ? *parsed(setting(variant, *key)) : point.run.spacing);
-        line.y.push_back(value_of(study, curve.variant, column, quantity));
+        line.y.push_back(value_of(point, quantity));
       }
     }
   }
@@ -198,7 +179,7 @@ std::string quantities_table(const VariantStudy& study) {
   const size_t fit = width + column_width < page_width ? (page_width - width) / column_width : 1;
   std::string text;
   for (const std::string& quantity : study.quantities) {
-    text += fmt::format("\n{}\n", titled(quantity, unit_of(study, quantity)));
+    text += fmt::format("\n{}\n", with_unit(quantity, unit_of(study, quantity)));
     for (size_t first = 0; first < columns.size(); first += fit) {
       const size_t last = std::min(first + fit, columns.size());
       text += block(study, quantity,
@@ -218,7 +199,7 @@ std::string quantities_csv(const VariantStudy& study) {
   csv += ",method,level,spacing [m]";
   const WorkPoint& first = study.curves.front().points.front();
   for (const RunQuantity& q : quantities_of_run(first))
-    csv += fmt::format(",{}", quoted(titled(q.name, q.unit)));
+    csv += fmt::format(",{}", quoted(with_unit(q.name, q.unit)));
   csv += "\n";
   for (const WorkCurve& curve : study.curves) {
     const Variant& variant = variant_named(study, curve.variant);
@@ -228,7 +209,7 @@ std::string quantities_csv(const VariantStudy& study) {
         csv += fmt::format(",{}", quoted(setting(variant, key)));
       csv += fmt::format(",{},{},{:.17g}", curve.method, point.run.level, point.run.spacing);
       for (const RunQuantity& q : quantities_of_run(point))
-        csv += std::isfinite(q.value) ? fmt::format(",{:.17g}", q.value) : ",";
+        csv += "," + number_text(q.value, "{:.17g}", "");
       csv += "\n";
     }
   }
@@ -240,13 +221,13 @@ std::string quantities_html(const std::string& title, const VariantStudy& study)
   std::vector<report::Panel> panels;
   for (const std::string& quantity : study.quantities)
     panels.push_back(panel_of(study, quantity, key));
-  return report::parameter_page(title,
-                                key ? "Each quantity against " + varied_keys(study)[*key] +
-                                          ", both methods, every level; the table is below."
-                                    : "Each quantity against the spacing, both methods, every "
-                                      "variant; the table is below.",
-                                quantities_verdict(study), panels, quantities_table(study),
-                                report::chart_script(report::chart_script_path()));
+  return report::curve_page(title,
+                            key ? "Each quantity against " + varied_keys(study)[*key] +
+                                      ", both methods, every level; the table is below."
+                                : "Each quantity against the spacing, both methods, every "
+                                  "variant; the table is below.",
+                            quantities_verdict(study), panels, quantities_table(study),
+                            report::chart_script(report::chart_script_path()));
 }
 
 }  // namespace diptych::harness

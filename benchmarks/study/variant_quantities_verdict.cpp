@@ -34,11 +34,9 @@ Values values_of(const VariantStudy& study, const std::string& quantity, int lev
   Values values;
   for (const WorkCurve& curve : study.curves) {
     for (const WorkPoint& point : curve.points) {
-      if (point.run.level != level) continue;
-      for (const RunQuantity& q : quantities_of_run(point)) {
-        if (q.name == quantity && std::isfinite(q.value))
-          values[curve.variant][curve.method] = q.value;
-      }
+      const double value = value_of(point, quantity);
+      if (point.run.level == level && std::isfinite(value))
+        values[curve.variant][curve.method] = value;
     }
   }
   return values;

@@ -3,35 +3,45 @@
 #include "benchmarks/run/menus.hpp"
 #include "common/base/error.hpp"
 
+#include <algorithm>
+
 namespace diptych::harness {
 
-Variation variation_of(const std::string& text) {
+namespace {
+
+/// The values between the commas behind the key.
+std::vector<std::string> values_of(const std::string& text) {
   const size_t equals = text.find('=');
   const std::string form = "; write KEY=VALUE,VALUE, as in sph.kappa=1.0,1.2";
   if (equals == std::string::npos || equals == 0)
     throw base::InputError("--vary " + text + " has no key" + form);
-  Variation variation{text.substr(0, equals), {}};
-  size_t begin = equals + 1;
-  while (true) {
-    const size_t comma = std::min(text.find(',', begin), text.size());
-    if (comma == begin) throw base::InputError("--vary " + text + " has an empty value" + form);
-    variation.values.push_back(text.substr(begin, comma - begin));
-    if (comma == text.size()) return variation;
-    begin = comma + 1;
+  std::vector<std::string> values(1);
+  for (const char c : text.substr(equals + 1)) {
+    if (c == ',') {
+      values.emplace_back();
+    } else {
+      values.back() += c;
+    }
   }
+  if (std::find(values.begin(), values.end(), "") != values.end())
+    throw base::InputError("--vary " + text + " has an empty value" + form);
+  return values;
 }
+
+}  // namespace
 
 std::vector<Variant> variants_of(const std::vector<std::string>& variations) {
   std::vector<Variant> variants{{}};
   for (const std::string& text : variations) {
-    const Variation variation = variation_of(text);
-    const std::string name = variation.key.substr(variation.key.rfind('.') + 1);
+    const std::vector<std::string> values = values_of(text);
+    const std::string key = text.substr(0, text.find('='));
     std::vector<Variant> combined;
     for (const Variant& variant : variants) {
-      for (const std::string& value : variation.values) {
+      for (const std::string& value : values) {
         Variant next = variant;
-        next.label += (next.label.empty() ? "" : " ") + name + "=" + value;
-        next.overrides.push_back(variation.key + "=" + value);
+        next.label +=
+            (next.label.empty() ? "" : " ") + key.substr(key.rfind('.') + 1) + "=" + value;
+        next.overrides.push_back(key + "=" + value);
         combined.push_back(std::move(next));
       }
     }

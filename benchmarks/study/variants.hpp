@@ -5,19 +5,9 @@
 #include "common/cases/case.hpp"
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace diptych::harness {
-
-/// "sph.kappa=1.0,1.2": a key of the case file and the values it takes.
-struct Variation {
-  std::string key;
-  std::vector<std::string> values;
-};
-
-/// @throws base::InputError where there is no key, no '=' or an empty value
-Variation variation_of(const std::string& text);
 
 /// One combination.
 struct Variant {
@@ -25,7 +15,9 @@ struct Variant {
   std::vector<std::string> overrides;  ///< "sph.kappa=1.0", ...
 };
 
-/// All combinations, the last variation fastest; one without overrides where none is asked.
+/// All combinations of texts like "sph.kappa=1.0,1.2", the last variation fastest; one without
+/// overrides where none is asked. @throws base::InputError where there is no key, no '=' or an
+/// empty value
 std::vector<Variant> variants_of(const std::vector<std::string>& variations);
 
 /// The case of a variant. @throws base::InputError as case files do

@@ -1,5 +1,8 @@
 #include "benchmarks/study/work_precision.hpp"
 
+#include "postprocess/report/orders.hpp"
+#include "postprocess/report/price.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,18 +12,6 @@ namespace diptych::harness {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-/// y at x on the polygon through the points in log-log, the first segment that holds x.
-double interpolated(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
-  for (size_t i = 0; i + 1 < xs.size(); ++i) {
-    const double a = std::log(xs[i]), b = std::log(xs[i + 1]), t = std::log(x);
-    const double slack = 1e-9 * std::abs(b - a);  // ends of the range belong to it
-    if (!(t >= std::min(a, b) - slack && t <= std::max(a, b) + slack) || a == b) continue;
-    const double s = (t - a) / (b - a);
-    return std::exp((1 - s) * std::log(ys[i]) + s * std::log(ys[i + 1]));
-  }
-  return nothing;
-}
 
 struct Columns {
   std::vector<double> error, least, most;
@@ -42,8 +33,7 @@ Columns columns_of(const WorkCurve& curve, const std::string& field) {
 }  // namespace
 
 double WorkPoint::error(const std::string& field) const {
-  const auto found = run.errors.find(field);
-  return found == run.errors.end() ? nothing : found->second.l2;
+  return report::error_of(run, field);
 }
 
 std::string WorkCurve::name() const {
@@ -53,14 +43,15 @@ std::string WorkCurve::name() const {
 
 Range cost_at_error(const WorkCurve& curve, const std::string& field, double error) {
   const Columns c = columns_of(curve, field);
-  return {interpolated(c.error, c.least, error), interpolated(c.error, c.most, error)};
+  return {report::log_log_value(c.error, c.least, error),
+          report::log_log_value(c.error, c.most, error)};
 }
 
 Range error_at_cost(const WorkCurve& curve, const std::string& field, double seconds) {
   const Columns c = columns_of(curve, field);
   // had it taken its longest times, the same seconds would have bought a coarser level
-  const double fast = interpolated(c.least, c.error, seconds);
-  const double slow = interpolated(c.most, c.error, seconds);
+  const double fast = report::log_log_value(c.least, c.error, seconds);
+  const double slow = report::log_log_value(c.most, c.error, seconds);
   return {std::min(fast, slow), std::max(fast, slow)};
 }
 
@@ -73,14 +64,14 @@ std::optional<Crossover> crossover(const WorkCurve& a,
   std::sort(errors.begin(), errors.end(), std::greater<>());
   double last_error = nothing, last_ratio = nothing;
   for (const double error : errors) {
-    const double cost_a = interpolated(ca.error, ca.least, error);
-    const double cost_b = interpolated(cb.error, cb.least, error);
+    const double cost_a = report::log_log_value(ca.error, ca.least, error);
+    const double cost_b = report::log_log_value(cb.error, cb.least, error);
     const double ratio = std::log(cost_a / cost_b);
     if (!std::isfinite(ratio)) continue;
     if (std::isfinite(last_ratio) && ratio * last_ratio < 0) {
       const double s = last_ratio / (last_ratio - ratio);
       const double at = std::exp((1 - s) * std::log(last_error) + s * std::log(error));
-      return Crossover{at, interpolated(ca.error, ca.least, at)};
+      return Crossover{at, report::log_log_value(ca.error, ca.least, at)};
     }
     last_error = error;
     last_ratio = ratio;

@@ -1,5 +1,7 @@
 #include "benchmarks/terminal/tables.hpp"
 
+#include "benchmarks/terminal/text.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -9,6 +11,7 @@ namespace diptych::harness {
 namespace {
 
 using io::RunSummary;
+using report::error_of;
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t fields_per_block = 4;  // of 15 columns each, after 38 for the level
@@ -27,16 +30,11 @@ std::string number(double value) {
 }
 
 std::string scientific(double value) {
-  return std::isfinite(value) ? fmt::format("{:.2e}", value) : "-";
+  return number_text(value, "{:.2e}");
 }
 
 std::string ratio(double sph, double fvm) {
   return fvm != 0 && std::isfinite(sph) && std::isfinite(fvm) ? number(sph / fvm) : "-";
-}
-
-double error_of(const RunSummary& run, const std::string& field) {
-  const auto found = run.errors.find(field);
-  return found == run.errors.end() ? nothing : found->second.l2;
 }
 
 /// "v", or the name of a field without a symbol, cut to the width of its column.
@@ -88,7 +86,7 @@ std::string convergence_block(const std::vector<RunSummary>& runs,
                                : observed_order(error_of(runs[i - 1], field), error_of(run, field),
                                                 runs[i - 1].spacing, run.spacing);
       text += fmt::format("{:>10}{:>5}", scientific(error_of(run, field)),
-                          std::isfinite(order) ? fmt::format("{:.2f}", order) : "-");
+                          number_text(order, "{:.2f}"));
     }
     text += "\n";
   }

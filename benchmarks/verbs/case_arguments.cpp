@@ -6,10 +6,14 @@
 #include "benchmarks/run/case_mesh.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/menus.hpp"
+#include "common/base/error.hpp"
+#include "common/cases/reader.hpp"
 #include "common/parallel/thread_count.hpp"
 
 #include <cstdio>
 #include <filesystem>
+#include <fmt/format.h>
+#include <numeric>
 
 namespace diptych::verbs {
 
@@ -52,6 +56,14 @@ std::vector<std::string> CaseArguments::methods() const {
   return {method};
 }
 
+std::vector<int> CaseArguments::levels(int n, int least) const {
+  if (n < least) throw base::InputError(fmt::format("--levels must be {} or more", least));
+  harness::check_levels(level, n);
+  std::vector<int> all(static_cast<size_t>(n));
+  std::iota(all.begin(), all.end(), level);
+  return all;
+}
+
 std::string CaseArguments::output_folder(const cases::Case& setup) const {
   if (!directory.empty()) return directory;
   return (std::filesystem::path("results") / setup.name).string();
@@ -72,11 +84,6 @@ harness::StudyOptions CaseArguments::study_options(const cases::Case& setup) con
 void declare_threads(CommandLine& line, int& threads) {
   line.count("--threads", threads, 0, parallel::most_threads,
              "how many threads; 0: OMP_NUM_THREADS, or all processors");
-}
-
-void print(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  std::fflush(stdout);
 }
 
 void print_breakdowns(const harness::Study& study) {

@@ -3,6 +3,7 @@
 
 #include "benchmarks/convergence/convergence.hpp"
 #include "benchmarks/study/study.hpp"
+#include "benchmarks/terminal/output.hpp"
 #include "benchmarks/verbs/command_line.hpp"
 #include "common/cases/case.hpp"
 
@@ -39,6 +40,8 @@ struct CaseArguments {
   std::vector<std::string> methods() const;
   /// --out, or results/CASE.
   std::string output_folder(const cases::Case& setup) const;
+  /// n levels from that of --level on. @throws base::InputError for fewer than `least`
+  std::vector<int> levels(int n, int least) const;
   /// A study of one level with all that was asked.
   harness::StudyOptions study_options(const cases::Case& setup) const;
 };
@@ -46,8 +49,8 @@ struct CaseArguments {
 /// --threads, with its range.
 void declare_threads(CommandLine& line, int& threads);
 
-/// Writes to standard output and flushes it.
-void print(const std::string& text);
+using harness::print;
+using harness::write_output;
 
 /// The runs that broke down; nothing where none did.
 void print_breakdowns(const harness::Study& study);

@@ -1,14 +1,11 @@
 /// diptych converge: levels of refinement, errors with observed orders, extrapolated quantities.
 
 #include "benchmarks/run/breakdowns.hpp"
-#include "benchmarks/run/case_mesh.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/run_table.hpp"
 #include "benchmarks/terminal/tables.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
-#include "common/base/error.hpp"
-#include "common/io/atomic_file.hpp"
 #include "common/io/run_record.hpp"
 
 #include <filesystem>
@@ -19,7 +16,7 @@ namespace diptych::verbs {
 namespace {
 
 struct ConvergeArguments : CaseArguments {
-  int levels = 3;
+  int n_levels = 3;
   bool fresh = false;
   std::vector<std::string> quantities;
 };
@@ -33,17 +30,6 @@ std::vector<harness::MethodConvergence> finished_levels(const harness::Study& st
     records.push_back({study.runs[i], io::history_columns_from_csv(io::read_file(file), file)});
   }
   return harness::convergence_of(records, columns);
-}
-
-void write_tables(const std::vector<harness::MethodConvergence>& convergence,
-                  const std::string& folder) {
-  const auto write = [&](const char* name, const std::string& text) {
-    const std::string file = (std::filesystem::path(folder) / name).string();
-    io::write_file_atomically(file, text);
-    print("output: " + file + "\n");
-  };
-  write("convergence.csv", harness::convergence_csv(convergence));
-  write("convergence.tex", harness::convergence_tex(convergence));
 }
 
 /// What is written and printed of the levels that are finished.
@@ -63,7 +49,8 @@ void show_convergence(const cases::Case& setup,
     print(harness::inverted_cells_warning(summary));
   print_breakdowns(study);
   if (convergence.empty()) return;
-  write_tables(convergence, folder);
+  write_output(folder, "convergence.csv", harness::convergence_csv(convergence));
+  write_output(folder, "convergence.tex", harness::convergence_tex(convergence));
   const bool is_whole = study.breakdowns.empty() && !harness::interrupt_requested();
   if (study.shapes.size() < arguments.methods().size() && is_whole) {
     print(
@@ -74,16 +61,13 @@ void show_convergence(const cases::Case& setup,
 }
 
 int converge(const ConvergeArguments& arguments) {
-  if (arguments.levels < 2) throw base::InputError("--levels must be 2 or more");
+  const std::vector<int> levels = arguments.levels(arguments.n_levels, 2);
   const cases::Case setup = arguments.read();
-  harness::check_levels(arguments.level, arguments.levels);
   auto options = arguments.study_options(setup);
   options.fields = false;
   options.shapes = true;
   options.resume = !arguments.fresh;
-  options.levels.clear();
-  for (int k = 0; k < arguments.levels; ++k)
-    options.levels.push_back(arguments.level + k);
+  options.levels = levels;
   const harness::Study study = harness::run_study(setup, options);
   for (const std::string& folder : study.taken_over)
     print("taken over, not run again: " + folder + "\n");
@@ -98,7 +82,7 @@ Action declare_converge(CommandLine& line) {
   const auto arguments = std::make_shared<ConvergeArguments>();
   arguments->declare_with_method(line);
   arguments->declare_force(line);
-  line.option("--levels", arguments->levels, "number of levels, from --level on");
+  line.option("--levels", arguments->n_levels, "number of levels, from --level on");
   line.flag("--fresh", arguments->fresh, "run finished levels again too");
   line.repeated("--quantity", arguments->quantities,
                 "column of history.csv to extrapolate, or 'all'; repeatable (default: energies, "

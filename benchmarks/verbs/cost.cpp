@@ -1,7 +1,9 @@
 /// diptych cost: what each option of the scheme costs per stage, or cost by size.
 
-#include "benchmarks/cost/cost_verb.hpp"
+#include "benchmarks/cost/option_costs.hpp"
+#include "benchmarks/cost/size_costs.hpp"
 #include "benchmarks/run/interruption.hpp"
+#include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
 #include "common/parallel/thread_count.hpp"
 
@@ -21,11 +23,16 @@ struct CostArguments {
 
 int report_costs(const CostArguments& arguments) {
   if (arguments.sizes.empty()) {
-    harness::report_option_costs(arguments.folder, arguments.quiet);
+    const auto table = harness::measure_option_costs(20, 12, arguments.quiet);
+    print(harness::cost_text(table));
+    write_output(arguments.folder, "option_costs.csv", harness::cost_csv(table));
   } else {
-    harness::report_size_costs(
-        {arguments.sizes, arguments.threads, arguments.overrides, arguments.quiet},
-        arguments.folder);
+    const auto rows = harness::measure_size_costs(
+        {arguments.sizes, arguments.threads, arguments.overrides, arguments.quiet});
+    if (!rows.empty()) {
+      print(harness::size_text(rows));
+      write_output(arguments.folder, "size_costs.csv", harness::size_csv(rows));
+    }
   }
   return harness::exit_code_of_study("the rows above are written; the same command begins again");
 }

@@ -4,10 +4,7 @@
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
 #include "common/base/registry.hpp"
-#include "common/io/atomic_file.hpp"
-#include "common/io/run_record.hpp"
 
-#include <filesystem>
 #include <memory>
 
 namespace diptych::verbs {
@@ -29,18 +26,12 @@ int strain_material(const MaterialArguments& arguments) {
                     .at(arguments.update);
   const auto material = run::make_material_point(setup.material);
   const auto points = harness::follow(material, path);
-  print(harness::path_table(setup, path, points,
-                            harness::scan_hyperbolicity(material, points, 200)));
+  print(
+      harness::path_table(setup, path, points, harness::scan_hyperbolicity(material, points, 200)));
   const std::string folder = arguments.output_folder(setup);
-  io::make_directory(folder);
-  const auto write = [&](const std::string& ending, const std::string& text) {
-    const std::string file =
-        (std::filesystem::path(folder) / ("material-" + arguments.path + ending)).string();
-    io::write_file_atomically(file, text);
-    print("output: " + file + "\n");
-  };
-  write(".csv", harness::path_csv(points));
-  write(".svg", harness::path_svg(setup, path, points));
+  const std::string name = "material-" + arguments.path;
+  write_output(folder, name + ".csv", harness::path_csv(points));
+  write_output(folder, name + ".svg", harness::path_svg(setup, path, points));
   return 0;
 }
 

@@ -16,26 +16,24 @@ namespace {
 
 struct StudyArguments : CaseArguments {
   harness::StudyRequest request;
-  bool stability = false;
+  int n_levels = 3;
+  bool stability = false, fresh = false;
 };
 
 int study(const StudyArguments& arguments) {
   harness::StudyRequest request = arguments.request;
   request.case_file = arguments.file();
   request.overrides = arguments.overrides;
-  request.methods = arguments.methods();
-  request.level = arguments.level;
-  request.threads = arguments.threads;
-  request.quiet = arguments.quiet;
-  request.force = arguments.force;
-  request.directory = arguments.output_folder(harness::read_case(request.case_file));
+  request.run = arguments.study_options(harness::read_case(request.case_file));
+  request.run.resume = !arguments.fresh;
   if (arguments.stability) {
     harness::study_stability(request);
     return harness::exit_code_of_study(
         "the limits above are in stability.csv; the same command begins again");
   }
+  request.run.levels = arguments.levels(arguments.n_levels, 1);
   const auto breakdowns = harness::study_variants(request);
-  return harness::exit_code_of_study(breakdowns, harness::go_on_from(request.directory));
+  return harness::exit_code_of_study(breakdowns, harness::go_on_from(request.run.directory));
 }
 
 }  // namespace
@@ -47,10 +45,10 @@ Action declare_study(CommandLine& line) {
   arguments->declare_force(line);
   line.repeated("--vary", request.variations,
                 "KEY=VALUE,VALUE: a run for every value, all combinations; repeatable");
-  line.option("--levels", request.n_levels, "number of levels, from --level on");
+  line.option("--levels", arguments->n_levels, "number of levels, from --level on");
   line.option("--repeats", request.repeats,
               "timings of every run (default 3; without an exact solution 1)");
-  line.flag("--fresh", request.fresh, "run finished runs again too");
+  line.flag("--fresh", arguments->fresh, "run finished runs again too");
   line.option("--field", request.field, "whose error is shown, such as stress");
   line.repeated("--quantity", request.quantities,
                 "what is shown of each variant: a probe ('tip'), a part of it ('tip, greatest'), "

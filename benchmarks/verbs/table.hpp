@@ -11,6 +11,13 @@ namespace diptych::verbs {
 #undef DIPTYCH_VERB
 
 /// All verbs, in the order in which help shows them.
-const std::vector<Verb>& verb_table();
+inline const std::vector<Verb>& verb_table() {
+#define DIPTYCH_VERB(name, help) {#name, help, declare_##name},
+  static const std::vector<Verb> table{
+#include "benchmarks/verbs/verbs.def"
+  };
+#undef DIPTYCH_VERB
+  return table;
+}
 
 }  // namespace diptych::verbs

@@ -1,54 +1,46 @@
 /// What the levels of a table say of the values on an infinitely fine mesh, and whether the methods
 /// agree there.
 
+#include "benchmarks/terminal/text.hpp"
 #include "benchmarks/verifier/verification.hpp"
 #include "postprocess/report/grid_convergence.hpp"
 #include "postprocess/report/orders.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace diptych::harness {
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
 /// A column of one sequence on its three finest levels.
 struct Estimate {
-  double finest = nothing;
+  double finest = 0;
   report::GridConvergence convergence;
 };
 
 std::optional<Estimate> estimate_of(const VerificationSequence& sequence, size_t column) {
-  const size_t n = sequence.rows.size();
-  if (n < 3) return std::nullopt;
-  double h[3], f[3];
-  for (size_t i = 0; i < 3; ++i) {
-    const VerificationRow& row = sequence.rows[n - 1 - i];
-    h[i] = row.summary.spacing;
-    f[i] = row.value[column];
-    if (!row.failure.empty() || !std::isfinite(f[i])) return std::nullopt;
+  std::vector<double> spacings, values;
+  for (const VerificationRow& row : sequence.rows) {
+    spacings.push_back(row.summary.spacing);
+    values.push_back(row.value[column]);
   }
-  if (!(h[0] < h[1] && h[1] < h[2])) return std::nullopt;
-  return Estimate{f[0], report::grid_convergence(h, f)};
+  const auto convergence = report::finest_convergence(spacings, values);
+  if (!convergence) return std::nullopt;
+  return Estimate{values.back(), *convergence};
 }
 
 /// Five digits: more than an error bar of a per mille leaves.
-std::string value_text(double value) {
-  return std::isfinite(value) ? fmt::format("{:.5g}", value) : "-";
-}
+constexpr const char* value_format = "{:.5g}";
 
 std::vector<std::string> line_of(const std::string& method, const Estimate& e) {
   const report::GridConvergence& c = e.convergence;
-  return {
-      report::method_title(method),
-      value_text(e.finest),
-      fmt::format("{:.2g}", c.error_bar),
-      std::isfinite(c.index) ? fmt::format("{:.2g} %", 100 * c.index) : "-",
-      std::isfinite(c.order) ? fmt::format("{:.2f}", c.order) : report::convergence_name(c.kind),
-      value_text(c.extrapolated)};
+  return {report::method_title(method),
+          number_text(e.finest, value_format),
+          fmt::format("{:.2g}", c.error_bar),
+          number_text(100 * c.index, "{:.2g} %"),
+          number_text(c.order, "{:.2f}", report::convergence_name(c.kind)),
+          number_text(c.extrapolated, value_format)};
 }
 
 /// "yes, 0.3 of the bars"

@@ -1,5 +1,6 @@
 /// Values, orders and verdicts of the rows of a verification table.
 
+#include "benchmarks/terminal/text.hpp"
 #include "benchmarks/verifier/verification.hpp"
 #include "postprocess/report/orders.hpp"
 
@@ -14,18 +15,6 @@ namespace diptych::harness {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-/// What a run cost. A pair update is one directed pair in one stage.
-void add_cost(const io::RunSummary& run, std::map<std::string, double>& numbers) {
-  const auto pairs = static_cast<double>(run.pairs), stages = static_cast<double>(run.stages);
-  numbers["pairs"] = pairs;
-  numbers["stages"] = stages;
-  numbers["neighbours"] = run.mean_neighbours;
-  numbers["pair_updates"] = pairs * stages;
-  numbers["ns_per_node_stage"] = run.nanoseconds_per_node_stage;
-  numbers["ns_per_node_crossing"] = run.nanoseconds_per_node_crossing;
-  numbers["memory"] = static_cast<double>(run.peak_rss_bytes);
-}
 
 /// A probe "tip displacement" as tip_displacement (at the end), tip_displacement_least, _greatest;
 /// where it oscillates _period, _amplitude, _mean, _decrement, else these are no numbers.
@@ -49,6 +38,7 @@ void add_quantity(const io::QuantitySummary& quantity, std::map<std::string, dou
 std::map<std::string, double> numbers_of(const VerificationTable& table,
                                          const io::RunSummary& run) {
   std::map<std::string, double> numbers = table.parameters;
+  const auto pairs = static_cast<double>(run.pairs), stages = static_cast<double>(run.stages);
   for (const auto& [field, norms] : run.errors) {
     numbers["error_" + field] = norms.l2;
     numbers["error_" + field + "_l1"] = norms.l1;
@@ -64,20 +54,17 @@ std::map<std::string, double> numbers_of(const VerificationTable& table,
   numbers["residual"] = run.energy.relative_residual;
   numbers["nodes"] = static_cast<double>(run.nodes);
   numbers["steps"] = static_cast<double>(run.steps);
-  numbers["pairs"] = static_cast<double>(run.pairs);
-  numbers["stages"] = static_cast<double>(run.stages);
+  numbers["pairs"] = pairs;
+  numbers["stages"] = stages;
+  numbers["pair_updates"] = pairs * stages;  // a directed pair in a stage
+  numbers["neighbours"] = run.mean_neighbours;
   numbers["seconds"] = run.loop_seconds;
   numbers["spacing"] = run.spacing;
   numbers["end_time"] = run.end_time;
-  numbers["dt_min"] = run.dt_min;
-  numbers["dt_max"] = run.dt_max;
   numbers["min_jacobian"] = run.min_jacobian;
   numbers["least_cell_J"] = run.least_cell_J;
-  add_cost(run, numbers);
   for (const io::QuantitySummary& quantity : run.quantities)
     add_quantity(quantity, numbers);
-  numbers["linear_drift"] = run.linear_momentum_drift;
-  numbers["angular_drift"] = run.angular_momentum_drift;
   return numbers;
 }
 
@@ -171,15 +158,9 @@ VerificationVerdict verdict_of(const VerificationResult& result,
                            : bound.kind == Kind::most_spread ? "largest/smallest "
                                                              : "";
   verdict.asked = fmt::format("{}{} {:g}", what, at_least ? ">=" : "<=", bound.asked);
-  verdict.measured = !std::isfinite(value) ? "none"
-                     : is_order            ? fmt::format("{:.2f}", value)
-                                           : fmt::format("{:.3g}", value);
+  verdict.measured = number_text(value, is_order ? "{:.2f}" : "{:.3g}", "none");
   verdict.met = std::isfinite(value) && (at_least ? value >= bound.asked : value <= bound.asked);
   return verdict;
-}
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 }  // namespace

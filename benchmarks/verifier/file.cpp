@@ -3,6 +3,7 @@
 #include "benchmarks/run/backends.hpp"
 #include "benchmarks/run/case_list.hpp"
 #include "benchmarks/run/data_folder.hpp"
+#include "benchmarks/terminal/text.hpp"
 #include "benchmarks/verifier/verification.hpp"
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
@@ -20,10 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using cases::Value;
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 [[noreturn]] void fail(const functions::SourcePlace& where, const std::string& what) {
   throw base::InputError(functions::prefix(where) + what);

@@ -1,8 +1,11 @@
 /// Verification tables as Markdown, aligned so that they read as plain text too.
 
+#include "benchmarks/probes/machine_probes.hpp"
 #include "benchmarks/run/provenance.hpp"
 #include "benchmarks/terminal/progress.hpp"
+#include "benchmarks/terminal/text.hpp"
 #include "benchmarks/verifier/verification.hpp"
+#include "common/parallel/for_chunks.hpp"
 #include "postprocess/report/orders.hpp"
 
 #include <algorithm>
@@ -74,8 +77,7 @@ std::string values_table(const VerificationResult& result, size_t r, const std::
       for (size_t c = 0; c < table.columns.size(); ++c) {
         if (table.columns[c].group != group) continue;
         line.push_back(table_number(row.value[c]));
-        if (table.columns[c].order)
-          line.push_back(std::isfinite(row.order[c]) ? fmt::format("{:.2f}", row.order[c]) : "-");
+        if (table.columns[c].order) line.push_back(number_text(row.order[c], "{:.2f}"));
       }
       lines.push_back(line);
     }
@@ -176,17 +178,62 @@ std::string overview(const std::vector<VerificationResult>& results) {
   return markdown_table(lines, 2);
 }
 
+constexpr const char* of_verification =
+    "Errors are relative L2 norms at the end of the run, of velocity v, displacement u = x - X, F "
+    "- "
+    "I, first Piola-Kirchhoff\nstress P, and A = C_v^-1 - I, unless a table says otherwise. Orders "
+    "are between a row and the one above. Times are\nthose of one machine on one day.";
+
+constexpr const char* of_literature =
+    "Extrapolated values, orders and error bars come from the three finest levels (Richardson; the "
+    "grid convergence index,\nGCI, is the bar over the finest value; where values oscillate or "
+    "diverge no order stands and the bar is three times\ntheir range). \"agree\": whether |SPH - "
+    "FVM| on the finest level is within the sum of both bars. Energies are those at\nthe end. "
+    "Flop are counted as 147 a pair update (benchmarks/probes/work_counts.hpp).";
+
+/// As a block of code in Markdown.
+std::string indented(const std::string& text) {
+  std::string block;
+  for (size_t at = 0; at < text.size();) {
+    const size_t end = std::min(text.find('\n', at), text.size());
+    block += "    " + text.substr(at, end - at) + "\n";
+    at = end + 1;
+  }
+  return block;
+}
+
+/// What stands above the tables of a page.
+struct Heading {
+  std::string title, command, folder;  ///< command: that makes it; folder: where its tables are
+  std::string introduction;            ///< Markdown
+};
+
+Heading heading_of(VerificationSet set) {
+  if (set == VerificationSet::verification)
+    return {"Verification", "benchmarks/verify", "benchmarks/verification", of_verification};
+  const int threads = parallel::n_threads();
+  return {"Cases of the literature", "benchmarks/verify --literature", "benchmarks/literature",
+          fmt::format(
+              "Cases without an exact solution, both methods, {} thread{}. A pair update is one "
+              "directed pair in one stage. What the\nmachine could do, measured after the "
+              "runs:\n\n{}\n{}",
+              threads, threads == 1 ? "" : "s",
+              indented(probes::probes_text(probes::measure_machine(threads))), of_literature)};
+}
+
 }  // namespace
 
 std::string verification_page(const std::vector<VerificationResult>& results,
-                              const VerificationPage& page) {
+                              VerificationSet set,
+                              bool quick) {
+  const Heading page = heading_of(set);
   const io::Provenance p = provenance("");
   std::string text = fmt::format(
       "# {}\n\nMade by `{}`{} on {} with commit {} ({}, {}, {}).\nDo not edit: each table is a "
       "file "
       "of `{}`, which says what is run and asked.\n\n{}\n\n",
       page.title, page.command,
-      page.quick ? " (quick: one level less; bounds are asked of the full tables)" : "",
+      quick ? " (quick: one level less; bounds are asked of the full tables)" : "",
       p.date.substr(0, 10), p.commit, p.compiler, p.cpu, p.instruction_set, page.folder,
       page.introduction);
   text += overview(results) + "\n";

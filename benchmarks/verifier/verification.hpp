@@ -16,9 +16,9 @@
 ///   [[bound]]                 columns, runs, and one of least_order, most, least, most_spread
 
 #include "benchmarks/run/node_measures.hpp"
-#include "benchmarks/terminal/schedule.hpp"
 #include "common/io/run_record.hpp"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -103,7 +103,6 @@ struct VerificationResult {
   VerificationTable table;
   std::vector<VerificationSequence> sequences;
   std::vector<VerificationVerdict> verdicts;
-  double seconds = 0;  ///< of this call
 };
 
 struct VerificationOptions {
@@ -112,34 +111,24 @@ struct VerificationOptions {
   bool fresh = false;  ///< runs that the same program has finished are run again too
   bool quick = false;  ///< without the last row of each sequence of levels
   bool quiet = false;
-  Schedule* schedule = nullptr;  ///< of all tables of the command; verify() goes on in it
 };
 
-/// The runs of a table in the order in which verify() makes them.
-std::vector<PlannedRun> planned_runs(const VerificationTable& table,
-                                     const VerificationOptions& options);
-
-/// Runs what is not there yet; nothing where it was interrupted.
-std::optional<VerificationResult> verify(const VerificationTable& table,
-                                         const VerificationOptions& options);
+/// Runs what is not there yet.
+/// @param done  told of every table once its last run is over
+/// @return nothing where it was interrupted
+std::optional<std::vector<VerificationResult>> verify(
+    const std::vector<VerificationTable>& tables,
+    const VerificationOptions& options,
+    const std::function<void(const VerificationResult& result)>& done);
 
 /// Values, orders and verdicts of rows whose summaries are there.
 void evaluate(VerificationResult& result);
 
-/// What stands above the tables of a page.
-struct VerificationPage {
-  std::string title, command, folder;  ///< command: that makes it; folder: where its tables are
-  std::string introduction;            ///< Markdown
-  bool quick = false;
-};
-
-/// The page of a set of tables, after its runs: that of the literature says what the machine can
+/// The tables of a set as one page of Markdown: that of the literature says what the machine can
 /// do.
-VerificationPage page_heading(VerificationSet set, bool quick);
-
-/// The tables as one page of Markdown.
 std::string verification_page(const std::vector<VerificationResult>& results,
-                              const VerificationPage& page);
+                              VerificationSet set,
+                              bool quick);
 
 /// Values of the estimate columns of run r on its last levels: extrapolated, order, error bar, and
 /// whether the methods agree within the sum of their bars. Empty where no column asks for it.

@@ -5,8 +5,7 @@
 namespace diptych::report {
 
 extern const char* const style_css;
-extern const char* const page_js;            ///< of reports
-extern const char* const curve_page_js;      ///< of pages of curves
-extern const char* const parameter_page_js;  ///< of pages of quantities against a parameter
+extern const char* const page_js;        ///< of reports
+extern const char* const curve_page_js;  ///< of pages of curves
 
 }  // namespace diptych::report

@@ -7,12 +7,38 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace diptych::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// The points of a curve that are drawn.
+std::vector<std::pair<double, double>> points_of(const Panel& panel, const Curve& curve) {
+  std::vector<std::pair<double, double>> points;
+  for (size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
+    const double x = curve.x[i], y = curve.y[i];
+    const bool has_logarithms = x > 0 && y > 0;
+    if (std::isfinite(x) && std::isfinite(y) && (has_logarithms || !panel.logarithmic))
+      points.emplace_back(x, y);
+  }
+  if (!panel.logarithmic) std::sort(points.begin(), points.end());
+  return points;
+}
+
+bool spans_decades(const Panel& panel) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const Curve& curve : panel.curves) {
+    for (const auto& [x, y] : points_of(panel, curve)) {
+      least = std::min(least, x);
+      most = std::max(most, x);
+    }
+  }
+  return least > 0 && most > 20 * least;
+}
 
 std::string panels_json(const std::vector<Panel>& panels) {
   Json all = Json::array();
@@ -20,15 +46,16 @@ std::string panels_json(const std::vector<Panel>& panels) {
     Json curves = Json::array();
     for (const Curve& curve : panel.curves) {
       Json points = Json::array();
-      for (size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
-        if (std::isfinite(curve.x[i]) && std::isfinite(curve.y[i]) && curve.x[i] > 0 &&
-            curve.y[i] > 0)
-          points.push_back({{"x", curve.x[i]}, {"y", curve.y[i]}});
-      }
+      for (const auto& [x, y] : points_of(panel, curve))
+        points.push_back({{"x", x}, {"y", y}});
       curves.push_back({{"name", curve.name}, {"points", points}});
     }
-    all.push_back(
-        {{"title", panel.title}, {"x", panel.x_label}, {"y", panel.y_label}, {"curves", curves}});
+    all.push_back({{"x", panel.x_label},
+                   {"y", panel.y_label},
+                   {"logarithmic", panel.logarithmic || spans_decades(panel)},
+                   {"curves", curves},
+                   {"logarithmic_y", panel.logarithmic},
+                   {"title", panel.title}});
   }
   return Json{{"panels", all}}.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -41,6 +68,11 @@ std::string curve_page(const std::string& title,
                        const std::vector<Panel>& panels,
                        const std::string& table,
                        const std::string& chart_script) {
+  std::string plots;
+  for (size_t k = 0; k < panels.size(); ++k) {
+    plots += fmt::format("<h3>{}</h3>\n{}", escaped(panels[k].title),
+                         chart(fmt::format("panel-{}", k), escaped(panels[k].title), ""));
+  }
   std::string html = page_head(title);
   html += fmt::format(
       "<header>\n<p class=\"kicker\">Diptych</p>\n<h1>{}</h1>\n<p class=\"lead\">{}</p>\n{}"
@@ -48,17 +80,10 @@ std::string curve_page(const std::string& title,
       escaped(title), escaped(lead), plot_hint());
   if (!verdict.empty())
     html += section("verdict", "Verdict", "<p class=\"verdict\">" + verdict + "</p>\n");
-  html += "<section>\n";
-  for (size_t k = 0; k < panels.size(); ++k) {
-    html += fmt::format("<h2>{}</h2>\n{}", escaped(panels[k].title),
-                        chart(fmt::format("panel-{}", k), escaped(panels[k].title), ""));
-  }
-  html += fmt::format(
-      "</section>\n<section>\n<h2>The numbers</h2>\n<div class=\"scroll\" "
-      "tabindex=\"0\"><pre>{}</pre></div>\n</section>\n"
-      "</main>\n",
-      escaped(table));
-  return html + page_scripts(panels_json(panels), chart_script, curve_page_js);
+  return html + section("plots", "Plots", plots) +
+         section("table", "Table",
+                 "<div class=\"scroll\" tabindex=\"0\"><pre>" + escaped(table) + "</pre></div>\n") +
+         "</main>\n" + page_scripts(panels_json(panels), chart_script, curve_page_js);
 }
 
 }  // namespace diptych::report

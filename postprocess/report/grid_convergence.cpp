@@ -57,6 +57,16 @@ GridConvergence grid_convergence(const double (&h)[3], const double (&f)[3], dou
   return result;
 }
 
+std::optional<GridConvergence> finest_convergence(const std::vector<double>& spacings,
+                                                  const std::vector<double>& values) {
+  const size_t n = values.size();
+  if (n < 3) return std::nullopt;
+  const double h[3] = {spacings[n - 1], spacings[n - 2], spacings[n - 3]};
+  const double f[3] = {values[n - 1], values[n - 2], values[n - 3]};
+  if (!std::isfinite(f[0] + f[1] + f[2]) || !(h[0] < h[1] && h[1] < h[2])) return std::nullopt;
+  return grid_convergence(h, f);
+}
+
 double two_grid_error_bar(const double (&h)[2], const double (&f)[2], double formal_order) {
   return 3 * std::abs(f[1] - f[0]) / (std::pow(h[1] / h[0], formal_order) - 1);
 }

@@ -4,7 +4,9 @@
 /// 116, 1994; procedure of I. B. Celik et al., J. Fluids Eng. 130, 2008, after ASME V&V 20).
 /// Test: tests/report/grid_convergence_test.cpp
 
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace diptych::report {
 
@@ -31,6 +33,11 @@ struct GridConvergence {
 GridConvergence grid_convergence(const double (&spacing)[3],
                                  const double (&value)[3],
                                  double formal_order = 2);
+
+/// Of the last three of values that go from coarse to fine; nothing where there are fewer, one is
+/// not finite, or the spacings do not fall.
+std::optional<GridConvergence> finest_convergence(const std::vector<double>& spacings,
+                                                  const std::vector<double>& values);
 
 /// Two grids: no order can be observed. With the formal one and Roache's factor 3:
 /// 3 |fine - coarse|/(r^p - 1).

@@ -70,6 +70,11 @@ std::vector<std::string> fields_of(const std::vector<io::RunSummary>& runs) {
                                    "cofactor", "jacobian", "viscous_C", "viscous_G"});
 }
 
+double error_of(const io::RunSummary& run, const std::string& field) {
+  const auto found = run.errors.find(field);
+  return found == run.errors.end() ? std::numeric_limits<double>::quiet_NaN() : found->second.l2;
+}
+
 std::string method_title(const std::string& method) {
   if (method == "sph") return "SPH";
   if (method == "fvm") return "Finite volume";

@@ -28,6 +28,9 @@ std::vector<io::RunSummary> runs_of(const std::vector<io::RunSummary>& runs,
 /// viscous_C, viscous_G, then others by name.
 std::vector<std::string> fields_of(const std::vector<io::RunSummary>& runs);
 
+/// The relative L2 error, NaN where it was not measured.
+double error_of(const io::RunSummary& run, const std::string& field);
+
 /// "SPH", "Finite volume", or the name itself.
 std::string method_title(const std::string& method);
 

@@ -1,5 +1,7 @@
 #include "postprocess/report/price.hpp"
 
+#include "postprocess/report/orders.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,54 +9,46 @@
 namespace diptych::report {
 namespace {
 
-struct Point {
-  double seconds, error;
+/// Runs that have both, by their numbers.
+struct Points {
+  std::vector<double> seconds, errors;
 };
 
-std::vector<Point> points_of(const std::vector<io::RunSummary>& runs, const std::string& field) {
-  std::vector<Point> points;
+Points points_of(const std::vector<io::RunSummary>& runs, const std::string& field) {
+  Points points;
   for (const io::RunSummary& run : runs) {
-    const auto found = run.errors.find(field);
-    if (run.status != "done" || found == run.errors.end()) continue;
-    const double error = found->second.l2;
-    if (std::isfinite(error) && error > 0 && run.loop_seconds > 0)
-      points.push_back({run.loop_seconds, error});
+    const double error = error_of(run, field);
+    const bool is_finite = std::isfinite(error) && error > 0 && run.loop_seconds > 0;
+    if (run.status != "done" || !is_finite) continue;
+    points.seconds.push_back(run.loop_seconds);
+    points.errors.push_back(error);
   }
   return points;
 }
 
-/// NaN where the points do not span the error.
-double seconds_at(const std::vector<Point>& points, double error) {
-  constexpr double rounding = 1e-12;  // the error is one of the points of one of the methods
-  for (size_t i = 1; i < points.size(); ++i) {
-    const Point &a = points[i - 1], &b = points[i];
-    const bool spans = std::max(a.error, b.error) >= error * (1 - rounding) &&
-                       std::min(a.error, b.error) <= error * (1 + rounding);
-    if (!spans || a.error == b.error) continue;
-    const double part = std::log(error / a.error) / std::log(b.error / a.error);
-    return a.seconds * std::pow(b.seconds / a.seconds, part);
+}  // namespace
+
+double log_log_value(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
+  for (size_t i = 0; i + 1 < xs.size(); ++i) {
+    const double a = std::log(xs[i]), b = std::log(xs[i + 1]), t = std::log(x);
+    const double slack = 1e-9 * std::abs(b - a);  // ends of the range belong to it
+    if (!(t >= std::min(a, b) - slack && t <= std::max(a, b) + slack) || a == b) continue;
+    const double s = (t - a) / (b - a);
+    return std::exp((1 - s) * std::log(ys[i]) + s * std::log(ys[i + 1]));
   }
   return std::numeric_limits<double>::quiet_NaN();
 }
-
-double least_error(const std::vector<Point>& points) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Point& point : points)
-    least = std::min(least, point.error);
-  return least;
-}
-
-}  // namespace
 
 std::optional<Price> price_of_error(const std::vector<io::RunSummary>& first,
                                     const std::vector<io::RunSummary>& second,
                                     const std::string& field) {
   const auto a = points_of(first, field), b = points_of(second, field);
-  if (a.size() < 2 || b.size() < 2) return std::nullopt;
+  if (a.errors.size() < 2 || b.errors.size() < 2) return std::nullopt;
   Price price;
-  price.error = std::max(least_error(a), least_error(b));
-  price.first = seconds_at(a, price.error);
-  price.second = seconds_at(b, price.error);
+  price.error = std::max(*std::min_element(a.errors.begin(), a.errors.end()),
+                         *std::min_element(b.errors.begin(), b.errors.end()));
+  price.first = log_log_value(a.errors, a.seconds, price.error);
+  price.second = log_log_value(b.errors, b.seconds, price.error);
   if (!std::isfinite(price.first) || !std::isfinite(price.second)) return std::nullopt;
   return price;
 }

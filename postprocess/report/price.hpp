@@ -10,6 +10,10 @@
 
 namespace diptych::report {
 
+/// y at x on the polygon through the points in log-log, on the first segment that holds x; NaN
+/// where none does.
+double log_log_value(const std::vector<double>& xs, const std::vector<double>& ys, double x);
+
 struct Price {
   double error = 0;              ///< relative L2, the smallest that both methods reach
   double first = 0, second = 0;  ///< s of the time loop, by either method

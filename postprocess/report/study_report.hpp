@@ -2,7 +2,7 @@
 /// The report of a study: one HTML file that needs no network and nothing beside it. It begins with
 /// a verdict in plain words and says what was run, what each method costs for the error it makes,
 /// how fast the errors fall, how the body moved and where the methods part, what the probes saw,
-/// where the energy went, and whether the bounds were met. Reads on a phone, in the dark and on
+/// and where the energy went. Reads on a phone, in the dark and on
 /// paper. Its charts are drawn by Chart.js (Debian: libjs-chart.js), copied into the page as it is
 /// written. Test: tests/report/study_report_test.cpp
 
@@ -19,12 +19,6 @@
 #include <vector>
 
 namespace diptych::report {
-
-/// One bound of the study, as a reader is to see it ("velocity order >= 1.8", "1.97").
-struct AcceptanceLine {
-  std::string name, asked, measured;
-  bool passed = false;
-};
 
 /// A scalar at the final time on one level, with the half width of its error bar: 0 where the level
 /// and those before it give none.
@@ -69,7 +63,6 @@ struct StudyReport {
   std::vector<io::RunSummary> runs;   ///< any methods and levels, in any order; none that broke
   std::map<std::string, std::vector<io::HistoryRow>> histories;  ///< method: finest level
   std::vector<Breakdown> breakdowns;                             ///< named before anything else
-  std::vector<AcceptanceLine> acceptance;
   std::map<std::string, double> differences;  ///< field: L2 between the methods at the end, over
                                               ///< its largest norm at any output time
   References references;

@@ -3,7 +3,6 @@
 #include "postprocess/report/html.hpp"
 #include "postprocess/report/orders.hpp"
 #include "postprocess/report/price.hpp"
-#include "postprocess/report/verdict_parts.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -238,12 +237,6 @@ std::string names_html(const std::vector<std::string>& names) {
     text += escaped(names[i]);
   }
   return text;
-}
-
-/// The relative L2 error, NaN where it was not measured.
-double error_of(const RunSummary& run, const std::string& field) {
-  const auto found = run.errors.find(field);
-  return found == run.errors.end() ? std::nan("") : found->second.l2;
 }
 
 std::vector<std::string> Pair::fields() const {

@@ -30,4 +30,30 @@ std::string method_in_sentence(const std::string& method);
 /// With a capital letter.
 std::string at_the_start(std::string sentence);
 
+// What the sentences are made of.
+
+/// "a, b and c"
+std::string names_html(const std::vector<std::string>& names);
+
+/// Both methods up to the finest level that both have finished.
+struct Pair {
+  std::vector<io::RunSummary> first, second;  ///< coarse to fine, the same last level
+  const io::RunSummary& a() const { return first.back(); }
+  const io::RunSummary& b() const { return second.back(); }
+  std::vector<std::string> fields() const;  ///< with an error of both at that level
+};
+
+/// Largest size that a quantity has over the run, so that one that ends near zero is not judged by
+/// its last value; of an energy or a dissipation the largest energy that there is.
+double scale_of(const StudyReport& study,
+                const std::string& name,
+                const std::string& unit,
+                const std::vector<GridSeries>& series);
+
+/// Whether the quantities agree; without errors, first of all which method is nearer to
+/// convergence.
+std::vector<std::string> agreement_sentences(const StudyReport& study,
+                                             const Pair& pair,
+                                             bool has_errors);
+
 }  // namespace diptych::report

@@ -2,7 +2,6 @@
 
 #include "postprocess/report/html.hpp"
 #include "postprocess/report/verdict.hpp"
-#include "postprocess/report/verdict_parts.hpp"
 
 #include <algorithm>
 #include <cmath>

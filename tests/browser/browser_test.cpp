@@ -4,7 +4,6 @@
 #include "tests/report/browser.hpp"
 
 #include "postprocess/report/curve_page.hpp"
-#include "postprocess/report/parameter_page.hpp"
 #include "postprocess/report/study_report.hpp"
 #include "tests/report/sample_study.hpp"
 
@@ -176,11 +175,11 @@ TEST(Browser, ZoomsEveryPlotAndHidesItsSeries) {
   expect_zooms(report_html(test::full_study(), script),
                9);  // kinetic, 2 probes, 3 errors, 3 energy
   const Curve a{"SPH", {0.1, 1, 10}, {1e-2, 1e-3, 1e-4}}, b{"FVM", {0.2, 2, 0}, {1e-2, 1e-3, 1}};
-  expect_zooms(curve_page("Work", "", "", {{"p", "s", "e", {a, b}}}, "table", script), 1);
+  expect_zooms(curve_page("Work", "", "", {{"p", "s", "e", {a, b}, true}}, "table", script), 1);
   // a parameter over decades, another on a linear axis; quantities of both signs
   const Curve wide{"SPH 0", {0.01, 1, 100}, {-2, 0.5, 3}}, narrow{"FVM 0", {1, 2, 3}, {-1, 0, 1}};
-  expect_zooms(parameter_page("Q", "", "", {{"p", "De", "u", {wide}}, {"q", "nu", "u", {narrow}}},
-                              "table", script),
+  expect_zooms(curve_page("Q", "", "", {{"p", "De", "u", {wide}}, {"q", "nu", "u", {narrow}}},
+                          "table", script),
                2);
 }
 

@@ -28,8 +28,8 @@ class Page : public testing::Test {
   std::string curves() const {
     const Curve a{"SPH", {0.1, 1, 10}, {1e-2, 1e-3, 1e-4}}, b{"FVM", {0.2, 2, 0}, {1e-2, 1e-3, 1}};
     const std::string table(300, 'x');
-    return curve_page("Work", "", "Too coarse.", {{"Error", "seconds", "error", {a, b}}}, table,
-                      script_);
+    return curve_page("Work", "", "Too coarse.", {{"Error", "seconds", "error", {a, b}, true}},
+                      table, script_);
   }
   const std::string script_ = chart_script(chart_script_path());
 };

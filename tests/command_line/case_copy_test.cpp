@@ -1,7 +1,6 @@
 /// The copy of the case among the results runs to the same state, wherever it lies.
 
-#include "common/io/run_record.hpp"
-#include "tests/command_line/program.hpp"
+#include "tests/command_line/small_case.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,39 +8,10 @@ namespace diptych {
 namespace {
 
 namespace fs = std::filesystem;
+using tests::cube;
 using tests::Folder;
-using tests::text_of;
-
-io::RunSummary summary_in(const fs::path& directory) {
-  return io::summary_from_json(text_of(directory / "summary.json"), "summary.json");
-}
-
-const std::string cube = R"([mesh]
-element = "hexahedron"
-lower = [0, 0, 0]
-upper = [1, 1, 1]
-cells = [4, 4, 4]
-[material]
-model = "neo-hookean"
-density = 1100
-youngs_modulus = 17e6
-poissons_ratio = 0.3
-[initial]
-velocity = ["y", "0", "0"]
-)";
-const std::string probes = R"([[probe]]
-name = "speed"
-unit = "m/s"
-kind = "mean"
-quantity = "vx"
-every_step = true
-[[probe]]
-name = "at a corner"
-unit = "m"
-kind = "point"
-at = [1, 1, 1]
-quantity = "ux"
-)";
+using tests::probes;
+using tests::summary_in;
 
 TEST(CopyOfTheCase, RunsToTheSameState) {
   const Folder folder;

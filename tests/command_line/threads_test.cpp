@@ -1,7 +1,6 @@
 /// How many threads run is what was asked for, or what the environment leaves.
 
-#include "common/io/run_record.hpp"
-#include "tests/command_line/program.hpp"
+#include "tests/command_line/small_case.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,30 +9,12 @@
 namespace diptych {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
+using tests::cube;
 using tests::Folder;
 using tests::shell;
-using tests::text_of;
-
-io::RunSummary summary_in(const fs::path& directory) {
-  return io::summary_from_json(text_of(directory / "summary.json"), "summary.json");
-}
-
-const std::string cube = R"([mesh]
-element = "hexahedron"
-lower = [0, 0, 0]
-upper = [1, 1, 1]
-cells = [4, 4, 4]
-[material]
-model = "neo-hookean"
-density = 1100
-youngs_modulus = 17e6
-poissons_ratio = 0.3
-[initial]
-velocity = ["y", "0", "0"]
-)";
+using tests::summary_in;
 
 TEST(Threads, AreThoseOfTheEnvironmentAndOfTheRange) {
   const Folder folder;

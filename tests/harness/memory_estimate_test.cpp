@@ -3,7 +3,7 @@
 #include "benchmarks/run/memory_estimate.hpp"
 
 #include "benchmarks/run/case_check.hpp"
-#include "benchmarks/run/machine_memory.hpp"
+#include "benchmarks/run/memory.hpp"
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 

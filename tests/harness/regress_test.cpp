@@ -2,7 +2,7 @@
 
 #include "benchmarks/regression/regress.hpp"
 
-#include "benchmarks/regression/table.hpp"
+#include "benchmarks/regression/report.hpp"
 #include "benchmarks/run/case_list.hpp"
 #include "common/base/error.hpp"
 

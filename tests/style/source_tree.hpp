@@ -42,8 +42,9 @@ inline const std::map<std::string, std::set<std::string>>& permitted_rooms() {
     const auto all = with(run, {"common/run", "sph", "fvm", "postprocess"});
     const auto terminal = with(all, {"benchmarks/terminal"});
     const auto runs = with(terminal, {"benchmarks/run"});
+    const auto campaign = with(runs, {"benchmarks/campaign"});
     const auto studies =
-        with(runs, {"benchmarks/convergence", "benchmarks/cost", "benchmarks/probes"});
+        with(campaign, {"benchmarks/convergence", "benchmarks/cost", "benchmarks/probes"});
     const auto verbs =
         with(studies, {"benchmarks/study", "benchmarks/verifier", "benchmarks/regression",
                        "benchmarks/material", "benchmarks/verbs"});
@@ -67,11 +68,12 @@ inline const std::map<std::string, std::set<std::string>>& permitted_rooms() {
         {"benchmarks/probes", scheme},
         {"benchmarks/terminal", all},
         {"benchmarks/run", terminal},
+        {"benchmarks/campaign", runs},
         {"benchmarks/convergence", runs},
         {"benchmarks/material", runs},
         {"benchmarks/cost", with(runs, {"benchmarks/probes"})},
-        {"benchmarks/verifier", with(runs, {"benchmarks/probes"})},
-        {"benchmarks/regression", with(runs, {"benchmarks/convergence"})},
+        {"benchmarks/verifier", with(campaign, {"benchmarks/probes"})},
+        {"benchmarks/regression", with(campaign, {"benchmarks/convergence"})},
         {"benchmarks/study", studies},
         {"benchmarks/micro", studies},
         {"benchmarks/verbs", verbs},
