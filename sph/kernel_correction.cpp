@@ -83,32 +83,4 @@ void set_corrected_gradients(const Kernel& kernel,
   });
 }
 
-std::vector<double> linear_kernel_weights(const Kernel& kernel,
-                                          const std::vector<double>& h,
-                                          const scheme::PairGraph& graph) {
-  const int d = graph.dimension;
-  std::vector<double> w(graph.neighbour.size());
-  for_particles(graph, [&](std::int64_t a) {
-    double zeroth = graph.Omega[a] * kernel.value(0, h[a], d);
-    Vec3 first = Vec3::Zero();
-    Mat3 second = Mat3::Zero();
-    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-      const std::int32_t b = graph.neighbour[p];
-      const Vec3 X_ab = graph.X[b] - graph.X[a];
-      w[p] = graph.Omega[b] * kernel.value(X_ab.norm(), 0.5 * (h[a] + h[b]), d);
-      zeroth += w[p];
-      first += w[p] * X_ab;
-      second += w[p] * X_ab * X_ab.transpose();
-    }
-    if (d == 2) second(2, 2) = second.trace();
-    // 1 / (zeroth - first.slope) > 0 by Cauchy-Schwarz, the particle itself being included
-    const Vec3 slope = second.inverse() * first;
-    const double scale = graph.Omega[a] / (zeroth - first.dot(slope));
-    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-      w[p] *= scale * (1 - slope.dot(graph.X[graph.neighbour[p]] - graph.X[a]));
-    }
-  });
-  return w;
-}
-
 }  // namespace diptych::sph

@@ -1,6 +1,5 @@
 #pragma once
-/// Pair coefficients of a particle cloud: the corrected gradient of paper (19) and the weights of
-/// the boundary closure (notes 3.1, 3.3).
+/// Pair coefficients of a particle cloud: the corrected gradient of paper (19) (notes 3.1).
 
 #include "common/scheme/graph/pair_graph.hpp"
 #include "sph/kernels/kernel.hpp"
@@ -17,12 +16,5 @@ namespace diptych::sph {
 void set_corrected_gradients(const Kernel& kernel,
                              const std::vector<double>& h,
                              scheme::PairGraph& graph);
-
-/// w_ab = Omega_a Omega_b W^lin_b(X_a): the kernel times a linear function of X_b - X_a with
-/// sum_b Omega_b W^lin = 1 (the particle itself included), sum_b Omega_b W^lin (X_b - X_a) = 0.
-/// @return [n_pairs] m^d
-std::vector<double> linear_kernel_weights(const Kernel& kernel,
-                                          const std::vector<double>& h,
-                                          const scheme::PairGraph& graph);
 
 }  // namespace diptych::sph

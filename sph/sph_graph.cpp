@@ -30,22 +30,9 @@ std::vector<double> smoothing_lengths(const meshes::Mesh& mesh,
   return h;
 }
 
-using Repair = void (*)(const Kernel&, const std::vector<double>& h, scheme::PairGraph&);
-
-/// gamma of least norm; divided by h_a, so that the norm is that of h_a gamma_a.
-void repair_by_gamma(const Kernel& kernel, const std::vector<double>& h, scheme::PairGraph& graph) {
-  std::vector<double> w = linear_kernel_weights(kernel, h, graph);
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
-    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
-      w[p] /= h[a];
-  }
-  closure::repair_closure_rows(graph, w);
-}
-
-/// Least change of the C_ab, weighted with the kernel: under disorder its change is half of
-/// gamma's, and the stable step stays that of the kernel without any repair. On lattices equal rows
-/// stay equal.
-void repair_by_pairs(const Kernel& kernel, const std::vector<double>& h, scheme::PairGraph& graph) {
+/// Least change of the C_ab, weighted with the kernel: the stable step stays that of the kernel
+/// without any repair. On lattices equal rows stay equal.
+void repair_closure(const Kernel& kernel, const std::vector<double>& h, scheme::PairGraph& graph) {
   const auto weight = [&](std::int64_t a, std::int64_t p) {
     const std::int32_t b = graph.neighbour[p];
     const double r = (graph.X[b] - graph.X[a]).norm(), h_ab = 0.5 * (h[a] + h[b]);
@@ -62,17 +49,10 @@ void repair_by_pairs(const Kernel& kernel, const std::vector<double>& h, scheme:
   closure::repair_closure_pairs(graph, k);
 }
 
-base::Registry<Repair> repairs() {
-  base::Registry<Repair> menu("repair of sph");
-  menu.add("pairs", repair_by_pairs).add("gamma", repair_by_gamma);
-  return menu;
-}
-
 }  // namespace
 
 scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) {
   const Kernel kernel = kernels().at(options.kernel);
-  const Repair repair = repairs().at(options.repair);
   if (!(options.kappa >= least_kappa && options.kappa <= greatest_kappa)) {
     throw base::InputError(
         fmt::format("kappa = {:.6g} is out of range; use {} to {} (1.2 is usual)", options.kappa,
@@ -96,7 +76,7 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
   graph.neighbour = std::move(rows.neighbour);
   link_reverse_pairs(graph);
   set_corrected_gradients(kernel, h, graph);
-  if (options.closure) repair(kernel, h, graph);
+  if (options.closure) repair_closure(kernel, h, graph);
   validate(graph);
   return graph;
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// Total Lagrangian SPH as a pair graph: paper (19) with linear gradient correction and the
-/// exact boundary closure of notes 3.3, by the least change of the C_ab or by gamma.
+/// exact boundary closure of notes 3.3, by the least change of the C_ab.
 
 #include "common/scheme/graph/pair_graph.hpp"
 #include "meshes/mesh.hpp"
@@ -13,12 +13,11 @@ struct Options {
   std::string kernel = "cubic-spline";  ///< cubic-spline, quintic-spline, wendland-c2
   double kappa = 1.2;                   ///< h_a = kappa (Omega_a / filled part of the angle)^(1/d)
   bool closure = true;                  ///< repair the closure
-  std::string repair = "pairs";         ///< pairs (least change of the C_ab) or gamma (least gamma)
 };
 
 /// Pairs are those with |X_b - X_a| < support (h_a + h_b)/2, W_ab = W(|X_b - X_a|, (h_a + h_b)/2):
 /// symmetric. Particles see each other across gaps and cracks narrower than that.
-/// @throws base::InputError on an unknown kernel or repair, kappa out of range, a particle with too
+/// @throws base::InputError on an unknown kernel, kappa out of range, a particle with too
 /// few
 ///         (non-coplanar) neighbours: names it and its place
 scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options);

@@ -3,13 +3,11 @@
 ///   -1/2 sum_b (C_ab - C_ba) = A_a N_a                                   (notes 3.3)
 /// holds at every node, while every row stays exact for linear fields. Serves both factories.
 ///
-/// Two corrections, both with the row condition sum_b (X_b - X_a) (x) dC_ab = 0:
-///   rows:  dC_ab = -2 w_ab gamma_a, one vector gamma_a per node, of least norm (the gamma
-///          correction of Bonet and Kulasegaram in the form of notes 3.3);
-///   pairs: the least weighted change sum |dC_ab|^2 / k_ab of all; its solution is
-///          dC_ab = 1/2 k_ab [lambda_b - lambda_a - (grad lambda)_a (X_b - X_a)],
-///          with grad lambda the k-weighted linear fit over the row of a.
-/// Both solve S y = r with S symmetric positive semi-definite (S = A A^T resp. B K P B^T) by
+/// The least weighted change sum |dC_ab|^2 / k_ab of all with the row condition
+/// sum_b (X_b - X_a) (x) dC_ab = 0 is
+///   dC_ab = 1/2 k_ab [lambda_b - lambda_a - (grad lambda)_a (X_b - X_a)],
+/// with grad lambda the k-weighted linear fit over the row of a. lambda solves S y = r with
+/// S = B K P B^T symmetric positive semi-definite by
 /// conjugate gradients from zero. The null space of S holds all affine fields: a solution exists
 /// only where sum_a A_aN_a = 0 and sum_a X_a (x) A_aN_a = sum_a Omega_a I (exact dual measure).
 /// Test: tests/graphs/closure_repair_test.cpp.
@@ -31,19 +29,6 @@ struct RepairLimits {
   double closure = 2e-13;  ///< stop below this; where it cannot be reached, `after` says so
   int iterations = 3000;
 };
-
-/// Weights with vanishing first moment: w_ab = k_ab (1 - (X_b - X_a).M_a^-1 m_a), M_a and m_a the
-/// second and first moments of row a. A row of exactly d neighbours gets w_ab = 0.
-/// @param k [n_pairs] weights > 0
-std::vector<double> moment_free_weights(const scheme::PairGraph& graph,
-                                        const std::vector<double>& k);
-
-/// @param w [n_pairs] weights with sum_b w_ab (X_b - X_a) = 0 in every row; a factor per row
-///          is the norm in which gamma is least (use w_ab / h_a where spacings vary)
-/// @pre   rows and reverse pairs are linked
-ClosureRepair repair_closure_rows(scheme::PairGraph& graph,
-                                  const std::vector<double>& w,
-                                  const RepairLimits& limits = {});
 
 /// @param k [n_pairs] weights > 0, k_ab = k_ba
 /// @pre   rows and reverse pairs are linked; every row spans the space

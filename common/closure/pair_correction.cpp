@@ -134,7 +134,10 @@ void PairCorrection::apply_S(const Field& lambda, Field& S_lambda) {
 }
 
 void PairCorrection::precondition(const Field& r, Field& z) {
-  divide(r, diagonal_, z);
+  for_each_node(r.size(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a)
+      z[a] = diagonal_[a] > 0 ? Vec3(r[a] / diagonal_[a]) : Vec3(Vec3::Zero());
+  });
   smooth_.add(r, z);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The least weighted change of the C_ab that closes a graph (closure_repair.hpp, pairs):
+/// The least weighted change of the C_ab that closes a graph (closure_repair.hpp):
 ///   dC_ab = 1/2 k_ab [lambda_b - lambda_a - (grad lambda)_a X_ab]; the gap changes by -S lambda,
 ///   (S lambda)_a = -1/4 sum_b k_ab [2 (lambda_b - lambda_a) - (grad_a + grad_b) X_ab].
 /// Two passes over the pairs, the fit of grad lambda and S. A neighbour is one record of two cache
@@ -7,7 +7,7 @@
 /// Test: tests/graphs/closure_repair_test.cpp
 
 #include "common/algebra/field.hpp"
-#include "common/closure/closure_correction.hpp"
+#include "common/closure/conjugate_gradients.hpp"
 #include "common/closure/spline_levels.hpp"
 
 namespace diptych::closure {
@@ -22,7 +22,7 @@ std::vector<Mat3> inverse_second_moments(const scheme::PairGraph& graph,
 /// sum_b k_ab X_ab
 Vec3 first_moment(const scheme::PairGraph& graph, const std::vector<double>& k, std::int64_t a);
 
-class PairCorrection : public Correction {
+class PairCorrection {
  public:
   /// What the passes read of a node: lambda and X[0], then the three columns of grad lambda, the
   /// first two with X[1] and X[2].
@@ -31,9 +31,9 @@ class PairCorrection : public Correction {
   };
 
   PairCorrection(const scheme::PairGraph& graph, const std::vector<double>& k);
-  void apply_S(const Field& lambda, Field& S_lambda) override;
-  void precondition(const Field& r, Field& z) override;
-  void change(const Field& lambda, std::vector<Vec3>& C) override;
+  void apply_S(const Field& lambda, Field& S_lambda);
+  void precondition(const Field& r, Field& z);
+  void change(const Field& lambda, std::vector<Vec3>& C);
 
  private:
   void fit(const Field& lambda);

@@ -113,6 +113,7 @@ DIPTYCH_CLONES void add_energies_of(const Model<Material>& model,
     sum.strain += algebra::lane_sum(Omega * W);
     const Deformation<Lanes> exact = physics::deformation_of(X.F);
     for (int l = 0; l < n_lanes; ++l) {
+      if (Omega[l] == 0) continue;  // padding
       least_J = algebra::smaller(least_J, X.J[l]);
       sum.involution_J = algebra::larger(sum.involution_J, std::fabs(X.J[l] - exact.J[l]));
       for (int k = 0; k < 9; ++k) {
