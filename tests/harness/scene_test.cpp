@@ -56,7 +56,7 @@ TEST(Scene, TellsOfItsPartsInOrderAndIsOfItsLevel) {
 }
 
 TEST(Scene, IsRefusedWhereNoMachineHasTheMemory) {
-  EXPECT_THROW(graph_with("sph", {"mesh.cells=[1000000, 1000000]"}), base::EnvironmentError);
+  EXPECT_THROW(graph_with("sph", {"mesh.cells=[40000, 40000]"}), base::EnvironmentError);
 }
 
 }  // namespace
