@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <gmock/gmock.h>
+#include <regex>
+#include <sstream>
 
 namespace diptych::tests {
 namespace {
@@ -58,6 +60,31 @@ TEST_F(SourceTree, CitesSectionsThatThePhysicsNotesHave) {
   EXPECT_EQ(complaints([&](const auto& file) { return cited_notes(file, sections); }), "");
   // a rule that found no citation would pass for every page
   EXPECT_NE(complaints([](const auto& file) { return cited_notes(file, {}); }), "");
+}
+
+/// The table of CONTRIBUTING.md that says where the formulas stand: each is where it says, and no
+/// longer than a mechanician reads at once.
+TEST_F(SourceTree, FormulasStandWhereThePageSaysInSixtyLines) {
+  std::ifstream stream_of_page(std::string(DIPTYCH_SOURCE_DIR) + "/CONTRIBUTING.md");
+  const std::string page{std::istreambuf_iterator<char>(stream_of_page), {}};
+  const std::regex row(R"(\| `(\w+)` \| `([^`]+)`, lines (\d+) to (\d+) \|)");
+  int n = 0;
+  for (std::sregex_iterator it(page.begin(), page.end(), row), end; it != end; ++it, ++n) {
+    const std::string name = (*it)[1], path = (*it)[2];
+    const size_t first = std::stoul((*it)[3]), last = std::stoul((*it)[4]);
+    const auto file = std::find_if(files_.begin(), files_.end(),
+                                   [&](const SourceFile& f) { return f.path == path; });
+    ASSERT_NE(file, files_.end()) << path;
+    std::vector<std::string> lines{""};
+    std::istringstream stream(file->text);
+    for (std::string line; std::getline(stream, line);)
+      lines.push_back(line);
+    ASSERT_LT(last, lines.size()) << path;
+    EXPECT_THAT(lines[first], HasSubstr(name + "(")) << path << ":" << first;
+    EXPECT_EQ(lines[last], "}") << path << ":" << last;
+    EXPECT_LE(last - first + 1, 60U) << name;
+  }
+  EXPECT_GE(n, 6);
 }
 
 // ---- the rules themselves

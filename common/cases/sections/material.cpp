@@ -1,6 +1,7 @@
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
 #include "common/cases/sections/sections.hpp"
+#include "common/physics/moduli.hpp"
 
 #include <array>
 #include <fmt/format.h>
@@ -22,9 +23,10 @@ void read_constants(const SectionValues& section, MaterialCase& material) {
     return given.size() == 2 && section.has(a) && section.has(b);
   };
   if (is_pair("youngs_modulus", "poissons_ratio")) {
-    const double E = section.number("youngs_modulus"), nu = section.number("poissons_ratio");
-    material.shear_modulus = E / (2 * (1 + nu));
-    material.lame = E * nu / ((1 + nu) * (1 - 2 * nu));
+    const auto lame = physics::lame_from_young(section.number("youngs_modulus"),
+                                               section.number("poissons_ratio"));
+    material.shear_modulus = lame.mu;
+    material.lame = lame.lambda;
   } else if (is_pair("shear_modulus", "lame")) {
     material.shear_modulus = section.number("shear_modulus");
     material.lame = section.number("lame");
@@ -43,10 +45,11 @@ double poissons_ratio(const MaterialCase& m) {
   return m.lame / (2 * (m.lame + m.shear_modulus));
 }
 
-/// lambda_hat = lambda - 4 zeta > 0, zeta = ratio mu / 2 (mu = 2 (xi + zeta)); beyond rounding.
+/// The condition of physics/moduli.hpp, with the key that breaks it.
 void check_polyconvex(const SectionValues& section, const MaterialCase& m) {
-  const double lambda_hat = m.lame - 2 * m.zeta_ratio * m.shear_modulus;
-  if (m.lame > 0 && lambda_hat > 1e-12 * m.lame) return;
+  const physics::LameConstants lame{m.shear_modulus, m.lame};
+  if (physics::is_polyconvex(lame, m.zeta_ratio)) return;
+  const double lambda_hat = physics::lambda_hat_of(lame, m.zeta_ratio);
   if (m.lame <= 0) {
     throw base::InputError(fmt::format(
         "{}material: lambda = {:.6g} Pa (nu = {:.6g}), so lambda_hat = lambda - 4 zeta > 0 "

@@ -1,22 +1,10 @@
 #include "common/scheme/body/body.hpp"
 
+#include "common/scheme/graph/centroid.hpp"
+
 #include <algorithm>
 
 namespace diptych::scheme {
-
-namespace {
-
-Vec3 centroid_of(const PairGraph& graph) {
-  Vec3 sum = Vec3::Zero();
-  double volume = 0;
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
-    sum += graph.Omega[a] * graph.X[a];
-    volume += graph.Omega[a];
-  }
-  return sum / volume;
-}
-
-}  // namespace
 
 template <int Dim>
 Body<Dim>::Body(const PairGraph& whole, const BodyOptions& what, SweepGraph<Dim> sub_graph)

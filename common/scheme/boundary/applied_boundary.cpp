@@ -2,6 +2,7 @@
 
 #include "common/parallel/for_chunks.hpp"
 #include "common/scheme/boundary/node_vector.hpp"
+#include "common/scheme/graph/centroid.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -53,16 +54,6 @@ class NodeProjector {
   std::vector<Vec3> basis_;
   VectorFunction velocity_;
 };
-
-Vec3 centroid_of(const PairGraph& graph) {
-  Vec3 sum = Vec3::Zero();
-  double volume = 0;
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
-    sum += graph.Omega[a] * graph.X[a];
-    volume += graph.Omega[a];
-  }
-  return sum / volume;
-}
 
 }  // namespace
 
