@@ -2,7 +2,6 @@
 
 #include "meshes/shape_integrals.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -35,15 +34,15 @@ DeformedCells::Least DeformedCells::least(std::span<const Vec3> u) const {
   std::vector<Vec3> x(mesh_.nodes);
   for (size_t a = 0; a < x.size(); ++a)
     x[a] += u[a];
-  Least least{std::numeric_limits<double>::infinity(), 0};
+  Least least{std::numeric_limits<double>::infinity(), 0, 0};
   for (std::int64_t c = 0; c < mesh_.n_cells(); ++c) {
     const double J = signed_volume(mesh_, c, x) / volume_[c];
     if (!(J > 0)) ++least.n_inverted;
     // what is not finite is the worst of all
-    if (std::isnan(J) || std::isnan(least.J))
-      least.J = std::numeric_limits<double>::quiet_NaN();
-    else
-      least.J = std::min(least.J, J);
+    const bool is_worst = std::isnan(J) ? !std::isnan(least.J) : J < least.J;
+    if (!is_worst) continue;
+    least.J = J;
+    least.cell = c;
   }
   return least;
 }

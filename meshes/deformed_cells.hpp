@@ -26,6 +26,7 @@ class DeformedCells {
   struct Least {
     double J = 1;                 ///< least ratio of all cells; NaN where a displacement is
     std::int64_t n_inverted = 0;  ///< cells with a ratio <= 0
+    std::int64_t cell = 0;        ///< that with the least ratio, the first one of NaN
   };
   /// @param u  [n_nodes] displacements, m
   Least least(std::span<const Vec3> u) const;

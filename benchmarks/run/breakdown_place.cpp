@@ -31,14 +31,14 @@ std::string renumbered(std::string message, std::int64_t node, std::int64_t numb
 io::RunFailure failure_of(const base::BreakdownError& error,
                           const run::Solver& solver,
                           const scheme::PairGraph& graph,
-                          std::int64_t steps,
+                          std::int64_t step,
                           const std::vector<std::int32_t>& order) {
   const std::int64_t node = broken_node(solver.snapshot());
   const auto a = static_cast<size_t>(node);
   const algebra::Vec3& X = graph.X[a];
   return {renumbered(error.what(), node, order[a]),
           solver.time(),
-          steps + 1,
+          step,
           order[a],
           {{X[0], X[1], X[2]}}};
 }

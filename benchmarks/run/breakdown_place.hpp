@@ -12,13 +12,14 @@
 namespace diptych::harness {
 
 /// Message, time, step, node and place of a breakdown: the node is the first one that is not finite
-/// or has J <= 0, or else, where the time step has collapsed, that of least J.
-/// @param steps  that were finished
+/// or has J <= 0, or else, where the time step has collapsed or a guard has stopped the run, that
+/// of least J.
+/// @param step   that it broke down in, or after which a guard stopped it
 /// @param order  [node] its number in the user's mesh, which the message has as well
 io::RunFailure failure_of(const base::BreakdownError& error,
                           const run::Solver& solver,
                           const scheme::PairGraph& graph,
-                          std::int64_t steps,
+                          std::int64_t step,
                           const std::vector<std::int32_t>& order);
 
 }  // namespace diptych::harness

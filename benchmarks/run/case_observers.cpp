@@ -1,10 +1,26 @@
 #include "benchmarks/run/case_observers.hpp"
 
 #include "common/run/quantities.hpp"
+#include "meshes/cell_checks.hpp"
 
 #include <filesystem>
+#include <limits>
+#include <numeric>
 
 namespace diptych::harness {
+
+namespace {
+
+/// What rounding makes of the energy of a body at rest, J: some eps of rho c_p^2 a volume, that of
+/// a strain of 1e-8.
+double energy_of_rounding(const cases::Case& setup, const Scene& scene) {
+  const std::vector<double>& Omega = scene.graph.Omega;
+  const double volume = std::accumulate(Omega.begin(), Omega.end(), 0.0);
+  const double c = scene.solver->undeformed_speed();
+  return std::numeric_limits<double>::epsilon() * setup.material.density * c * c * volume;
+}
+
+}  // namespace
 
 CaseObservers::CaseObservers(const cases::Case& setup,
                              const RunOptions& options,
@@ -16,7 +32,8 @@ CaseObservers::CaseObservers(const cases::Case& setup,
       deformed_(scene.mesh.mesh),
       cells_([this](std::span<const algebra::Vec3> u) {
         const auto least = deformed_.least(u);
-        return run::LeastCell{least.J, least.n_inverted};
+        return run::LeastCell{least.J, least.n_inverted, scene_.mesh.mesh.n_cells(),
+                              meshes::centre_of(scene_.mesh.mesh, least.cell)};
       }),
       history_(*scene.solver, probes_, cells_),
       steps_(*scene.solver, probes_),
@@ -25,6 +42,10 @@ CaseObservers::CaseObservers(const cases::Case& setup,
   if (options.scales) scales_.emplace(scene.graph);
   if (options.shapes)
     shapes_.emplace(scene.mesh.mesh, static_cast<size_t>(setup.output.frames) + 1);
+  if (setup.guards.inverted_cells == "stop") cell_guard_.emplace(cells_);
+  if (setup.scheme.energy_budget) {
+    energy_guard_.emplace(history_, setup.guards.energy_residual, energy_of_rounding(setup, scene));
+  }
 }
 
 void CaseObservers::open() {
@@ -48,6 +69,9 @@ std::vector<run::Observer*> CaseObservers::all() {
   if (shapes_) all.push_back(&*shapes_);
   all.push_back(&steps_);
   all.push_back(&progress_);
+  // last: what they stop at has been written
+  if (energy_guard_) all.push_back(&*energy_guard_);
+  if (cell_guard_) all.push_back(&*cell_guard_);
   return all;
 }
 

@@ -6,7 +6,9 @@
 #include "benchmarks/run/run_case.hpp"
 #include "benchmarks/run/scene.hpp"
 #include "benchmarks/run/shape_recorder.hpp"
+#include "common/run/observers/cell_guard.hpp"
 #include "common/run/observers/cells.hpp"
+#include "common/run/observers/energy_guard.hpp"
 #include "common/run/observers/exact_comparison.hpp"
 #include "common/run/observers/field_scales.hpp"
 #include "common/run/observers/fields.hpp"
@@ -53,6 +55,8 @@ class CaseObservers {
   std::optional<run::FieldScales> scales_;
   std::optional<run::Fields> fields_;
   std::optional<ShapeRecorder> shapes_;
+  std::optional<run::CellGuard> cell_guard_;
+  std::optional<run::EnergyGuard> energy_guard_;
 };
 
 }  // namespace diptych::harness

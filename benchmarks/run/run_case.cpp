@@ -142,7 +142,7 @@ void CaseRun::note_breakdown() {
   io::RunSummary& s = result_.summary;
   s.status = run::status_of(run::Ending::breakdown);
   s.failure = failure_of(*simulation_->breakdown(), *scene_->solver, scene_->graph,
-                         simulation_->totals().steps, scene_->mesh.order);
+                         simulation_->totals().begun, scene_->mesh.order);
 }
 
 /// What the run cost.

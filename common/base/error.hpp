@@ -11,7 +11,7 @@ namespace diptych::base {
 enum class ExitCode : int {
   done = 0,
   wrong_input = 2,    ///< case file, mesh, command line
-  breakdown = 3,      ///< physics or scheme broke down: J <= 0, NaN, time step collapsed
+  breakdown = 3,      ///< physics or scheme broke down: J <= 0, NaN, time step collapsed; a guard
   environment = 4,    ///< disk, memory, permission, missing program
   bound_not_met = 5,  ///< a check or a regression bound failed
   interrupted = 130   ///< SIGINT or SIGTERM, after writing what there is

@@ -82,6 +82,12 @@ struct TimeCase {
   std::int64_t max_steps = 0;    ///< 0: none
 };
 
+/// [guards]
+struct GuardsCase {
+  double energy_residual = 0.1;         ///< > 0, share of the largest energy so far
+  std::string inverted_cells = "stop";  ///< stop or warn
+};
+
 /// [output]
 struct OutputCase {
   int frames = 10;     ///< output instants after t = 0, evenly spaced, last at end
@@ -160,6 +166,7 @@ struct Case {
   functions::VectorExpression body_force;       ///< N/m^3 per reference volume
   std::shared_ptr<const exact::Motion> motion;  ///< of [manufactured], or null
   TimeCase time;
+  GuardsCase guards;
   OutputCase output;
   std::vector<ProbeCase> probes;
   std::vector<ReferenceCase> references;

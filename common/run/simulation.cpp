@@ -62,6 +62,7 @@ StepReport Simulation::advance_to(double limit, StepReport last) {
   using Clock = std::chrono::steady_clock;
   while (solver_.time() < limit && !is_interrupted()) {
     const auto start = Clock::now();
+    totals_.begun = totals_.steps + 1;
     last = solver_.step(limit);
     totals_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
     totals_.steps = last.step;
@@ -77,11 +78,10 @@ StepReport Simulation::advance_to(double limit, StepReport last) {
 
 void Simulation::output(const StepReport& step) {
   const scheme::Balance balance = solver_.balance();
-  Snapshot state = solver_.snapshot();
-  const Output output{n_outputs_++, step, balance, solver_.audit(), state};
+  state_ = solver_.snapshot();  // also where an observer ends the run with this output
+  const Output output{n_outputs_++, step, balance, solver_.audit(), state_};
   for (Observer* observer : observers_)
     observer->at_output(output);
-  state_ = std::move(state);
 }
 
 bool Simulation::is_at_step_limit() const {

@@ -14,6 +14,7 @@ namespace diptych::run {
 /// What the steps came to.
 struct StepTotals {
   std::int64_t steps = 0;
+  std::int64_t begun = 0;  ///< one more than `steps` where the last one broke down
   double dt_min = 0,
          dt_max = 0;   ///< s; dt_min is 1e300 between the first output and the first step
   double least_J = 1;  ///< at the nodes; the same

@@ -61,6 +61,22 @@ TEST(Verbs, RunWarnsWhereCellsHaveTurnedInsideOut) {
   EXPECT_EQ(history.front().least_cell_J, 1);
   EXPECT_GT(history[4].least_cell_J, 0);
   EXPECT_LT(history[5].least_cell_J, 0) << "the row of 0.05 s";
+  const auto stopped =
+      diptych(folder, run +
+                          "--level 1 --out stopped --set time.end=0.06 --set output.frames=6 "
+                          "--set guards.inverted_cells=stop");
+  EXPECT_EQ(stopped.exit_code, 3) << stopped.text;
+  EXPECT_THAT(stopped.text, HasSubstr("of 3072 cells are inside out"));
+  const auto rows = io::history_from_csv(text_of(folder.path() / "stopped" / "fvm" / "history.csv"),
+                                         "history.csv");
+  ASSERT_EQ(rows.size(), 6u) << "that of 0.05 s is the last";
+  EXPECT_LT(rows.back().least_cell_J, 0);
+  const auto failed = io::summary_from_json(
+      text_of(folder.path() / "stopped" / "fvm" / "summary.json"), "summary.json");
+  EXPECT_EQ(failed.status, "breakdown");
+  ASSERT_TRUE(failed.failure && failed.failure->step);
+  EXPECT_EQ(*failed.failure->step, failed.steps) << "no step was broken off";
+  EXPECT_GT(failed.most_inverted_cells, 0);
   const auto sound = diptych(folder, run + "--out sound --set time.end=0.02");
   EXPECT_EQ(sound.text.find("WARNING"), std::string::npos) << sound.text;
 }

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -70,6 +71,8 @@ TEST(DeformedCells, OneNodeThatPassesThroughALayerIsSeen) {
     EXPECT_LT(cells.least(u).J, 0);
     EXPECT_GT(cells.least(u).n_inverted, 0);
     EXPECT_LT(cells.least(u).n_inverted, mesh.n_cells());
+    const auto worst = mesh.cell(cells.least(u).cell);
+    EXPECT_NE(std::find(worst.begin(), worst.end(), inner_node(mesh)), worst.end());
   }
 }
 
@@ -79,6 +82,7 @@ TEST(DeformedCells, ADisplacementThatIsNotANumberIsNoSoundCell) {
   u[0][1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(std::isnan(DeformedCells(mesh).least(u).J));
   EXPECT_EQ(DeformedCells(mesh).least(u).n_inverted, 1);
+  EXPECT_EQ(DeformedCells(mesh).least(u).cell, 0) << "the only one at that corner";
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 /// Cells of the deformed mesh at the output times: those that have turned inside out, which no
-/// nodal J shows (meshes/deformed_cells.hpp).
+/// nodal J shows (meshes/deformed_cells.hpp). Whether that ends the run: cell_guard.hpp
 
 #include "common/io/run_record.hpp"
 #include "common/run/observers/observer.hpp"
@@ -15,6 +15,8 @@ namespace diptych::run {
 struct LeastCell {
   double J = 1;
   std::int64_t n_inverted = 0;
+  std::int64_t n_cells = 0;
+  algebra::Vec3 centre = algebra::Vec3::Zero();  ///< m, undeformed, of the cell with that J
 };
 
 class Cells : public Observer {

@@ -44,6 +44,8 @@ TEST(CaseKeys, HaveTheDefaultsOfTheStructs) {
   EXPECT_EQ(read.time.cfl, made.time.cfl);
   EXPECT_EQ(read.scheme.energy_budget, made.scheme.energy_budget);
   EXPECT_EQ(read.fvm.order, made.fvm.order);
+  EXPECT_EQ(read.guards.energy_residual, made.guards.energy_residual);
+  EXPECT_EQ(read.guards.inverted_cells, made.guards.inverted_cells);
 }
 
 TEST(CaseKeys, TakeTheMenusOfRoomsAboveFromOutside) {

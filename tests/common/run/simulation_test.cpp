@@ -121,6 +121,7 @@ TEST(Simulation, TellsOfABreakdownWithoutAnOutput) {
   EXPECT_THAT(simulation.breakdown()->what(), HasSubstr("node"));
   EXPECT_EQ(listener.told.back(), "breakdown");
   EXPECT_EQ(simulation.totals().steps, static_cast<std::int64_t>(listener.times.size()));
+  EXPECT_EQ(simulation.totals().begun, simulation.totals().steps + 1);
   EXPECT_EQ(simulation.take_state().time, listener.output_times.back());
 }
 
@@ -141,6 +142,8 @@ TEST(Simulation, CanBeBrokenOffByAnObserver) {
   EXPECT_STREQ(simulation.breakdown()->what(), "enough");
   EXPECT_EQ(listener.told.back(), "breakdown");
   EXPECT_THAT(listener.output_times, ElementsAre(0, 0.015));
+  EXPECT_EQ(simulation.totals().begun, simulation.totals().steps);
+  EXPECT_EQ(simulation.take_state().time, 0.015) << "that of the output which it ended with";
 }
 
 /// Fails as a full disk does.
