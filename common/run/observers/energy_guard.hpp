@@ -22,7 +22,7 @@ class EnergyGuard : public Observer {
   void at_output(const Output& output) override;
 
   /// A load on a body at rest brings, in its first steps, less energy than a step errs by: shipped
-  /// cases have residuals of 0.1 to 1e4 of it after five steps, and below 0.03 after twenty.
+  /// cases have residuals of 0.1 to 2e3 after five steps, and below 0.03 after twenty.
   static constexpr std::int64_t steps_of_start = 20;
 
  private:
