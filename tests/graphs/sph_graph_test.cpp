@@ -91,9 +91,6 @@ TEST(SphGraph, RefusesBadOptions) {
   options = {};
   options.kernel = "quintic";
   EXPECT_THAT(refusal(mesh, options), testing::HasSubstr("unknown kernel"));
-  options = {};
-  options.repair = "pair";
-  EXPECT_THAT(refusal(mesh, options), testing::HasSubstr("did you mean 'pairs'"));
 }
 
 /// More particles than the least number for which the closure uses threads.
