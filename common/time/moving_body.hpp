@@ -22,10 +22,10 @@ struct MovingBody {
   scheme::AppliedBoundary boundary;
   Integrator integrator;
   bool keeps_angular_momentum = false;  ///< by the projection of notes 3.7
-  scheme::Audit audit;
-  scheme::LoadRates load_rates;  ///< of the loads as they were added last
+  scheme::Audit audit{};
+  scheme::LoadRates load_rates{};  ///< of the loads as they were added last
   algebra::Vec3 initial_angular_momentum = algebra::Vec3::Zero();  ///< N m s, about the centroid
-  Clock clock;
+  Clock clock{};
 
   bool has_branches() const { return body.options.n_branches > 0; }
 };

@@ -1,7 +1,7 @@
 #pragma once
 /// One frame of one run, or of two runs side by side (the diptych), as a PNG: the mesh warped by
 /// "displacement [m]", coloured by a field on one common scale, its reference box in outline.
-/// Test: tests/report/picture_test.cpp
+/// Test: tests/pictures/picture_test.cpp
 
 #include <array>
 #include <optional>
