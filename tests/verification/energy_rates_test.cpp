@@ -9,9 +9,9 @@
 #include "common/parallel/for_chunks.hpp"
 #include "common/physics/materials/mooney_rivlin.hpp"
 #include "common/scheme/boundary/applied_boundary.hpp"
-#include "common/scheme/sweeps/momentum.hpp"
 #include "common/scheme/sweeps/compiled_material.hpp"
 #include "common/scheme/sweeps/face_correction.hpp"
+#include "common/scheme/sweeps/momentum.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
 #include <gtest/gtest.h>
