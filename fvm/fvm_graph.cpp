@@ -6,6 +6,8 @@
 #include "fvm/cell_stencil.hpp"
 #include "fvm/sbp_graph.hpp"
 #include "fvm/sbp_operator.hpp"
+#include "fvm/structured_block.hpp"
+#include "meshes/cell_shares.hpp"
 #include "meshes/dual_measure.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +34,8 @@ scheme::PairGraph graph_of_cells(const meshes::Mesh& mesh, meshes::Quadrature qu
   graph.Omega = std::move(measure.Omega);
   graph.boundary_area = std::move(measure.boundary_area);
   for (meshes::PatchArea& patch : measure.patches) {
-    graph.patches.push_back({std::move(patch.name), std::move(patch.nodes), std::move(patch.area)});
+    graph.patches.push_back({std::move(patch.name), std::move(patch.nodes), std::move(patch.area),
+                             std::move(patch.faces)});
   }
   find_pairs(mesh, quadrature, graph);
   link_reverse_pairs(graph);
@@ -51,6 +54,11 @@ scheme::PairGraph graph_of_cells(const meshes::Mesh& mesh, meshes::Quadrature qu
     closure::repair_closure_pairs(graph, k);
   }
   set_classes(graph);
+  graph.commutes = quadrature == meshes::Quadrature::vertex && is_undistorted_block(mesh);
+  if (meshes::areas_are_of_cells(mesh, quadrature)) {
+    auto cells = meshes::cell_shares(mesh, quadrature);
+    graph.cells = {std::move(cells.row), std::move(cells.corner), std::move(cells.share)};
+  }
   validate(graph);
   return graph;
 }

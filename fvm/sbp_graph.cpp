@@ -179,6 +179,7 @@ scheme::PairGraph sbp_graph(const Mesh& mesh, int order) {
     graph.patches.push_back(product.patch(group));
   link_reverse_pairs(graph);
   set_classes(graph);
+  graph.commutes = true;
   validate(graph);
   return graph;
 }

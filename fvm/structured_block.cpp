@@ -275,4 +275,13 @@ Mat3 cell_edges(const Mesh& mesh, const StructuredBlock& block) {
   return edges;
 }
 
+bool is_undistorted_block(const meshes::Mesh& mesh) {
+  try {
+    cell_edges(mesh, structured_block(mesh));
+    return true;
+  } catch (const base::InputError&) {  // says why not, which only who asked for a block wants
+    return false;
+  }
+}
+
 }  // namespace diptych::fvm

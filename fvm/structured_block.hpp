@@ -36,4 +36,7 @@ StructuredBlock structured_block(const meshes::Mesh& mesh);
 /// @throws base::InputError that names the node that is most off
 Mat3 cell_edges(const meshes::Mesh& mesh, const StructuredBlock& block);
 
+/// Whether the mesh is one.
+bool is_undistorted_block(const meshes::Mesh& mesh);
+
 }  // namespace diptych::fvm

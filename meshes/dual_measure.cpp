@@ -123,6 +123,8 @@ void add_group(const Mesh& mesh,
   for (std::int32_t f : group.faces) {
     const BoundaryFace& face = mesh.boundary_faces[f];
     const auto shares = face_shares.of(face);
+    patch.faces.push_back({-1, -1, -1, -1});
+    std::copy_n(face.nodes.begin(), face.n_nodes, patch.faces.back().begin());
     for (int i = 0; i < face.n_nodes; ++i) {
       const std::int32_t a = face.nodes[i];
       if (!touched[a]) patch.nodes.push_back(a);

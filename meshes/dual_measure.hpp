@@ -25,6 +25,8 @@ struct PatchArea {
   std::string name;
   std::vector<std::int32_t> nodes;  ///< ascending
   std::vector<Vec3> area;           ///< [nodes] m^2 (m in 2-D), outward
+  /// Corners of the faces, outward; -1 where a face has fewer than four.
+  std::vector<std::array<std::int32_t, 4>> faces;
 };
 
 struct DualMeasure {

@@ -1,5 +1,7 @@
 #include "meshes/shape_integrals.hpp"
 
+#include "common/algebra/face_areas.hpp"
+
 #include <cassert>
 #include <cmath>
 
@@ -179,31 +181,17 @@ Mat3 cofactor(const Mat3& J) {
 std::array<Vec3, 4> face_area_shares(const BoundaryFace& face,
                                      const std::vector<Vec3>& X,
                                      Quadrature quadrature) {
-  std::array<Vec3, 4> share{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-  const auto corner = [&](int i) -> const Vec3& { return X[face.nodes[i % face.n_nodes]]; };
   assert(face.n_nodes >= 2 && face.n_nodes <= 4);
-  if (face.n_nodes == 2) {
-    const Vec3 t = corner(1) - corner(0);
-    share[0] = share[1] = 0.5 * Vec3(t[1], -t[0], 0);
-  } else if (face.n_nodes == 3) {
-    const Vec3 area = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0));
-    share[0] = share[1] = share[2] = area / 3;
-  } else if (quadrature == Quadrature::vertex) {
-    for (int a = 0; a < 4; ++a) {
-      share[a] = 0.25 * (corner(a + 1) - corner(a)).cross(corner(a + 3) - corner(a));
-    }
-  } else {
-    const std::vector<QuadraturePoint>& rule = reference_cell(CellType::quadrilateral).exact;
-    for (const QuadraturePoint& point : rule) {
-      Vec3 along_x = Vec3::Zero(), along_y = Vec3::Zero();
-      for (int a = 0; a < 4; ++a) {
-        along_x += point.dN[a][0] * (corner(a) - corner(0));
-        along_y += point.dN[a][1] * (corner(a) - corner(0));
-      }
-      const Vec3 area = point.weight * along_x.cross(along_y);
-      for (int a = 0; a < 4; ++a)
-        share[a] += point.N[a] * area;
-    }
+  std::array<Vec3, 4> corner;
+  for (int i = 0; i < face.n_nodes; ++i)
+    corner[i] = X[face.nodes[i]];
+  if (face.n_nodes < 4 || quadrature == Quadrature::exact) {
+    return algebra::face_area_shares(corner, face.n_nodes);
+  }
+  std::array<Vec3, 4> share;
+  for (int a = 0; a < 4; ++a) {
+    share[a] =
+        0.25 * (corner[(a + 1) % 4] - corner[a]).cross(corner[(a + 3) % 4] - corner[a]);
   }
   return share;
 }

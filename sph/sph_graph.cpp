@@ -5,6 +5,7 @@
 #include "common/closure/class_repair.hpp"
 #include "common/closure/closure_repair.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "meshes/cell_shares.hpp"
 #include "meshes/dual_measure.hpp"
 #include "sph/kernel_correction.hpp"
 #include "sph/neighbours.hpp"
@@ -65,7 +66,8 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
   graph.Omega = std::move(measure.Omega);
   graph.boundary_area = std::move(measure.boundary_area);
   for (meshes::PatchArea& patch : measure.patches) {
-    graph.patches.push_back({std::move(patch.name), std::move(patch.nodes), std::move(patch.area)});
+    graph.patches.push_back({std::move(patch.name), std::move(patch.nodes), std::move(patch.area),
+                             std::move(patch.faces)});
   }
   const std::vector<double> h = smoothing_lengths(mesh, graph.Omega, options.kappa);
   std::vector<double> radius(h);
@@ -77,6 +79,10 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
   link_reverse_pairs(graph);
   set_corrected_gradients(kernel, h, graph);
   if (options.closure) repair_closure(kernel, h, graph);
+  if (meshes::areas_are_of_cells(mesh, meshes::Quadrature::vertex)) {
+    auto cells = meshes::cell_shares(mesh, meshes::Quadrature::vertex);
+    graph.cells = {std::move(cells.row), std::move(cells.corner), std::move(cells.share)};
+  }
   validate(graph);
   return graph;
 }

@@ -125,6 +125,7 @@ struct SchemeCase {
   std::string impedance = "isotropic";    ///< isotropic or exact
   double dissipation = 1;                 ///< multiplies D_ab, >= 0
   double face_correction = 0;             ///< kappa_f of notes 3.8, 0: none
+  std::string volumes = "auto";           ///< auto, cells or nodes: scheme::Volumes
   std::string precision = "double";       ///< double, mixed or single: scheme::Precision
   bool angular_momentum_projection = false;
   bool energy_budget = true;

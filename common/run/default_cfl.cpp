@@ -1,6 +1,8 @@
 #include "common/run/default_cfl.hpp"
 
 #include "common/run/largest_rates.hpp"
+#include "common/run/model_menu.hpp"
+#include "common/run/solver.hpp"
 #include "common/scheme/dissipation/limiters/limiter_menu.hpp"
 #include "common/scheme/sweeps/face_correction.hpp"
 #include "common/scheme/time_step.hpp"
@@ -12,8 +14,9 @@ namespace diptych::run {
 
 namespace {
 
-/// c_s/c_p of the undeformed material with its branches at once (notes 1.4).
-double shear_ratio_of(const cases::MaterialCase& m) {
+/// With the branches at once (notes 1.4).
+/// @param volumetric  modulus that volumes of cells carry  [Pa]
+ElasticRatios ratios_of(const cases::MaterialCase& m, double volumetric) {
   const double half = 0.5 * m.shear_modulus;
   const double zeta = m.zeta_ratio * half, xi = half - zeta;
   double shear = m.shear_modulus, pressure = m.lame + 2 * m.shear_modulus;
@@ -21,12 +24,8 @@ double shear_ratio_of(const cases::MaterialCase& m) {
     shear += 2 * (b.beta_C * xi + b.beta_G * zeta);
     pressure += 4 * b.beta_C * xi + 8 * b.beta_G * zeta;
   }
-  return std::sqrt(shear / pressure);
+  return {std::sqrt(shear / pressure), volumetric / pressure};
 }
-
-/// The frequency of all components together may be so many times that of one before it shortens the
-/// step: default_dt_omega leaves more than that, and on lattices it is smaller.
-constexpr double most_elastic = 1.1;
 
 /// What leapfrog takes of its limit at most, where the fastest and the most damped modes meet.
 constexpr double leapfrog_share = 0.95;
@@ -54,45 +53,50 @@ double real_extent(const time::Integrator& integrator) {
 
 template <int Dim>
 double default_cfl(const cases::Case& setup,
+                   const scheme::MaterialModel& material,
                    scheme::Body<Dim>& body,
                    double geometric_rate,
                    const time::Integrator& integrator) {
   const double kappa_f = setup.scheme.face_correction;
   const double strength = setup.scheme.dissipation *
                           scheme::strength_of(scheme::limiter_menu().at(setup.scheme.limiter));
-  const double shear_ratio = shear_ratio_of(setup.material);
+  const ElasticRatios ratios =
+      ratios_of(setup.material, body.cells.empty() ? 0 : material.volumetric_modulus());
   LargestRates<Dim> largest(body, kappa_f);
-  double omega = largest.frequency();
-  if (!integrator.is_leapfrog()) {
-    omega = std::max(omega, largest.elastic_frequency(shear_ratio) / most_elastic);
-  }
-  const double d = strength * largest.dissipation(shear_ratio);
+  const double omega = largest.frequency(ratios);
+  const double d = strength * largest.dissipation(ratios.shear);
   // dt at a wave speed of one
   double dt = std::min(integrator.default_dt_omega / omega,
                        dissipation_share * real_extent(integrator) / d);
   if (integrator.is_leapfrog()) {
     // convex in dt and zero at zero: at this part of dt it is no larger than the share
-    const double limit = largest.leapfrog_limit(dt, shear_ratio, strength);
+    const double limit = largest.leapfrog_limit(dt, ratios, strength);
     dt *= std::min(1.0, leapfrog_share / limit);
   }
   return dt * geometric_rate * scheme::frequency_factor(kappa_f);
 }
 
-template double default_cfl(const cases::Case&, scheme::Body<2>&, double, const time::Integrator&);
-template double default_cfl(const cases::Case&, scheme::Body<3>&, double, const time::Integrator&);
+#define DIPTYCH_INSTANTIATE(Dim)                                                       \
+  template double default_cfl(const cases::Case&, const scheme::MaterialModel&,        \
+                              scheme::Body<Dim>&, double, const time::Integrator&);
+DIPTYCH_INSTANTIATE(2)
+DIPTYCH_INSTANTIATE(3)
+#undef DIPTYCH_INSTANTIATE
 
 double default_cfl(const cases::Case& setup,
                    const scheme::PairGraph& graph,
                    const time::Integrator& integrator) {
   scheme::BodyOptions options;
   options.face_correction = setup.scheme.face_correction != 0;
+  options.cell_volumes = has_cell_volumes(setup, graph);
+  const auto material = model_menu().at(setup.material.model).model(setup.material);
   const double rate = scheme::geometric_rate(graph);
   if (graph.dimension == 2) {
     scheme::Body<2> body(graph, options);
-    return default_cfl(setup, body, rate, integrator);
+    return default_cfl(setup, *material, body, rate, integrator);
   }
   scheme::Body<3> body(graph, options);
-  return default_cfl(setup, body, rate, integrator);
+  return default_cfl(setup, *material, body, rate, integrator);
 }
 
 }  // namespace diptych::run

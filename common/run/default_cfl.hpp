@@ -5,8 +5,9 @@
 /// undeformed body (largest_rates.hpp), and dt is the smaller of
 ///   default_dt_omega of the integrator / omega   and   0.8 of the step at which d ends stability,
 ///   dt d = 2 with leapfrog and SSP-RK2, 2.51 with SSP-RK3, 5.15 with SSPRK(4,3).
-/// omega is that of one component; with SSP-RK also the 1.1th part of that of all components
-/// together, where that is more (boundaries of SPH, lambda >> mu). With leapfrog the largest
+/// omega is that of the elastic operator of the body itself, all components together, with the
+/// volumes of cells where these carry the pressure. The regions in which SSP-RK3 and SSPRK(4,3) are
+/// stable hold the whole rectangle of the two bounds. With leapfrog the largest
 /// eigenvalue of dt^2/4 K + dt/2 D stays below 0.95, which counts where the fastest and the most
 /// damped modes are the same (free corners of operators that sum by parts). During the run it
 /// follows the wave speeds as the graph bound does. A slope limiter counts by its greatest
@@ -14,7 +15,7 @@
 /// tests/common/run/default_cfl_test.cpp
 
 #include "common/cases/case.hpp"
-#include "common/scheme/body/body.hpp"
+#include "common/scheme/body/material_model.hpp"
 #include "common/time/integrator.hpp"
 
 namespace diptych::run {
@@ -23,6 +24,7 @@ namespace diptych::run {
 /// @param geometric_rate  of its graph (scheme/time_step.hpp)
 template <int Dim>
 double default_cfl(const cases::Case& setup,
+                   const scheme::MaterialModel& material,
                    scheme::Body<Dim>& body,
                    double geometric_rate,
                    const time::Integrator& integrator);

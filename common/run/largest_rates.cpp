@@ -52,20 +52,18 @@ void LargestRates<Dim>::sum_forces(double dissipation_factor) {
 
 /// Stresses of the velocity gradients in the records, for c_p = 1 and rho_R = 1.
 template <int Dim>
-void LargestRates<Dim>::put_stresses(Law law, double shear_ratio) {
-  const double mu = shear_ratio * shear_ratio, lambda = 1 - 2 * mu;
+void LargestRates<Dim>::put_stresses(const ElasticRatios& ratios) {
+  const double mu = ratios.shear * ratios.shear, lambda = 1 - 2 * mu - ratios.cells;
   parallel::for_chunks(body_.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
     for (std::int64_t b = begin; b < end; ++b) {
       const auto L = scheme::velocity_gradient(body_, b);
       algebra::Tensor<Lanes> P = L;
-      if (law == Law::elastic) {
-        Lanes trace{};
-        for (int i = 0; i < Dim; ++i)
-          trace += L(i, i);
-        for (int i = 0; i < Dim; ++i) {
-          for (int j = 0; j < Dim; ++j)
-            P(i, j) = mu * (L(i, j) + L(j, i)) + (i == j ? lambda * trace : Lanes{});
-        }
+      Lanes trace{};
+      for (int i = 0; i < Dim; ++i)
+        trace += L(i, i);
+      for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j)
+          P(i, j) = mu * (L(i, j) + L(j, i)) + (i == j ? lambda * trace : Lanes{});
       }
       if (kappa_f_ != 0) {
         algebra::put_tensor<Dim>(body_.stresses, b, 0, P);
@@ -82,13 +80,13 @@ void LargestRates<Dim>::put_stresses(Law law, double shear_ratio) {
 
 template <int Dim>
 void LargestRates<Dim>::apply_elasticity(const Vectors& u,
-                                         Law law,
-                                         double shear_ratio,
+                                         const ElasticRatios& ratios,
                                          Vectors& out) {
   put_velocities(u);
   scheme::velocity_gradients(body_, kappa_f_);
-  put_stresses(law, shear_ratio);
+  put_stresses(ratios);
   sum_forces(0);
+  if (ratios.cells != 0) body_.cells.add_linear_forces(body_, ratios.cells);
   divide_forces(out);
 }
 
@@ -113,32 +111,22 @@ double LargestRates<Dim>::dissipation(double shear_ratio) {
 }
 
 template <int Dim>
-double LargestRates<Dim>::frequency() {
-  Vectors u(body_.n_owned), f(body_.n_owned);
-  return std::sqrt(lanczos::largest_eigenvalue<double>(
-      body_.graph.Omega, body_.n_owned,
-      [&](const lanczos::Field<double>& in, lanczos::Field<double>& out) {
-        for_nodes(body_.n_owned, [&](std::int64_t a) { u[a][0] = in[a]; });
-        apply_elasticity(u, Law::componentwise, 0, f);
-        for_nodes(body_.n_owned, [&](std::int64_t a) { out[a] = f[a][0]; });
-      }));
-}
-
-template <int Dim>
-double LargestRates<Dim>::elastic_frequency(double shear_ratio) {
+double LargestRates<Dim>::frequency(const ElasticRatios& ratios) {
   return std::sqrt(lanczos::largest_eigenvalue<Four>(
       body_.graph.Omega, body_.n_owned, [&](const Vectors& u, Vectors& out) {
-        apply_elasticity(u, Law::elastic, shear_ratio, out);
+        apply_elasticity(u, ratios, out);
       }));
 }
 
 template <int Dim>
-double LargestRates<Dim>::leapfrog_limit(double dt, double shear_ratio, double strength) {
+double LargestRates<Dim>::leapfrog_limit(double dt,
+                                         const ElasticRatios& ratios,
+                                         double strength) {
   Vectors damped(body_.n_owned);
   return lanczos::largest_eigenvalue<Four>(
       body_.graph.Omega, body_.n_owned, [&](const Vectors& v, Vectors& out) {
-        apply_elasticity(v, Law::elastic, shear_ratio, out);
-        apply_dissipation(v, shear_ratio, damped);
+        apply_elasticity(v, ratios, out);
+        apply_dissipation(v, ratios.shear, damped);
         for_nodes(body_.n_owned, [&](std::int64_t a) {
           out[a] = 0.25 * dt * dt * out[a] + 0.5 * dt * strength * damped[a];
         });

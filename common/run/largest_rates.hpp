@@ -14,6 +14,12 @@
 
 namespace diptych::run {
 
+/// Of the undeformed material with its branches at once.
+struct ElasticRatios {
+  double shear = 1;  ///< c_s/c_p
+  double cells = 0;  ///< part of rho_R c_p^2 that volumes of cells carry, where the body has them
+};
+
 template <int Dim>
 class LargestRates {
  public:
@@ -23,33 +29,27 @@ class LargestRates {
   /// d of plain jumps with scheme.dissipation = 1, per unit of c_p  [1/m]
   double dissipation(double shear_ratio);
 
-  /// omega of u -> G* G u for one component of u, G the gradient of (18b) and G* its adjoint, per
-  /// unit of c_p: on a lattice a pressure wave; at free boundaries up to sqrt(2) times as fast as
-  /// inside  [1/m]
-  double frequency();
-
-  /// The same of all components together, u -> G* (lambda tr(e) I + 2 mu e) with e the symmetric
-  /// part of G u. Inside a lattice it is no larger; near boundaries, where lambda >> mu, it can be
-  /// by a half, since the divergence may count for more than waves along one direction do.
-  /// @param shear_ratio  c_s/c_p, <= sqrt(3)/2
-  double elastic_frequency(double shear_ratio);
+  /// omega of u -> G* (lambda tr(e) I + 2 mu e) with e the symmetric part of G u, G the gradient of
+  /// (18b) and G* its adjoint; what cells carry of lambda acts on their volumes. On a lattice the
+  /// fastest is a pressure wave, at free boundaries up to sqrt(2) times as fast as inside, where
+  /// lambda >> mu another half: the divergence may count for more there than waves along one
+  /// direction do.  [1/m]
+  double frequency(const ElasticRatios& ratios);
 
   /// Largest eigenvalue of dt^2/4 K + dt/2 D, K the elastic operator and D the dissipation:
   /// leapfrog is stable where it is below one. Alone dt omega and dt d say so only if the fastest
   /// and the most damped modes differ; at the corners of operators that sum by parts they do not.
   /// @param dt  c_p times the step  [m]  @param strength  of the dissipation
-  double leapfrog_limit(double dt, double shear_ratio, double strength);
+  double leapfrog_limit(double dt, const ElasticRatios& ratios, double strength);
 
  private:
   using Vectors = lanczos::Field<algebra::Four>;
-  enum class Law { componentwise, elastic };
-
   void put_velocities(const Vectors& v);
   /// out <- -T / Omega for the stresses and speeds in the records.
   void divide_forces(Vectors& out) const;
-  void apply_elasticity(const Vectors& u, Law law, double shear_ratio, Vectors& out);
+  void apply_elasticity(const Vectors& u, const ElasticRatios& ratios, Vectors& out);
   void apply_dissipation(const Vectors& v, double shear_ratio, Vectors& out);
-  void put_stresses(Law law, double shear_ratio);
+  void put_stresses(const ElasticRatios& ratios);
   void sum_forces(double dissipation_factor);
 
   scheme::Body<Dim>& body_;

@@ -42,11 +42,13 @@ scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::Pair
 
 template <int Dim>
 scheme::TimeStepRule time_step_of(const cases::Case& setup,
+                                  const scheme::MaterialModel& material,
                                   scheme::Body<Dim>& body,
                                   double geometric_rate,
                                   const time::Integrator& integrator) {
   const double cfl =
-      setup.time.cfl > 0 ? setup.time.cfl : default_cfl(setup, body, geometric_rate, integrator);
+      setup.time.cfl > 0 ? setup.time.cfl
+                         : default_cfl(setup, material, body, geometric_rate, integrator);
   return {scheme::speeds_menu().at(setup.time.speeds), cfl,
           scheme::frequency_factor(setup.scheme.face_correction)};
 }
@@ -63,6 +65,7 @@ scheme::SweepOptions sweep_options_of(const cases::Case& setup) {
 }
 
 scheme::BodyOptions body_options_of(const cases::Case& setup,
+                                    const scheme::PairGraph& graph,
                                     const scheme::MaterialModel& material,
                                     const time::Integrator& integrator) {
   const auto n_branches = static_cast<int>(material.branches().size());
@@ -75,6 +78,7 @@ scheme::BodyOptions body_options_of(const cases::Case& setup,
       scheme::impedance_menu().at(setup.scheme.impedance) == scheme::Impedance::exact;
   options.keeps_L_0 = integrator.gauss_relaxation && n_branches > 0;
   options.face_correction = setup.scheme.face_correction != 0;
+  options.cell_volumes = has_cell_volumes(setup, graph);
   return options;
 }
 
@@ -94,10 +98,10 @@ std::unique_ptr<Solver> solver_in(const cases::Case& setup, const scheme::PairGr
     known = maker.known(*material, setup, graph);
     boundary.follow(known);
   }
-  scheme::Body<Dim> body(graph, body_options_of(setup, *material, integrator));
+  scheme::Body<Dim> body(graph, body_options_of(setup, graph, *material, integrator));
   const double geometric_rate = scheme::geometric_rate(graph);
   scheme::SweepOptions options = sweep_options_of(setup);
-  options.time_step = time_step_of(setup, body, geometric_rate, integrator);
+  options.time_step = time_step_of(setup, *material, body, geometric_rate, integrator);
   scheme::Sweeps<Dim> sweeps(body, material, options, geometric_rate);
   time::MovingBody<Dim> moving{std::move(body), std::move(sweeps), std::move(boundary), integrator,
                                setup.scheme.angular_momentum_projection};
@@ -106,6 +110,24 @@ std::unique_ptr<Solver> solver_in(const cases::Case& setup, const scheme::PairGr
 }
 
 }  // namespace
+
+bool has_cell_volumes(const cases::Case& setup, const scheme::PairGraph& graph) {
+  switch (scheme::volumes_menu().at(setup.scheme.volumes)) {
+    case scheme::Volumes::nodes:
+      return false;
+    case scheme::Volumes::automatic:
+      return !graph.commutes && !graph.cells.empty();
+    case scheme::Volumes::cells:
+      break;
+  }
+  if (graph.cells.empty()) {
+    throw base::InputError(
+        "scheme.volumes = \"cells\" is not for this graph: faces of the boundary are no "
+        "parallelograms, or the operators are those of fvm.stencil = \"sbp\", which need no cells; "
+        "use \"auto\"");
+  }
+  return true;
+}
 
 std::unique_ptr<Solver> make_solver(const cases::Case& setup, const scheme::PairGraph& graph) {
   return graph.dimension == 2 ? solver_in<2>(setup, graph) : solver_in<3>(setup, graph);

@@ -59,6 +59,10 @@ class Solver {
   }
 };
 
+/// Whether volumes of the cells of this graph carry the pressure of this case (scheme.volumes).
+/// @throws base::InputError where the graph lacks the cells that the case asks for
+bool has_cell_volumes(const cases::Case& setup, const scheme::PairGraph& graph);
+
 /// @param graph  kept by reference: must outlive the solver
 /// @throws base::InputError on a boundary group that the graph lacks, an unknown menu entry
 std::unique_ptr<Solver> make_solver(const cases::Case& setup, const scheme::PairGraph& graph);

@@ -32,6 +32,14 @@ const base::Registry<Precision>& precision_menu() {
   return menu;
 }
 
+const base::Registry<Volumes>& volumes_menu() {
+  static const auto menu = base::Registry<Volumes>("scheme.volumes")
+                               .add("auto", Volumes::automatic)
+                               .add("cells", Volumes::cells)
+                               .add("nodes", Volumes::nodes);
+  return menu;
+}
+
 const base::Registry<Speeds>& speeds_menu() {
   static const auto menu = base::Registry<Speeds>("time.speeds")
                                .add("exact", Speeds::exact)

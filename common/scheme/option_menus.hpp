@@ -14,6 +14,7 @@ const base::Registry<Unknowns>& unknowns_menu();
 const base::Registry<Reconstruction>& reconstruction_menu();
 const base::Registry<Impedance>& impedance_menu();
 const base::Registry<Precision>& precision_menu();
+const base::Registry<Volumes>& volumes_menu();
 const base::Registry<Speeds>& speeds_menu();
 
 }  // namespace diptych::scheme

@@ -25,15 +25,30 @@ struct IsochoricNeoHookeanFamily {
   double branch_xi() const { return 0.5 * mu; }
   double branch_zeta() const { return 0; }
 
+  /// U(J), the part of the energy that carries bulk pressure  [Pa], and its derivative.
+  template <class T>
+  DIPTYCH_INLINE T volumetric_energy(const T& J) const {
+    if constexpr (squared_J) {
+      return 0.25 * kappa * (J * J - 1.0 - 2.0 * algebra::natural_log(J));
+    } else {
+      return 0.5 * kappa * (J - 1.0) * (J - 1.0);
+    }
+  }
+  template <class T>
+  DIPTYCH_INLINE T volumetric_stress(const T& J) const {
+    if constexpr (squared_J) {
+      return 0.5 * kappa * (J - 1.0 / J);
+    } else {
+      return kappa * (J - 1.0);
+    }
+  }
+  double volumetric_modulus() const { return kappa; }  ///< its second derivative at J = 1
+
   template <class T>
   DIPTYCH_INLINE T energy(const Deformation<T>& X) const {
     const T cbrt_J = algebra::cube_root(X.J);
-    const T W = 0.5 * mu * (algebra::contract(X.F, X.F) / (cbrt_J * cbrt_J) - 3.0);
-    if constexpr (squared_J) {
-      return W + 0.25 * kappa * (X.J * X.J - 1.0 - 2.0 * algebra::natural_log(X.J));
-    } else {
-      return W + 0.5 * kappa * (X.J - 1.0) * (X.J - 1.0);
-    }
+    return 0.5 * mu * (algebra::contract(X.F, X.F) / (cbrt_J * cbrt_J) - 3.0) +
+           volumetric_energy(X.J);
   }
 
   template <class T>
@@ -46,11 +61,10 @@ struct IsochoricNeoHookeanFamily {
     r.Sigma_F = m * X.F;
     r.Sigma_J = (-1.0 / 3.0) * m * inverse_J * I1;
     r.W_JJ = (5.0 / 9.0) * m * inverse_J * inverse_J * I1;
+    r.Sigma_J += volumetric_stress(X.J);
     if constexpr (squared_J) {
-      r.Sigma_J += 0.5 * kappa * (X.J - inverse_J);
       r.W_JJ += 0.5 * kappa * (1.0 + inverse_J * inverse_J);
     } else {
-      r.Sigma_J += kappa * (X.J - 1.0);
       r.W_JJ += T{} + kappa;
     }
     r.Sigma_H = Tensor<T>{};

@@ -28,10 +28,22 @@ struct MooneyRivlinFamily {
   double branch_xi() const { return xi; }
   double branch_zeta() const { return with_zeta ? zeta : 0; }
 
+  /// The part of the energy that carries bulk pressure, lambda_hat/2 (J - 1)^2  [Pa], and its
+  /// derivative. The logarithm, of the size of mu, stays with F and H: a body at rest has no stress.
+  template <class T>
+  DIPTYCH_INLINE T volumetric_energy(const T& J) const {
+    return 0.5 * lambda_hat * (J - 1.0) * (J - 1.0);
+  }
+  template <class T>
+  DIPTYCH_INLINE T volumetric_stress(const T& J) const {
+    return lambda_hat * (J - 1.0);
+  }
+  double volumetric_modulus() const { return lambda_hat; }  ///< its second derivative at J = 1
+
   /// Energy density (4)  [Pa]
   template <class T>
   DIPTYCH_INLINE T energy(const Deformation<T>& X) const {
-    T W = xi * (algebra::contract(X.F, X.F) - 3.0) + 0.5 * lambda_hat * (X.J - 1.0) * (X.J - 1.0) -
+    T W = xi * (algebra::contract(X.F, X.F) - 3.0) + volumetric_energy(X.J) -
           2.0 * (xi + 2.0 * zeta) * algebra::natural_log(X.J);
     if constexpr (with_zeta) W += zeta * (algebra::contract(X.H, X.H) - 3.0);
     return W;
@@ -43,7 +55,7 @@ struct MooneyRivlinFamily {
     const double b = 2.0 * (xi + 2.0 * zeta);
     Response<T> r;
     r.Sigma_F = (2.0 * xi) * X.F;
-    r.Sigma_J = lambda_hat * (X.J - 1.0) - b * inverse_J;
+    r.Sigma_J = volumetric_stress(X.J) - b * inverse_J;
     r.A_tot = (2.0 * xi) * algebra::symmetric_identity<T>();
     r.W_JJ = b * inverse_J * inverse_J + lambda_hat;
     r.W_FJ = T{};

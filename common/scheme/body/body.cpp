@@ -17,6 +17,7 @@ Body<Dim>::Body(const PairGraph& whole, const BodyOptions& what, SweepGraph<Dim>
       centroid(centroid_of(whole)) {
   list_fields();
   allocate();
+  if (options.cell_volumes) cells = CellVolumes<Dim>(whole.cells, whole.X);
 }
 
 template <int Dim>
@@ -115,7 +116,7 @@ std::int64_t Body<Dim>::bytes() const {
       counted.push_back(field.table);
     }
   }
-  return sum;
+  return sum + cells.bytes();
 }
 
 template <int Dim>

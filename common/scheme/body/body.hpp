@@ -11,6 +11,7 @@
 #include "common/algebra/flush_to_zero.hpp"
 #include "common/algebra/layout.hpp"
 #include "common/scheme/graph/sweep_graph.hpp"
+#include "common/scheme/volumes/cell_volumes.hpp"
 
 #include <string_view>
 #include <vector>
@@ -73,6 +74,7 @@ struct BodyOptions {
   bool exact_impedance = false;
   bool keeps_L_0 = false;  ///< dF/dt at the beginning of the step, for GEXP (notes 5.3)
   bool face_correction = false;
+  bool cell_volumes = false;  ///< those of the graph carry the pressure
 };
 
 template <int Dim>
@@ -124,6 +126,8 @@ struct Body {
   // face correction only: what its sweeps read
   NodeTable gradients;  ///< uncorrected dF/dt
   NodeTable stresses;   ///< P
+  /// Where volumes of cells carry the pressure (notes 3.9): P of the records is without it.
+  CellVolumes<Dim> cells;
 
   /// At rest: u = v = 0, F = H = I, J = 1, A = S = I.
   Body(const PairGraph& whole, const BodyOptions& what);

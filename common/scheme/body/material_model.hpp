@@ -51,6 +51,12 @@ class MaterialModel {
   virtual double energy(const PointDeformation& X) const = 0;
   /// Its derivatives.
   virtual physics::Response<double> response(const PointDeformation& X) const = 0;
+  /// Its part that carries bulk pressure, U(J), with its derivatives  [Pa]
+  virtual double volumetric_energy(double J) const = 0;
+  virtual double volumetric_stress(double J) const = 0;
+  virtual double volumetric_modulus() const = 0;  ///< U''(1)
+  /// Replaces n values of J by U'(J).
+  virtual void put_volumetric_stresses(double* J, std::int64_t n) const = 0;
   virtual BlockPhysics<2> in_plane() const = 0;
   virtual BlockPhysics<3> in_space() const = 0;
 

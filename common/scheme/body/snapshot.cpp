@@ -22,6 +22,8 @@ Snapshot snapshot_of(const MaterialModel& material,
   s.J.resize(n);
   s.A.assign(n_branches, std::vector<Mat3>(n));
   s.S.assign(body.S.empty() ? 0 : n_branches, std::vector<Mat3>(n));
+  const std::vector<double> cell_J =
+      body.cells.empty() ? std::vector<double>{} : body.cells.ratios(body);
   for (size_t k = 0; k < n; ++k) {
     const std::int32_t a = nodes[k];
     for (int i = 0; i < Dim; ++i) {
@@ -34,6 +36,9 @@ Snapshot snapshot_of(const MaterialModel& material,
     s.H[k] = algebra::to_eigen(X.H);
     s.J[k] = X.J;
     s.P[k] = algebra::to_eigen(material.stress(X, branches));
+    if (!cell_J.empty()) {  // the pressure of the cells in place of that of the node
+      s.P[k] += (material.volumetric_stress(cell_J[a]) - material.volumetric_stress(X.J)) * s.H[k];
+    }
     for (size_t r = 0; r < n_branches; ++r) {
       s.A[r][k] = algebra::to_eigen(branches[r].A);
       if (!s.S.empty()) s.S[r][k] = algebra::to_eigen(branches[r].S);

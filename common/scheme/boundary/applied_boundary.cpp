@@ -1,5 +1,6 @@
 #include "common/scheme/boundary/applied_boundary.hpp"
 
+#include "common/algebra/face_areas.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/scheme/boundary/node_vector.hpp"
 #include "common/scheme/graph/centroid.hpp"
@@ -220,6 +221,36 @@ Impulse AppliedBoundary::overwrite(Body<Dim>& body) const {
   return sum;
 }
 
+/// Shares of the patch's nodes in its deformed area: of the deformed faces where volumes of cells
+/// carry the pressure, which then a uniform pressure balances exactly; of the nodes' own
+/// deformation elsewhere.
+template <int Dim>
+std::vector<Vec3> AppliedBoundary::deformed_areas(const Body<Dim>& body,
+                                                  const BoundaryPatch& patch) const {
+  std::vector<Vec3> area(patch.nodes.size(), Vec3::Zero());
+  if (body.cells.empty()) {
+    for (size_t k = 0; k < patch.nodes.size(); ++k) {
+      algebra::Tensor<double> F = algebra::identity<double>();
+      for (int ij = 0; ij < Dim * Dim; ++ij)
+        F(ij / Dim, ij % Dim) += body.F.at(patch.nodes[k], ij);
+      area[k] = algebra::to_eigen(algebra::cofactor(F)) * patch.area[k];
+    }
+    return area;
+  }
+  for (const auto& face : patch.faces) {
+    std::array<Vec3, 4> x;
+    int n = 0;
+    for (; n < 4 && face[n] >= 0; ++n)
+      x[n] = X_[face[n]] + vector_at<Dim>(body.u, face[n]);
+    const auto shares = algebra::face_area_shares(x, n);
+    for (int i = 0; i < n; ++i) {
+      const auto at = std::lower_bound(patch.nodes.begin(), patch.nodes.end(), face[i]);
+      area[at - patch.nodes.begin()] += shares[i];
+    }
+  }
+  return area;
+}
+
 template <int Dim>
 void AppliedBoundary::evaluate_loads(const Body<Dim>& body, double t) {
   std::fill(forces_.begin(), forces_.end(), Vec3::Zero());
@@ -236,16 +267,13 @@ void AppliedBoundary::evaluate_loads(const Body<Dim>& body, double t) {
   }
   for (const PlacedCondition& placed : conditions_) {
     if (!placed.condition->loads()) continue;
+    std::vector<Vec3> deformed_area;
+    if (placed.condition->follows_surface()) deformed_area = deformed_areas(body, *placed.patch);
     for (size_t k = 0; k < placed.patch->nodes.size(); ++k) {
       const std::int32_t a = placed.patch->nodes[k];
-      LoadedNode node{X_user_[a], placed.patch->area[k], Mat3::Identity(), Mat3::Zero()};
+      LoadedNode node{X_user_[a], placed.patch->area[k], Vec3::Zero(), Mat3::Zero()};
       if (placed.condition->needs_P()) node.P = known_->stress(a);
-      if (placed.condition->needs_H()) {
-        algebra::Tensor<double> F = algebra::identity<double>();
-        for (int ij = 0; ij < Dim * Dim; ++ij)
-          F(ij / Dim, ij % Dim) += body.F.at(a, ij);
-        node.H = algebra::to_eigen(algebra::cofactor(F));
-      }
+      if (!deformed_area.empty()) node.deformed_area = deformed_area[k];
       forces_[slot_of_node_[a]] += placed.condition->force(node, t);
     }
   }

@@ -107,6 +107,8 @@ class AppliedBoundary {
   template <int Dim>
   Impulse overwrite(Body<Dim>& body) const;
   template <int Dim>
+  std::vector<Vec3> deformed_areas(const Body<Dim>& body, const BoundaryPatch& patch) const;
+  template <int Dim>
   void evaluate_loads(const Body<Dim>& body, double t);
 };
 

@@ -45,7 +45,9 @@ struct RigidWall {
 struct LoadedNode {
   Vec3 X;     ///< m, reference position
   Vec3 area;  ///< m^2, its share of the patch, A_a N_a
-  Mat3 H;     ///< cofactor, follower loads only
+  /// m^2, where the deformed body has it: H A_a N_a, or, where volumes of cells carry the pressure,
+  /// its share of the deformed faces. Follower loads only.
+  Vec3 deformed_area;
   Mat3 P;     ///< Pa, stress of a known motion, its tractions only
 };
 
@@ -59,7 +61,7 @@ class BoundaryCondition {
   virtual std::optional<RigidWall> wall() const { return std::nullopt; }
   /// Whether force() may be non-zero.
   virtual bool loads() const { return false; }
-  virtual bool needs_H() const { return false; }
+  virtual bool follows_surface() const { return false; }
   virtual bool needs_P() const { return false; }
   virtual bool depends_on_time() const { return false; }
   /// Force on a node of the patch  [N]

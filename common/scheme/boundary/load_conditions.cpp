@@ -30,15 +30,15 @@ class KnownTraction : public BoundaryCondition {
   Vec3 force(const LoadedNode& node, double) const override { return node.P * node.area; }
 };
 
-/// t_B = -p H N per reference area: a pressure on the deformed surface.
+/// A pressure on the deformed surface: t_B = -p H N per reference area.
 class Pressure : public BoundaryCondition {
  public:
   explicit Pressure(const BoundaryValues& values) : values_(values) {}
   bool loads() const override { return true; }
-  bool needs_H() const override { return true; }
+  bool follows_surface() const override { return true; }
   bool depends_on_time() const override { return true; }
   Vec3 force(const LoadedNode& node, double t) const override {
-    return -values_.scalar(node.X, t) * (node.H * node.area);
+    return -values_.scalar(node.X, t) * node.deformed_area;
   }
 
  private:

@@ -49,6 +49,11 @@ Balance balance(const MaterialModel& material, const Body<Dim>& body) {
     sum.involution_H = std::max(sum.involution_H, part.involution_H);
     sum.involution_J = std::max(sum.involution_J, part.involution_J);
   }
+  if (!body.cells.empty()) {
+    const std::vector<double> J = body.cells.ratios(body);
+    for (std::int64_t a = 0; a < body.n_owned; ++a)
+      sum.strain += body.cells.reference(a) * material.volumetric_energy(J[a]);
+  }
   return sum;
 }
 

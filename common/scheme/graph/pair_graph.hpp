@@ -8,7 +8,9 @@
 
 #include "common/algebra/vectors.hpp"
 #include "common/scheme/graph/row_classes.hpp"
+#include "common/scheme/graph/volume_cells.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -23,6 +25,9 @@ struct BoundaryPatch {
   std::string name;
   std::vector<std::int32_t> nodes;  ///< ascending
   std::vector<Vec3> area;  ///< [nodes] m^2 (m per unit thickness in 2-D): int_patch N_a N dA
+  /// Corners of its faces, outward; -1 where a face has fewer than four. Empty with operators that
+  /// have no cells.
+  std::vector<std::array<std::int32_t, 4>> faces{};
 };
 
 /// Of what sweeps read and write; set-up is always in double precision.
@@ -45,6 +50,8 @@ struct PairGraph {
   std::vector<Vec3> C;                ///< [n_pairs] m^2, C_ab of the directed pair (a,b)
   /// Where the factory knows them, which takes that rows stand in their common order; else empty.
   RowClasses classes;
+  VolumeCells cells;          ///< those between its nodes
+  bool commutes = false;      ///< its derivatives in different directions do, as of tensor products
   Precision precision = Precision::full;  ///< see set_precision
 
   std::int64_t n_nodes() const { return static_cast<std::int64_t>(X.size()); }

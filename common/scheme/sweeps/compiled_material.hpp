@@ -67,7 +67,7 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
   totals.least_J = algebra::smaller(totals.least_J, X.J);
   totals.n_bad += X.J > 0 ? Lanes{} : Lanes{} + 1.0;  // a comparison with NaN is false
   Lanes dissipation{};
-  const Response<Lanes> response = response_of_block(
+  Response<Lanes> response = response_of_block(
       model, body, sweep.relaxation, X, b,
       [&](int k, const BranchState<Lanes>& branch, const physics::RightTensors<Lanes>& now)
           DIPTYCH_INLINE_LAMBDA {
@@ -80,6 +80,7 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
               algebra::put_S<Dim>(body.S, b, k * Layout::n_S, branch.S);
             }
           });
+  if (!body.cells.empty()) response.Sigma_J -= model.material.volumetric_stress(X.J);
   const Tensor<Lanes> P = physics::piola_stress<has_H>(response, X);
   write_records(body, b, X, response, P);
   const double rho_R = model.rho_R;
@@ -102,6 +103,7 @@ DIPTYCH_CLONES void add_energies_of(const Model<Material>& model,
     const Lanes Omega = algebra::load(body.graph.Omega.data() + b * n_lanes);
     const Deformation<Lanes> X = load_deformation(body, b);
     Lanes W = model.material.energy(X);
+    if (!body.cells.empty()) W -= model.material.volumetric_energy(X.J);
     for (int k = 0; k < body.options.n_branches; ++k) {
       const auto branch = stored_branch<Dim, Material::has_H>(body, b, k);
       W += physics::branch_energy<Material::has_H>(model.branches[k], branch, X);
@@ -158,6 +160,13 @@ class CompiledMaterial final : public MaterialModel {
   double energy(const PointDeformation& X) const override { return model_.material.energy(X); }
   physics::Response<double> response(const PointDeformation& X) const override {
     return model_.material.response(X);
+  }
+  double volumetric_energy(double J) const override { return model_.material.volumetric_energy(J); }
+  double volumetric_stress(double J) const override { return model_.material.volumetric_stress(J); }
+  double volumetric_modulus() const override { return model_.material.volumetric_modulus(); }
+  void put_volumetric_stresses(double* J, std::int64_t n) const override {
+    for (std::int64_t i = 0; i < n; ++i)
+      J[i] = model_.material.volumetric_stress(J[i]);
   }
   BlockPhysics<2> in_plane() const override { return blocks<2>(); }
   BlockPhysics<3> in_space() const override { return blocks<3>(); }

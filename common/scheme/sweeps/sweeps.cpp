@@ -40,6 +40,7 @@ void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
                                  with_step && speeds == Speeds::exact, numerical_power_.data(),
                                  largest_rate_.data()};
   scheme::sum_forces(sweep, momentum_);
+  if (!body.cells.empty()) body.cells.add_forces(body, *material_);
   if (with_step && speeds == Speeds::bound) {
     parallel::for_chunks(body.n_blocks, [&](auto begin, auto end, auto chunk) {
       largest_rate_[chunk] = geometric_rate_ * largest_speed(body, begin, end);

@@ -18,22 +18,31 @@ struct PlainRubber {
   double branch_zeta() const { return 0; }
 
   template <class T>
+  DIPTYCH_INLINE T volumetric_energy(const T& J) const {
+    return 0.25 * lambda * (J * J - 1.0 - 2.0 * algebra::natural_log(J));
+  }
+  template <class T>
+  DIPTYCH_INLINE T volumetric_stress(const T& J) const {
+    return 0.5 * lambda * (J - 1.0 / J);
+  }
+  double volumetric_modulus() const { return lambda; }
+
+  template <class T>
   DIPTYCH_INLINE T energy(const Deformation<T>& X) const {
-    return 0.5 * mu * (algebra::contract(X.F, X.F) - 3.0) + 0.25 * lambda * (X.J * X.J - 1.0) -
-           (mu + 0.5 * lambda) * algebra::natural_log(X.J);
+    return 0.5 * mu * (algebra::contract(X.F, X.F) - 3.0) + volumetric_energy(X.J) -
+           mu * algebra::natural_log(X.J);
   }
 
   template <class T>
   DIPTYCH_INLINE Response<T> response(const Deformation<T>& X) const {
     const T inverse_J = 1.0 / X.J;
-    const double b = mu + 0.5 * lambda;
     Response<T> r;
     r.Sigma_F = mu * X.F;
     r.Sigma_H = Tensor<T>{};
-    r.Sigma_J = 0.5 * lambda * X.J - b * inverse_J;
+    r.Sigma_J = volumetric_stress(X.J) - mu * inverse_J;
     r.A_tot = mu * algebra::symmetric_identity<T>();
     r.S_tot = SymmetricTensor<T>{};
-    r.W_JJ = b * inverse_J * inverse_J + 0.5 * lambda;
+    r.W_JJ = (mu + 0.5 * lambda) * inverse_J * inverse_J + 0.5 * lambda;
     r.W_FJ = T{};
     return r;
   }

@@ -10,10 +10,10 @@ class Suction : public BoundaryCondition {
  public:
   explicit Suction(const BoundaryValues& values) : values_(values) {}
   bool loads() const override { return true; }
-  bool needs_H() const override { return true; }
+  bool follows_surface() const override { return true; }
   bool depends_on_time() const override { return true; }
   Vec3 force(const LoadedNode& node, double t) const override {
-    return values_.scalar(node.X, t) * (node.H * node.area);
+    return values_.scalar(node.X, t) * node.deformed_area;
   }
 
  private:

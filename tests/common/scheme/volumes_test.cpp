@@ -1,0 +1,311 @@
+/// Volumes of deformed cells that carry the pressure (notes 3.9): what they are, what their forces
+/// keep, and that a uniformly compressed body is a strict minimum of its energy.
+
+#include "common/algebra/face_areas.hpp"
+#include "common/run/model_menu.hpp"
+#include "common/scheme/budget/balance.hpp"
+#include "common/scheme/sweeps/sweeps.hpp"
+#include "meshes/deformed_cells.hpp"
+#include "meshes/shape_integrals.hpp"
+#include "tests/common/scheme/scenes.hpp"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace diptych {
+namespace {
+
+using algebra::Mat3;
+using algebra::Vec3;
+using Displacements = std::vector<Vec3>;
+
+cases::MaterialCase rubber(double nu) {
+  cases::MaterialCase m;
+  m.density = 1000;
+  m.shear_modulus = 1;
+  m.lame = 2 * nu / (1 - 2 * nu);
+  m.zeta_ratio = 0.5;
+  return m;
+}
+
+/// A body at given displacements, without velocities.
+class StaticBody {
+ public:
+  StaticBody(const meshes::Mesh& mesh, const std::string& method, double nu, bool cells)
+      : graph(tests::graph_of(method, mesh)),
+        material(run::model_menu().at("mooney-rivlin").model(rubber(nu))),
+        body(graph, options(*material, cells)),
+        sweeps_(body, material, {{}, 0}, 1) {}
+
+  /// Internal forces  [N]
+  Displacements forces(const Displacements& u) {
+    put(u);
+    sweeps_.sum_forces(body, false);
+    Displacements T(u.size());
+    for (size_t a = 0; a < u.size(); ++a) {
+      for (int i = 0; i < 3; ++i)
+        T[a][i] = body.T.at(static_cast<std::int64_t>(a), i);
+    }
+    return T;
+  }
+  double energy(const Displacements& u) {
+    put(u);
+    return scheme::balance(*material, body).strain;
+  }
+
+  scheme::PairGraph graph;
+  std::shared_ptr<const scheme::MaterialModel> material;
+  scheme::Body<3> body;
+
+ private:
+  static scheme::BodyOptions options(const scheme::MaterialModel& material, bool cells) {
+    scheme::BodyOptions options;
+    options.rho_R = material.rho_R();
+    options.unknowns = scheme::Unknowns::F;
+    options.cell_volumes = cells;
+    return options;
+  }
+  /// u, and F as its discrete gradient.
+  void put(const Displacements& u) {
+    const auto set = [&](auto& field, double factor) {
+      for (size_t a = 0; a < u.size(); ++a) {
+        for (int i = 0; i < 3; ++i)
+          field.set(static_cast<std::int64_t>(a), i, factor * u[a][i]);
+      }
+    };
+    set(body.u, 1);
+    set(body.v, 1);
+    if (!body.in_runs()) {
+      for (size_t a = 0; a < u.size(); ++a) {
+        for (int i = 0; i < 3; ++i)
+          body.records.set(static_cast<std::int64_t>(a), scheme::NodeRecord<3>::v(false) + i,
+                           u[a][i]);
+      }
+    }
+    scheme::velocity_gradients(body, 0);
+    for (std::int64_t a = 0; a < body.n_owned; ++a) {
+      for (int k = 0; k < 9; ++k)
+        body.F.set(a, k, body.records.at(a, scheme::NodeRecord<3>::L + k));
+    }
+    set(body.v, 0);
+    sweeps_.strain_rates(body, {}, nullptr, 0);
+  }
+  scheme::Sweeps<3> sweeps_;
+};
+
+meshes::Mesh block(meshes::CellType type, double moved, int n = 4) {
+  meshes::Mesh mesh = meshes::box(type, Vec3::Zero(), Vec3::Ones(), {n, n, n});
+  if (moved > 0) meshes::perturb_interior(mesh, moved, 3);
+  return mesh;
+}
+
+Displacements affine(const scheme::PairGraph& graph, const Mat3& F) {
+  Displacements u;
+  for (const Vec3& X : graph.X)
+    u.push_back(F * X - X);
+  return u;
+}
+
+Displacements noisy(Displacements u, double size) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-size, size);
+  for (Vec3& x : u)
+    x += Vec3(uniform(random), uniform(random), uniform(random));
+  return u;
+}
+
+Mat3 sheared() {
+  Mat3 F;
+  F << 0.9, 0.2, -0.1, 0.05, 1.1, 0.1, -0.15, 0.1, 0.8;
+  return F;
+}
+
+using enum meshes::CellType;
+
+struct Kind {
+  meshes::CellType type;
+  double moved;
+  const char* method;
+};
+void PrintTo(const Kind& kind, std::ostream* out) {
+  *out << kind.method << ", type " << static_cast<int>(kind.type) << ", moved " << kind.moved;
+}
+class CellVolumes : public testing::TestWithParam<Kind> {
+ protected:
+  meshes::Mesh mesh = block(GetParam().type, GetParam().moved);
+  StaticBody body{mesh, GetParam().method, 0.49, true};
+};
+INSTANTIATE_TEST_SUITE_P(All,
+                         CellVolumes,
+                         testing::Values(Kind{hexahedron, 0, "sph"},
+                                         Kind{hexahedron, 0.25, "sph"},
+                                         Kind{hexahedron, 0.25, "fvm"},
+                                         Kind{tetrahedron, 0, "fvm"},
+                                         Kind{tetrahedron, 0.2, "fvm"},
+                                         Kind{prism, 0.2, "fvm"}));
+
+TEST_P(CellVolumes, AddUpToTheVolumeThatTheBoundaryEncloses) {
+  const Displacements u = noisy(affine(body.graph, sheared()), 0.03);
+  body.forces(u);
+  const std::vector<double> J = body.body.cells.ratios(body.body);
+  double volume = 0;
+  for (size_t a = 0; a < J.size(); ++a)
+    volume += J[a] * body.body.cells.reference(static_cast<std::int64_t>(a));
+  double enclosed = 0;
+  std::vector<Vec3> x = body.graph.X;
+  for (size_t a = 0; a < x.size(); ++a)
+    x[a] += u[a];
+  for (const meshes::BoundaryFace& face : mesh.boundary_faces) {
+    const auto shares = meshes::face_area_shares(face, x, meshes::Quadrature::exact);
+    // the volume is homogeneous of degree three in the corners, and these are its derivatives
+    for (int i = 0; i < face.n_nodes; ++i)
+      enclosed += x[face.nodes[i]].dot(shares[i]) / 3;
+  }
+  double of_cells = 0;
+  for (std::int64_t c = 0; c < mesh.n_cells(); ++c)
+    of_cells += meshes::signed_volume(mesh, c, x);
+  EXPECT_NEAR(volume, enclosed, 1e-13);
+  EXPECT_NEAR(volume, of_cells, 1e-13);
+}
+
+TEST_P(CellVolumes, AreThoseOfTheDeformationWhereItIsAffine) {
+  body.forces(affine(body.graph, sheared()));
+  for (const double J : body.body.cells.ratios(body.body))
+    EXPECT_NEAR(J, sheared().determinant(), 1e-13);
+}
+
+TEST_P(CellVolumes, PushOnlyTheBoundaryWhereTheStateIsUniform) {
+  const auto T = body.forces(affine(body.graph, sheared()));
+  physics::Deformation<double> X = physics::deformation_of(algebra::to_tensor(sheared()));
+  const Mat3 P = algebra::to_eigen(body.material->stress(X, {}));
+  for (size_t a = 0; a < T.size(); ++a)
+    EXPECT_LT((T[a] + P * body.graph.boundary_area[a]).norm(), 1e-11 * P.norm() / 16) << a;
+}
+
+TEST_P(CellVolumes, KeepMomenta) {
+  const Displacements u = noisy(affine(body.graph, sheared()), 0.03);
+  const auto T = body.forces(u);
+  StaticBody without(mesh, GetParam().method, 0.49, false);
+  const auto nodal = without.forces(u);
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  double size = 0;
+  for (size_t a = 0; a < T.size(); ++a) {
+    force += T[a];
+    size += T[a].norm();
+  }
+  EXPECT_LT(force.norm(), 1e-14 * size);
+  // of the pressure of cells alone: a second body whose cells carry another modulus
+  StaticBody softer(mesh, GetParam().method, 0.45, true);
+  const auto soft = softer.forces(u);
+  for (size_t a = 0; a < T.size(); ++a)
+    moment += (body.graph.X[a] + u[a]).cross(T[a] - soft[a]);
+  EXPECT_LT(moment.norm(), 1e-13 * size);
+}
+
+// The force is the derivative of the energy: -dE = sum T . du for any small change.
+TEST_P(CellVolumes, ForceIsTheDerivativeOfTheEnergy) {
+  const Displacements u = noisy(affine(body.graph, sheared()), 0.02);
+  const Displacements direction = noisy(Displacements(u.size(), Vec3::Zero()), 1);
+  const auto T = body.forces(u);
+  double expected = 0;
+  for (size_t a = 0; a < u.size(); ++a)
+    expected -= T[a].dot(direction[a]);
+  const auto energy = [&](double step) {
+    Displacements moved = u;
+    for (size_t a = 0; a < u.size(); ++a)
+      moved[a] += step * direction[a];
+    return body.energy(moved);
+  };
+  const double h = 1e-5;
+  const double slope = (8 * (energy(h) - energy(-h)) - (energy(2 * h) - energy(-2 * h))) / (12 * h);
+  EXPECT_NEAR(slope, expected, 1e-8 * std::abs(expected));
+}
+
+enum class Support { rollers, none };
+
+/// Least eigenvalue of the second variation of the energy over the nodal volumes, with the sides
+/// between rollers or free, in units of mu/h^2. Motions of a free rigid body are not counted.
+double least_stiffness(StaticBody& body, double J, Support support) {
+  const Displacements u = affine(body.graph, std::cbrt(J) * Mat3::Identity());
+  std::vector<std::pair<size_t, int>> moves;  // node, component
+  const double spacing = 1 / (std::cbrt(static_cast<double>(u.size())) - 1);
+  for (size_t a = 0; a < u.size(); ++a) {
+    for (int i = 0; i < 3; ++i) {
+      const bool on_side = std::abs(std::abs(body.graph.X[a][i] - 0.5) - 0.5) < 1e-9;
+      if (support == Support::none || !on_side) moves.emplace_back(a, i);
+    }
+  }
+  const auto n = static_cast<Eigen::Index>(moves.size());
+  Eigen::MatrixXd K(n, n);
+  const double step = 1e-6;
+  for (Eigen::Index q = 0; q < n; ++q) {
+    const auto [b, j] = moves[static_cast<size_t>(q)];
+    Displacements plus = u, minus = u;
+    plus[b][j] += step;
+    minus[b][j] -= step;
+    const auto up = body.forces(plus), down = body.forces(minus);
+    for (Eigen::Index p = 0; p < n; ++p) {
+      const auto [a, i] = moves[static_cast<size_t>(p)];
+      K(p, q) = -(up[a][i] - down[a][i]) / (2 * step) /
+                std::sqrt(body.graph.Omega[a] * body.graph.Omega[b]);
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (K + K.transpose()));
+  return solver.eigenvalues()[support == Support::none ? 6 : 0] * spacing * spacing;
+}
+
+struct Mould {
+  meshes::CellType type;
+  double moved;
+  const char* method;
+  double nu, J;
+};
+void PrintTo(const Mould& m, std::ostream* out) {
+  *out << m.method << ", type " << static_cast<int>(m.type) << ", moved " << m.moved << ", nu "
+       << m.nu << ", J " << m.J;
+}
+class UniformPressure : public testing::TestWithParam<Mould> {};
+INSTANTIATE_TEST_SUITE_P(
+    All,
+    UniformPressure,
+    testing::Values(Mould{hexahedron, 0, "sph", 0.49, 0.95},
+                    Mould{hexahedron, 0, "sph", 0.49, 0.8},
+                    Mould{hexahedron, 0, "sph", 0.499, 0.95},
+                    Mould{hexahedron, 0.3, "sph", 0.49, 0.8},
+                    Mould{hexahedron, 0.3, "sph", 0.499, 0.6},
+                    Mould{hexahedron, 0.3, "fvm", 0.499, 0.6},
+                    Mould{tetrahedron, 0, "fvm", 0.499, 0.6},
+                    Mould{tetrahedron, 0.2, "fvm", 0.4999, 0.9}));
+
+TEST_P(UniformPressure, IsAStrictMinimumInAMould) {
+  const Mould& m = GetParam();
+  const meshes::Mesh mesh = block(m.type, m.moved);
+  StaticBody cells(mesh, m.method, m.nu, true);
+  const double at_rest = least_stiffness(cells, 1, Support::rollers);
+  EXPECT_GT(at_rest, 0);
+  EXPECT_GT(least_stiffness(cells, m.J, Support::rollers), 0.5 * at_rest);
+}
+
+// Six motions of a rigid body and no other without force.
+TEST_P(UniformPressure, LeavesAFreeBodyAtRestStable) {
+  const Mould& m = GetParam();
+  StaticBody cells(block(m.type, m.moved, 3), m.method, m.nu, true);
+  EXPECT_GT(least_stiffness(cells, 1, Support::none), 1e-4);
+}
+
+// What volumes of cells are there for: with J of the nodes these bodies turn inside out.
+TEST(NodalPressure, IsNoMinimumWhereDerivativesDoNotCommute) {
+  StaticBody sph(block(hexahedron, 0), "sph", 0.49, false);
+  EXPECT_LT(least_stiffness(sph, 0.8, Support::rollers), -0.5);
+  StaticBody tetrahedra(block(tetrahedron, 0), "fvm", 0.499, false);
+  EXPECT_LT(least_stiffness(tetrahedra, 0.95, Support::rollers), 0);
+  // and where they do it is
+  StaticBody lattice(block(hexahedron, 0), "fvm", 0.499, false);
+  EXPECT_GT(least_stiffness(lattice, 0.6, Support::rollers),
+            0.5 * least_stiffness(lattice, 1, Support::rollers));
+}
+
+}  // namespace
+}  // namespace diptych
