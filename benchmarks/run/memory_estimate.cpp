@@ -31,6 +31,8 @@ constexpr double of_plane = 0.64;        ///< of the nodes of 3-D
 constexpr double of_mixed = 48;          ///< stored pair
 constexpr double exact_impedance = 200;  ///< a node
 constexpr double cell_bytes = 30;
+constexpr double volume_corner = 70;  ///< of a cell that carries pressure
+constexpr double volume_node = 60;    ///< of a node of such
 constexpr double class_pair = 650;  ///< of rows that stand for many
 
 struct Lattice {
@@ -65,6 +67,11 @@ bool is_simplex(const std::string& element) {
 double simplices_of_cell(const cases::MeshCase& mesh) {
   if (!is_simplex(mesh.element)) return 1;
   return cases::dimension_of(mesh) == 3 ? 6 : 2;
+}
+
+double corners_of_cell(const cases::MeshCase& mesh) {
+  const int d = cases::dimension_of(mesh);
+  return is_simplex(mesh.element) ? d + 1 : std::ldexp(1, d);
 }
 
 /// Directed pairs that share an edge, or a cell where `all`.
@@ -180,15 +187,23 @@ double particle_pairs(const Lattice& lattice, const Support& support) {
 
 /// Bytes of a run on so many nodes, cells and pairs.
 /// @param n_class_pairs  pairs of the rows that stand for all others; 0: every row for itself
-double bytes_of(const cases::Case& setup, const MemoryEstimate& size, double n_class_pairs) {
+double bytes_of(const cases::Case& setup,
+                const std::string& method,
+                const MemoryEstimate& size,
+                double n_class_pairs) {
   const cases::SchemeCase& scheme = setup.scheme;
   const Costs& costs = scheme.precision == "single" ? in_single : in_double;
   double node = costs.node + costs.branch * static_cast<double>(setup.material.branches.size()) +
                 (scheme.impedance == "exact" ? exact_impedance : 0);
   if (cases::dimension_of(setup.mesh) == 2) node *= of_plane;
   const double stored = scheme.precision == "mixed" ? of_mixed : costs.stored_pair;
+  const bool commutes = method != "sph" && !is_simplex(setup.mesh.element) &&
+                        setup.mesh.perturbation == 0 && setup.fvm.stencil != "integral";
+  const bool has_volumes = scheme.volumes == "cells" || (scheme.volumes == "auto" && !commutes);
+  const double corners = size.cells * corners_of_cell(setup.mesh);
+  const double volumes = has_volumes ? volume_corner * corners + volume_node * size.nodes : 0;
   const double geometry = n_class_pairs > 0 ? class_pair * n_class_pairs : stored * size.pairs;
-  return node * size.nodes + cell_bytes * size.cells + costs.pair * size.pairs + geometry;
+  return volumes + node * size.nodes + cell_bytes * size.cells + costs.pair * size.pairs + geometry;
 }
 
 /// Rows of a lattice differ within this many nodes of the boundary: C_ab holds what corrects both
@@ -260,7 +275,7 @@ MemoryEstimate estimate_memory(const cases::Case& setup, const std::string& meth
   }
   const double n_class_pairs =
       is_regular ? classes_of(lattice, radius) * size.pairs / size.nodes : 0;
-  size.bytes = bytes_of(setup, size, n_class_pairs);
+  size.bytes = bytes_of(setup, method, size, n_class_pairs);
   return size;
 }
 
@@ -282,7 +297,7 @@ MemoryEstimate estimate_memory(const cases::Case& setup,
                                                            : of_boxes * reach_of(setup.fvm);
     size.pairs = size.nodes * around;
   }
-  size.bytes = bytes_of(setup, size, 0);
+  size.bytes = bytes_of(setup, method, size, 0);
   return size;
 }
 

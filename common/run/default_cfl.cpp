@@ -28,11 +28,9 @@ ElasticRatios ratios_of(const cases::MaterialCase& m, double volumetric) {
 }
 
 /// What leapfrog takes of its limit at most, where the fastest and the most damped modes meet.
-constexpr double leapfrog_share = 0.95;
+constexpr double leapfrog_share = 0.85;
 
-/// Of the step at which the dissipation alone turns unstable. For leapfrog, stable where
-/// (dt omega)^2/4 + dt d/2 < 1, it leaves what dt omega = 0.92 takes, 0.21, even were the same mode
-/// the fastest and the most damped.
+/// Of the step at which the dissipation alone turns unstable.
 constexpr double dissipation_share = 0.8;
 
 }  // namespace

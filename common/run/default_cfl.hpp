@@ -8,7 +8,7 @@
 /// omega is that of the elastic operator of the body itself, all components together, with the
 /// volumes of cells where these carry the pressure. The regions in which SSP-RK3 and SSPRK(4,3) are
 /// stable hold the whole rectangle of the two bounds. With leapfrog the largest
-/// eigenvalue of dt^2/4 K + dt/2 D stays below 0.95, which counts where the fastest and the most
+/// eigenvalue of dt^2/4 K + dt/2 D stays below 0.85, which counts where the fastest and the most
 /// damped modes are the same (free corners of operators that sum by parts). During the run it
 /// follows the wave speeds as the graph bound does. A slope limiter counts by its greatest
 /// strength. Measured limits and errors: benchmarks/README.md. Test:

@@ -1,10 +1,12 @@
 #pragma once
 /// Volumes of nodes made of the volumes of deformed cells, and the forces of a pressure in them
 /// (notes 3.9):
-///   V_a = sum_cells share_ca V_c(x),   J_a = V_a / V_a(X),
-///   T_b = -sum_a U'(J_a) dV_a/dx_b = -sum_c q_c dV_c/dx_b,   q_c = sum_a share_ca U'(J_a).
-/// The force is the derivative of sum_a V_a(X) U(J_a), so momentum, angular momentum and energy are
-/// kept by construction, and sum_a V_a is the volume that the boundary encloses. Sums of nodes have
+///   V_a = sum_cells share_ca V_c(x),   J = M (V / V(X)),   M = (1 + alpha) I - alpha S,
+///   T_b = -sum_c q_c dV_c/dx_b,   q_c = sum_a share_ca (M U'(J))_a,
+/// S the mean over the cells of a node of the mean over the nodes of a cell: M takes back what the
+/// means of V have smoothed. The force is the derivative of sum_a V_a(X) U(J_a), so momentum,
+/// angular momentum and energy are kept by construction, and sum_a V_a(X) J_a is the volume that
+/// the boundary encloses. Sums of nodes have
 /// a fixed order: the same bits for every number of threads. Test:
 /// tests/common/scheme/volumes_test.cpp
 
@@ -25,13 +27,26 @@ class MaterialModel;
 template <int Dim>
 struct Body;
 
-/// Cells with the same number of corners, eight to a block.
+/// Cells with the same number of corners, eight to a block, ordered by the segment of nodes that
+/// their lowest corner is in. No cell reaches farther than into the next segment, so the forces of
+/// every second segment can be added up at the same time.
 struct CellGroup {
   int n_corners = 0;
   std::int64_t n_blocks = 0;
-  std::int64_t first_slot = 0;  ///< a slot is a corner of a cell: [block][corner][8], all groups
-  algebra::AlignedArray<std::int32_t> corner;  ///< [slots of the group] nodes
+  std::int64_t first_cell = 0;                 ///< of all groups, whole blocks
+  std::vector<std::int64_t> segment;           ///< [n_segments + 1] blocks
+  algebra::AlignedArray<std::int32_t> corner;  ///< [n_blocks][n_corners][8] nodes
   algebra::AlignedArray<double> share;         ///< the same; empty where all are 1/n_corners
+  algebra::AlignedArray<double> volume;        ///< [n_blocks][8] m^Dim, undeformed
+};
+
+/// The cells around each node: block of eight nodes by block, the k-th of each side by side, padded
+/// with a cell that holds nothing.
+struct CellsOfNodes {
+  algebra::AlignedArray<std::int64_t> first;  ///< [n_blocks + 1] eights
+  algebra::AlignedArray<std::int32_t> cell;   ///< [eights][8]
+  algebra::AlignedArray<double> share;        ///< [eights][8]; empty where all are the same
+  double equal_share = 0;
 };
 
 template <int Dim>
@@ -54,28 +69,31 @@ class CellVolumes {
   /// body's velocities in the place of a change of displacement. For the frequencies of set-up.
   void add_linear_forces(Body<Dim>& body, double modulus);
 
-  /// J_a = V_a / V_a(X)  [n_nodes]
+  /// J of the nodes by the volumes of cells  [n_nodes]
   std::vector<double> ratios(const Body<Dim>& body) const;
 
  private:
   using Array = algebra::AlignedArray<double>;
   void put_positions(const Body<Dim>& body, Array& x) const;
-  /// Volumes of all corners, or their rates of change.
+  /// Volumes of all cells, or their rates of change.
   /// @param rate  [n_nodes][4] m/s, or null
   void put_volumes(const Array& x, const double* rate, Array& volume) const;
-  double sum_at(std::int64_t a, const Array& volume) const;
+  /// V_a / V_a(X), or its rate, of the volumes of cells.
+  void put_ratios(const Array& volume, Array& ratio) const;
+  /// values <- M values.  @param of_cells  [n_cells + 8] of no more use
+  void sharpen(Array& values, Array& of_cells) const;
   void sum_forces(Body<Dim>& body);
+  void list_cells_of_nodes(const VolumeCells& cells, const std::vector<std::int64_t>& place);
 
   std::vector<CellGroup> groups_;
-  std::int64_t n_nodes_ = 0, n_slots_ = 0;
-  std::vector<std::int64_t> row_;   ///< [n_nodes + 1] into slot_
-  std::vector<std::int32_t> slot_;  ///< of each node, ascending
-  Array V_0_;                       ///< [n_nodes] m^Dim
+  CellsOfNodes around_;
+  std::int64_t n_nodes_ = 0, n_cells_ = 0, n_segments_ = 0;  ///< cells: whole blocks
+  Array V_0_, inverse_V_0_;                                  ///< [n_nodes, padded] m^Dim
   // of a sweep
   Array x_;         ///< [n_nodes][4] m, deformed positions
-  Array volume_;    ///< [n_slots] m^Dim
+  Array of_cells_;  ///< [n_cells + 8] m^Dim
   Array pressure_;  ///< [n_nodes, padded] U'(J_a)  [Pa]
-  Array force_;     ///< [n_slots / 8][Dim][8] N
+  Array force_;     ///< [n_nodes, padded][4] N
 };
 
 extern template class CellVolumes<2>;
