@@ -9,6 +9,7 @@
 #include "common/cases/reader.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/run/solver.hpp"
+#include "common/time/step_begin.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,11 +53,14 @@ struct Option {
   std::vector<std::string> overrides;
   int n_branches = 0;
   Work work = Work::stage;
+  int n = 4;  ///< steps, rows or sets of fields that are timed together
 };
 
 std::vector<Option> options() {
   const std::string linear = "scheme.reconstruction=linear";
   const std::vector<std::string> mooney{"material.model=mooney-rivlin", "material.zeta_ratio=0.5"};
+  const std::vector<std::string> leapfrog{"time.integrator=leapfrog"};
+  constexpr int between_copies = time::StepBegin<3>::period;  // of what a step begins with
   const auto with = [](std::vector<std::string> all, const std::string& more) {
     all.push_back(more);
     return all;
@@ -81,7 +85,11 @@ std::vector<Option> options() {
       {"3 branches, on Mooney-Rivlin", "Mooney-Rivlin", mooney, 3},
       {"1 branch with budget", "1 branch, on Mooney-Rivlin",
        with(mooney, "scheme.energy_budget=true"), 1},
-      {"leapfrog", "", {"time.integrator=leapfrog"}},
+      {"no retries", "", {"time.max_retries=0"}},
+      {"no retries, 1 branch", "1 branch, on Mooney-Rivlin", with(mooney, "time.max_retries=0"), 1},
+      {"leapfrog", "", leapfrog, 0, Work::stage, between_copies},
+      {"no retries, leapfrog", "leapfrog", with(leapfrog, "time.max_retries=0"), 0, Work::stage,
+       between_copies},
       {"history row (each)", "", {}, 0, Work::balance},
       {"fields for a frame (each)", "", {}, 0, Work::snapshot}};
 }
@@ -96,8 +104,7 @@ std::string text_of(int dimension, int cells) {
 }
 
 /// Seconds of one stage, history row or set of fields.
-double measured(run::Solver& solver, Work work) {
-  constexpr int n = 4;
+double measured(run::Solver& solver, Work work, int n) {
   const double start = probes::seconds(1);
   for (int i = 0; i < n; ++i) {
     if (work == Work::balance) {
@@ -134,7 +141,7 @@ std::vector<double> column(const std::string& method,
   for (int round = 0; round < rounds && !interrupt_requested(); ++round) {
     status.show(fmt::format("{}: round {} of {}", name, round + 1, rounds));
     for (size_t i = 0; i < all.size(); ++i)
-      least[i] = std::min(least[i], measured(*solvers[i], all[i].work));
+      least[i] = std::min(least[i], measured(*solvers[i], all[i].work, all[i].n));
   }
   for (double& seconds : least)
     seconds *= 1e9 / static_cast<double>(graphs.begin()->second.n_nodes());

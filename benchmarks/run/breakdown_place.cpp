@@ -33,7 +33,7 @@ io::RunFailure failure_of(const base::BreakdownError& error,
                           const scheme::PairGraph& graph,
                           std::int64_t step,
                           const std::vector<std::int32_t>& order) {
-  const std::int64_t node = broken_node(solver.snapshot());
+  const std::int64_t node = error.node() ? *error.node() : broken_node(solver.snapshot());
   const auto a = static_cast<size_t>(node);
   const algebra::Vec3& X = graph.X[a];
   return {renumbered(error.what(), node, order[a]),

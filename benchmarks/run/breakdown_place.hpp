@@ -11,9 +11,8 @@
 
 namespace diptych::harness {
 
-/// Message, time, step, node and place of a breakdown: the node is the first one that is not finite
-/// or has J <= 0, or else, where the time step has collapsed or a guard has stopped the run, that
-/// of least J.
+/// Message, time, step, node and place of a breakdown: the node is that of the message, or else,
+/// where a guard has stopped the run, the first one that is not finite, or that of least J.
 /// @param step   that it broke down in, or after which a guard stopped it
 /// @param order  [node] its number in the user's mesh, which the message has as well
 io::RunFailure failure_of(const base::BreakdownError& error,

@@ -38,13 +38,15 @@ CaseObservers::CaseObservers(const cases::Case& setup,
       history_(*scene.solver, probes_, cells_),
       steps_(*scene.solver, probes_),
       exact_(setup, scene.graph, *scene.solver, probes_),
-      progress_(setup, options, history_) {
+      progress_(setup, options, history_),
+      involution_guard_(*scene.solver, setup.guards.involution) {
   if (options.scales) scales_.emplace(scene.graph);
   if (options.shapes)
     shapes_.emplace(scene.mesh.mesh, static_cast<size_t>(setup.output.frames) + 1);
   if (setup.guards.inverted_cells == "stop") cell_guard_.emplace(cells_);
   if (setup.scheme.energy_budget) {
-    energy_guard_.emplace(history_, setup.guards.energy_residual, energy_of_rounding(setup, scene));
+    energy_guard_.emplace(scene.solver->balance(), setup.guards.energy_residual,
+                          energy_of_rounding(setup, scene));
   }
 }
 
@@ -71,6 +73,7 @@ std::vector<run::Observer*> CaseObservers::all() {
   all.push_back(&progress_);
   // last: what they stop at has been written
   if (energy_guard_) all.push_back(&*energy_guard_);
+  all.push_back(&involution_guard_);
   if (cell_guard_) all.push_back(&*cell_guard_);
   return all;
 }

@@ -13,6 +13,7 @@
 #include "common/run/observers/field_scales.hpp"
 #include "common/run/observers/fields.hpp"
 #include "common/run/observers/history.hpp"
+#include "common/run/observers/involution_guard.hpp"
 #include "common/run/observers/step_probes.hpp"
 #include "meshes/deformed_cells.hpp"
 
@@ -34,6 +35,8 @@ class CaseObservers {
   void open();
   /// In the order in which they are to be told.
   std::vector<run::Observer*> all();
+  /// Path and time [s] of the last frame of fields; an empty path where there is none.
+  io::FrameEntry last_frame() const { return fields_ ? fields_->last_frame() : io::FrameEntry{}; }
   /// Moves what was taken down, and what it comes to for the summary, into the result.
   void give(RunResult& result);
   /// field: size of the error at each node at the last output time
@@ -57,6 +60,7 @@ class CaseObservers {
   std::optional<ShapeRecorder> shapes_;
   std::optional<run::CellGuard> cell_guard_;
   std::optional<run::EnergyGuard> energy_guard_;
+  run::InvolutionGuard involution_guard_;
 };
 
 }  // namespace diptych::harness

@@ -21,8 +21,9 @@ class ProgressObserver : public run::Observer {
                       options_.quiet, options_.schedule);
   }
   void after_step(const run::StepReport& step) override {
+    rejected_ += step.rejected;
     if (progress_->due())
-      progress_->show(step.time, step.step, step.dt, history_.energy_residual());
+      progress_->show(step.time, step.step, step.dt, history_.energy_residual(), rejected_);
   }
   void end(run::Ending) override { progress_.reset(); }
 
@@ -31,6 +32,7 @@ class ProgressObserver : public run::Observer {
   const RunOptions& options_;
   const run::History& history_;
   std::optional<Progress> progress_;
+  std::int64_t rejected_ = 0;
 };
 
 }  // namespace diptych::harness

@@ -143,6 +143,10 @@ void CaseRun::note_breakdown() {
   s.status = run::status_of(run::Ending::breakdown);
   s.failure = failure_of(*simulation_->breakdown(), *scene_->solver, scene_->graph,
                          simulation_->totals().begun, scene_->mesh.order);
+  const io::FrameEntry frame = observers_->last_frame();
+  if (frame.path.empty()) return;
+  s.failure->message += fmt::format("\n  the last state that was kept, of time {:.6g} s, is in {}",
+                                    frame.time, frame.path);
 }
 
 /// What the run cost.
@@ -151,6 +155,7 @@ void CaseRun::measure() {
   if (simulation_) {
     const run::StepTotals& totals = simulation_->totals();
     s.steps = totals.steps;
+    s.rejected_steps = totals.rejected;
     s.dt_min = totals.dt_min;
     s.dt_max = totals.dt_max;
     s.min_jacobian = totals.least_J;

@@ -43,6 +43,10 @@ std::string run_table(const io::RunSummary& s) {
       "({} {})\n",
       s.steps, s.integrator, s.dt_min, s.dt_max, s.loop_seconds, s.nanoseconds_per_node_stage,
       s.threads, s.threads == 1 ? "thread" : "threads");
+  if (s.rejected_steps > 0) {
+    text += fmt::format("  {} {} rejected and made again with half the size\n", s.rejected_steps,
+                        s.rejected_steps == 1 ? "attempt at a step was" : "attempts at steps were");
+  }
   if (!s.errors.empty()) {
     text += "  relative L2 errors:";
     for (const auto& [name, norms] : s.errors)

@@ -47,6 +47,7 @@ std::string progress_line(const ProgressState& s, size_t width) {
                         {number, 4},
                         {fmt::format("  {:3.0f} %", 100 * s.time / s.end_time), 0},
                         {fmt::format("  step {}", s.step), 2},
+                        {s.rejected > 0 ? fmt::format(", {} rejected", s.rejected) : "", 2},
                         {fmt::format("  dt {:.3g} s", s.dt), 1},
                         {fmt::format("  t {:.4g} of {:.4g} s", s.time, s.end_time), 0},
                         {left, 0},
@@ -80,10 +81,12 @@ bool Progress::due() const {
   return !quiet_ && seconds_since(last_) > pause_;
 }
 
-void Progress::show(double time, std::int64_t step, double dt, double energy_residual) {
+void Progress::show(
+    double time, std::int64_t step, double dt, double energy_residual, std::int64_t rejected) {
   const double fraction = time / end_time_, elapsed = seconds_since(start_);
   const double left = fraction > 0 ? elapsed * (1 - fraction) / fraction : 0;
-  ProgressState state{label_, 1, 1, time, end_time_, step, dt, energy_residual, left, std::nullopt};
+  ProgressState state{label_,       1,       1, time, end_time_, step, dt, energy_residual, left,
+                      std::nullopt, rejected};
   if (schedule_ != nullptr && schedule_->n_runs() > 1) {
     state.run = schedule_->current() + 1;
     state.n_runs = schedule_->n_runs();

@@ -23,11 +23,12 @@ struct ProgressState {
   double energy_residual = 0;  ///< relative
   double seconds_left = 0;     ///< of the run
   std::optional<double> command_seconds_left;
+  std::int64_t rejected = 0;  ///< steps, made again with half the size
 };
 
 /// "fvm level 2, run 2 of 6   45 %  step 900  dt 2e-05 s  t 0.13 of 0.3 s  12 s left, all runs 3
-/// min 20 s  energy residual 1.0e-05". Where that is too long dt goes, then step, residual and
-/// number.
+/// min 20 s  energy residual 1.0e-05", and "2 rejected" behind the step where there were such.
+/// Where that is too long dt goes, then step, residual and number.
 /// @param width  columns there are; 0: any number
 std::string progress_line(const ProgressState& state, size_t width);
 
@@ -39,7 +40,8 @@ class Progress {
   ~Progress();
   /// Whether the next show() would print: the caller then works out the energy residual.
   bool due() const;
-  void show(double time, std::int64_t step, double dt, double energy_residual);
+  void show(
+      double time, std::int64_t step, double dt, double energy_residual, std::int64_t rejected);
   /// Ends the line on a terminal.
   void finish();
 

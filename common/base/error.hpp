@@ -2,6 +2,8 @@
 /// Errors and exit codes. Four kinds, never mixed: wrong input, broken physics, environment, and
 /// (asserts apart) a bound that was not met. Each carries the process's exit code.
 
+#include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -35,6 +37,14 @@ class InputError : public Error {
 class BreakdownError : public Error {
  public:
   explicit BreakdownError(const std::string& message) : Error(ExitCode::breakdown, message) {}
+  /// @param node  that the message calls "at node NODE"
+  BreakdownError(const std::string& message, std::int64_t node)
+      : Error(ExitCode::breakdown, message), node_(node) {}
+  /// Number of the solver, where the message names one.
+  const std::optional<std::int64_t>& node() const { return node_; }
+
+ private:
+  std::optional<std::int64_t> node_;
 };
 
 class EnvironmentError : public Error {

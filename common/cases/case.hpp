@@ -80,11 +80,14 @@ struct TimeCase {
   double cfl = 0;                ///< fraction of the graph bound; 0: default of the integrator
   std::string speeds = "exact";  ///< of the time step: exact, bound or linearised
   std::int64_t max_steps = 0;    ///< 0: none
+  int max_retries = 5;           ///< of one step, each with half its size
 };
 
 /// [guards]
 struct GuardsCase {
-  double energy_residual = 0.1;         ///< > 0, share of the largest energy so far
+  double energy_residual = 0.01;        ///< > 0, share of the largest energy so far
+  double involution = 0.01;             ///< > 0, |H - cof F| and |J - det F|
+  double least_step = 1e-7;             ///< > 0, share of the first step
   std::string inverted_cells = "stop";  ///< stop or warn
 };
 
@@ -134,7 +137,7 @@ struct SchemeCase {
 /// [sph]
 struct SphCase {
   std::string kernel = "cubic-spline";
-  double kappa = 1.2;   ///< h_a = kappa Omega_a^(1/d)
+  double kappa = 1.2;   ///< h_a = kappa (Omega_a / filled part of the angle)^(1/d)
   bool closure = true;  ///< repair of the closure, notes 3.3
 };
 

@@ -181,15 +181,16 @@ FieldWriter::FieldWriter(std::string directory, const VisualMesh& mesh)
   file.publish();
 }
 
-void FieldWriter::write(double time,
-                        std::span<const NodeField> fields,
-                        std::span<const NamedValue> values) {
+std::string FieldWriter::write(double time,
+                               std::span<const NodeField> fields,
+                               std::span<const NamedValue> values) {
   if (!std::isfinite(time) || (!times_.empty() && time <= times_.back())) {
     throw std::logic_error(fmt::format("frames must follow in time: {} after {}", time,
                                        times_.empty() ? 0.0 : times_.back()));
   }
   const fs::path folder(directory_);
-  Hdf5File file = Hdf5File::create((folder / frame_name(times_.size())).string());
+  const std::string path = (folder / frame_name(times_.size())).string();
+  Hdf5File file = Hdf5File::create(path);
   write_counts(file, n_points_, n_cells_, n_connectivity_);
   for (const char* shared : {"Points", "Connectivity", "Offsets", "Types"}) {
     file.link(in_root(shared), mesh_file, in_root(shared));
@@ -214,6 +215,7 @@ void FieldWriter::write(double time,
   file.publish();
   times_.push_back(time);
   write_file_atomically((folder / series_file).string(), series_json(times_));
+  return path;
 }
 
 NodeField read_field(const std::string& frame_path, const std::string& name) {

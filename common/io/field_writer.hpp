@@ -35,10 +35,10 @@ class FieldWriter {
   /// Writes DIR/mesh.hdf. @throws base::EnvironmentError
   FieldWriter(std::string directory, const VisualMesh& mesh);
   /// Writes DIR/frame_NNNN.hdf (fields as float32; field data "time" and the values) and refreshes
-  /// run.hdf.series.
-  void write(double time,
-             std::span<const NodeField> fields,
-             std::span<const NamedValue> values = {});
+  /// run.hdf.series. @return path of the frame
+  std::string write(double time,
+                    std::span<const NodeField> fields,
+                    std::span<const NamedValue> values = {});
 
  private:
   std::string directory_;

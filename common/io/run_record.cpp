@@ -194,6 +194,7 @@ void read_size_and_cost(const Section& file, RunSummary& summary) {
   summary.unknowns_per_node = file.small_count("unknowns_per_node");
   summary.steps = file.large_count("steps");
   summary.stages = file.large_count("stages");
+  summary.rejected_steps = file.large_count("rejected_steps");
   summary.threads = file.small_count("threads");
   summary.ranks = file.small_count("ranks");
   summary.setup_seconds = file.number("setup_seconds");
@@ -291,6 +292,7 @@ std::string to_json(const RunSummary& summary) {
       {"unknowns_per_node", summary.unknowns_per_node},
       {"steps", summary.steps},
       {"stages", summary.stages},
+      {"rejected_steps", summary.rejected_steps},
       {"threads", summary.threads},
       {"ranks", summary.ranks},
       {"precision", summary.precision},

@@ -58,6 +58,7 @@ struct RunSummary {
   std::int64_t nodes = 0, pairs = 0;
   int unknowns_per_node = 0;
   std::int64_t steps = 0, stages = 0;
+  std::int64_t rejected_steps = 0;  ///< attempts that failed and were made again with half the size
   int threads = 1, ranks = 1;
   std::string precision = "double", integrator;
   std::string status = "done";  ///< running, done, step limit, interrupted, breakdown, failed
@@ -92,7 +93,8 @@ struct RunSummary {
   Provenance provenance;
 };
 
-/// JSON text with the key names of the contract: method, case, level, ..., dt{min,max},
+/// JSON text with the key names of the contract: method, case, level, ..., steps, stages,
+/// rejected_steps, ..., dt{min,max},
 /// errors{field{l1,l2,linf}}, energy{...}, momentum{linear_drift,angular_drift}, involution{H,J},
 /// min_jacobian, cells{least_J,most_inverted,inverted_from}, state_hash, provenance{...}; where the
 /// run was not finished, failure{message,time,step,node,place}.

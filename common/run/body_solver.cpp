@@ -6,20 +6,37 @@
 #include "common/scheme/body/health.hpp"
 #include "common/scheme/budget/balance.hpp"
 
-#include <cmath>
+#include <fmt/format.h>
 
 namespace diptych::run {
+
+namespace {
+
+/// For the message of a step that has failed for good.
+std::string remark_on(int rejected) {
+  if (rejected == 0) return "";
+  return fmt::format(
+      "so it ended after {} {} with half the step each time; time.max_retries allows "
+      "more",
+      rejected, rejected == 1 ? "retry" : "retries");
+}
+
+}  // namespace
 
 template <int Dim>
 BodySolver<Dim>::BodySolver(time::MovingBody<Dim> moving,
                             const cases::InitialCase& initial,
                             double kappa_f,
-                            std::shared_ptr<exact::KnownState> known)
-    : moving_(std::move(moving)), known_(std::move(known)) {
+                            std::shared_ptr<exact::KnownState> known,
+                            int max_retries)
+    : moving_(std::move(moving)),
+      known_(std::move(known)),
+      begin_(moving_),
+      max_retries_(max_retries) {
   set_initial_state(initial, kappa_f, moving_.body);
   moving_.boundary.constrain(moving_.body, 0);
   moving_.sweeps.strain_rates(moving_.body, {}, nullptr, 0);
-  check_health(0);
+  if (!time::is_sound(moving_)) throw scheme::breakdown_error(moving_.body, 0, 0, 0, "");
   if (moving_.integrator.is_leapfrog()) time::begin_leapfrog(moving_);
   moving_.initial_angular_momentum = balance().angular_momentum;
 }
@@ -27,19 +44,17 @@ BodySolver<Dim>::BodySolver(time::MovingBody<Dim> moving,
 template <int Dim>
 StepReport BodySolver<Dim>::step(double t_limit) {
   time::Clock& clock = moving_.clock;
-  const double dt = moving_.integrator.is_leapfrog() ? time::leapfrog_step(moving_, t_limit)
-                                                     : time::ssp_step(moving_, t_limit);
-  clock.time = t_limit - (clock.time + dt) <= 1e-12 * dt ? t_limit : clock.time + dt;
-  ++clock.step;
-  return {clock.step, clock.time, dt, check_health(dt)};
-}
-
-template <int Dim>
-double BodySolver<Dim>::check_health(double dt) const {
-  const double least = moving_.sweeps.least_J();
-  if (least > 0) return least;
-  throw base::BreakdownError(
-      scheme::breakdown_report(moving_.body, moving_.clock.step, moving_.clock.time, dt));
+  if (max_retries_ > 0) begin_.keep(moving_, t_limit);
+  for (int rejected = 0;; ++rejected) {
+    const double dt = time::attempt_step(moving_, t_limit);
+    if (time::is_sound(moving_))
+      return {clock.step, clock.time, dt, moving_.sweeps.least_J(), rejected};
+    const base::BreakdownError error = scheme::breakdown_error(
+        moving_.body, clock.step + 1, clock.time + dt, dt, remark_on(rejected));
+    if (max_retries_ > 0) begin_.restore(moving_);
+    if (rejected == max_retries_) throw error;
+    begin_.shorten(moving_, dt / 2);
+  }
 }
 
 template <int Dim>

@@ -3,21 +3,24 @@
 
 #include "common/exact/manufactured/manufactured_solution.hpp"
 #include "common/run/solver.hpp"
-#include "common/time/moving_body.hpp"
+#include "common/time/step_begin.hpp"
 
 namespace diptych::run {
 
 template <int Dim>
 class BodySolver : public Solver {
  public:
-  /// @param known  exact state of a manufactured solution, or null
+  /// @param known        exact state of a manufactured solution, or null
+  /// @param max_retries  of one step
   BodySolver(time::MovingBody<Dim> moving,
              const cases::InitialCase& initial,
              double kappa_f,
-             std::shared_ptr<exact::KnownState> known);
+             std::shared_ptr<exact::KnownState> known,
+             int max_retries);
 
   StepReport step(double t_limit) override;
   double time() const override { return moving_.clock.time; }
+  bool is_sound() const override { return time::is_sound(moving_); }
   scheme::Balance balance() const override;
   const scheme::Audit& audit() const override { return moving_.audit; }
   Snapshot snapshot() const override;
@@ -30,15 +33,17 @@ class BodySolver : public Solver {
   int evaluations_per_step() const override { return moving_.integrator.evaluations_per_step(); }
   Mat3 equilibrium_stress(const Mat3& F) const override;
   std::optional<Snapshot> exact_state(double t) const override;
-  std::int64_t bytes() const override { return moving_.body.bytes() + moving_.body.graph.bytes(); }
+  std::int64_t bytes() const override {
+    return moving_.body.bytes() + moving_.body.graph.bytes() + begin_.bytes();
+  }
 
  private:
   const scheme::MaterialModel& material() const { return moving_.sweeps.material(); }
-  /// @return least J  @throws base::BreakdownError with the first bad node
-  double check_health(double dt) const;
 
   time::MovingBody<Dim> moving_;
   std::shared_ptr<exact::KnownState> known_;
+  time::StepBegin<Dim> begin_;
+  int max_retries_;
 };
 
 extern template class BodySolver<2>;

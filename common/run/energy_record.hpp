@@ -30,6 +30,9 @@ class EnergyRecord {
     return e;
   }
 
+  /// The largest energy so far, to which residuals are relative  [J]
+  double scale() const { return scale_; }
+
  private:
   double initial_, scale_;
 };

@@ -105,8 +105,10 @@ std::unique_ptr<Solver> solver_in(const cases::Case& setup, const scheme::PairGr
   scheme::Sweeps<Dim> sweeps(body, material, options, geometric_rate);
   time::MovingBody<Dim> moving{std::move(body), std::move(sweeps), std::move(boundary), integrator,
                                setup.scheme.angular_momentum_projection};
+  moving.clock.least_share = setup.guards.least_step;
   return std::make_unique<BodySolver<Dim>>(std::move(moving), setup.initial,
-                                           setup.scheme.face_correction, std::move(known));
+                                           setup.scheme.face_correction, std::move(known),
+                                           setup.time.max_retries);
 }
 
 }  // namespace

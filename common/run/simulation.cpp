@@ -35,6 +35,7 @@ Ending Simulation::run() {
     ending = advance();
   } catch (const base::BreakdownError& error) {
     breakdown_ = error;
+    keep_last_state();
   }
   for (Observer* observer : observers_)
     observer->end(ending);
@@ -44,44 +45,65 @@ Ending Simulation::run() {
 Ending Simulation::advance() {
   for (Observer* observer : observers_)
     observer->begin();
-  StepReport last;
-  output(last);
+  output();
   totals_.dt_min = totals_.least_J = 1e300;
   const int n = setup_.output.frames;
   const double end = setup_.time.end;
   for (int frame = 1; frame <= n; ++frame) {
-    last = advance_to(frame == n ? end : end * frame / n, last);
-    output(last);
+    advance_to(frame == n ? end : end * frame / n);
+    output();
     if (is_at_step_limit() && solver_.time() < end) return Ending::step_limit;
     if (is_interrupted()) return Ending::interrupted;
   }
   return Ending::done;
 }
 
-StepReport Simulation::advance_to(double limit, StepReport last) {
+void Simulation::advance_to(double limit) {
   using Clock = std::chrono::steady_clock;
   while (solver_.time() < limit && !is_interrupted()) {
     const auto start = Clock::now();
     totals_.begun = totals_.steps + 1;
-    last = solver_.step(limit);
+    last_ = solver_.step(limit);
     totals_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
-    totals_.steps = last.step;
-    totals_.dt_min = std::min(totals_.dt_min, last.dt);
-    totals_.dt_max = std::max(totals_.dt_max, last.dt);
-    totals_.least_J = std::min(totals_.least_J, last.least_J);
+    totals_.steps = last_.step;
+    totals_.dt_min = std::min(totals_.dt_min, last_.dt);
+    totals_.dt_max = std::max(totals_.dt_max, last_.dt);
+    totals_.least_J = std::min(totals_.least_J, last_.least_J);
+    totals_.rejected += last_.rejected;
     for (Observer* observer : observers_)
-      observer->after_step(last);
+      observer->after_step(last_);
     if (is_at_step_limit()) break;
+    if (last_.step >= judged_ + check_period && solver_.time() < limit) check();
   }
-  return last;
 }
 
-void Simulation::output(const StepReport& step) {
+void Simulation::check() {
+  judged_ = last_.step;
+  const scheme::Balance balance = solver_.balance();
+  for (Observer* observer : observers_)
+    observer->at_check({last_, balance, solver_.audit()});
+}
+
+void Simulation::output() {
+  judged_ = last_.step;
   const scheme::Balance balance = solver_.balance();
   state_ = solver_.snapshot();  // also where an observer ends the run with this output
-  const Output output{n_outputs_++, step, balance, solver_.audit(), state_};
+  const Output output{n_outputs_++, last_, balance, solver_.audit(), state_};
   for (Observer* observer : observers_)
     observer->at_output(output);
+}
+
+void Simulation::keep_last_state() {
+  if (!solver_.is_sound() || solver_.time() == state_.time) return;  // the last output has it
+  const scheme::Balance balance = solver_.balance();
+  state_ = solver_.snapshot();
+  const Output output{n_outputs_++, last_, balance, solver_.audit(), state_};
+  try {
+    for (Observer* observer : observers_)
+      observer->at_breakdown(output);
+  } catch (const base::BreakdownError&) {
+    // a field that is not finite has no frame; the first breakdown is the one to tell
+  }
 }
 
 bool Simulation::is_at_step_limit() const {

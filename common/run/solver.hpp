@@ -24,16 +24,21 @@ struct StepReport {
   double time = 0;        ///< s, at its end
   double dt = 0;          ///< s
   double least_J = 1;
+  int rejected = 0;  ///< attempts at it before, with larger steps
 };
 
 class Solver {
  public:
   virtual ~Solver() = default;
   /// Makes one step, not beyond t_limit; time left is divided into equal steps where it is less
-  /// than a few. @throws base::BreakdownError where J <= 0, a value is not finite, or dt has
-  /// collapsed
+  /// than a few. A step that ends with J <= 0 or a value that is not finite is tried again from its
+  /// beginning with half its size. @throws base::BreakdownError where that has failed
+  /// time.max_retries times, or dt has collapsed. The body then is as it was before the step, but
+  /// with no retries as it has ended up
   virtual StepReport step(double t_limit) = 0;
   virtual double time() const = 0;
+  /// Whether all nodes have J > 0 and finite rates.
+  virtual bool is_sound() const = 0;
   virtual scheme::Balance balance() const = 0;
   virtual const scheme::Audit& audit() const = 0;
   virtual Snapshot snapshot() const = 0;

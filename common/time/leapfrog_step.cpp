@@ -2,7 +2,7 @@
 
 #include "common/parallel/for_chunks.hpp"
 #include "common/scheme/sweeps/update.hpp"
-#include "common/time/moving_body.hpp"
+#include "common/time/step_begin.hpp"
 
 namespace diptych::time {
 
@@ -39,6 +39,7 @@ double leapfrog_step(MovingBody<Dim>& moving, double t_limit) {
   exchange(body);
   const Rule rule = moving.has_branches() ? Rule::linear : Rule::frozen;
   sweeps.strain_rates(body, {rule, true, dt, sweeps.material().branches()}, nullptr, dt);
+  if (!is_sound(moving)) return dt;
   rate.viscous_dissipation += 0.5 * sweeps.viscous_power();
   exchange(body);
   sweeps.sum_forces(body, true);

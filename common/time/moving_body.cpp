@@ -13,12 +13,14 @@ template <int Dim>
 double choose_dt(MovingBody<Dim>& moving, double t_limit) {
   Clock& clock = moving.clock;
   const double left = t_limit - clock.time;
-  const double n = std::ceil(left / moving.sweeps.stable_dt() * (1 - 1e-12));
+  const double stable = moving.sweeps.stable_dt();  // may be no number: then it is kept
+  const double bound = clock.largest_dt < stable ? clock.largest_dt : stable;
+  const double n = std::ceil(left / bound * (1 - 1e-12));
   const double dt = left / std::max(n, 1.0);
   if (clock.step == 0) clock.first_dt = dt;
-  if (!(dt > 1e-7 * clock.first_dt) || clock.time + dt == clock.time) {
-    throw base::BreakdownError(
-        scheme::collapse_report(moving.body, clock.step + 1, clock.time, dt, clock.first_dt));
+  if (!(dt > clock.least_share * clock.first_dt) || clock.time + dt == clock.time) {
+    throw scheme::collapse_error(moving.body, clock.step + 1, clock.time, dt, clock.first_dt,
+                                 clock.least_share);
   }
   return dt;
 }

@@ -6,13 +6,17 @@
 #include "common/scheme/sweeps/sweeps.hpp"
 #include "common/time/integrator.hpp"
 
+#include <limits>
+
 namespace diptych::time {
 
 /// Where a run stands, and how large its steps were.
 struct Clock {
-  double time = 0;        ///< s
-  std::int64_t step = 0;  ///< steps made
-  double first_dt = 0;    ///< s
+  double time = 0;                                              ///< s
+  std::int64_t step = 0;                                        ///< steps made
+  double first_dt = 0;                                          ///< s
+  double largest_dt = std::numeric_limits<double>::infinity();  ///< s, after a rejected step
+  double least_share = 1e-7;  ///< of the first step: a smaller one is a breakdown
 };
 
 template <int Dim>
@@ -30,12 +34,14 @@ struct MovingBody {
   bool has_branches() const { return body.options.n_branches > 0; }
 };
 
-/// One step of Shu and Osher's form of a Runge-Kutta scheme (notes 5.5). @return its size  [s]
+/// One step of Shu and Osher's form of a Runge-Kutta scheme (notes 5.5), or the stages of it up to
+/// the first state that is not sound (step_begin.hpp). @return its size  [s]
 /// @throws base::BreakdownError where the step has collapsed
 template <int Dim>
 double ssp_step(MovingBody<Dim>& moving, double t_limit);
 
-/// One step of leapfrog, kick, drift, kick (notes 5.4). @return its size  [s]
+/// One step of leapfrog, kick, drift, kick (notes 5.4), or as far as the drift where that ends in a
+/// state that is not sound. @return its size  [s]
 /// @throws base::BreakdownError where the step has collapsed
 template <int Dim>
 double leapfrog_step(MovingBody<Dim>& moving, double t_limit);
@@ -46,8 +52,8 @@ void begin_leapfrog(MovingBody<Dim>& moving);
 
 // ---- parts that both steps share
 
-/// The step to make now: stable, and the time left divided evenly.
-/// @throws base::BreakdownError where it is below 1e-7 of the first
+/// The step to make now: stable, no larger than a rejection allows, and the time left divided
+/// evenly. @throws base::BreakdownError where it is below the least share of the first
 template <int Dim>
 double choose_dt(MovingBody<Dim>& moving, double t_limit);
 

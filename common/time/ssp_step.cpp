@@ -3,7 +3,7 @@
 
 #include "common/parallel/for_chunks.hpp"
 #include "common/scheme/sweeps/update.hpp"
-#include "common/time/moving_body.hpp"
+#include "common/time/step_begin.hpp"
 
 namespace diptych::time {
 
@@ -54,6 +54,7 @@ double ssp_step(MovingBody<Dim>& moving, double t_limit) {
     if (last) keep_angular_momentum(moving);
     exchange(body);
     sweeps.strain_rates(body, relaxation_of(moving, now.time * dt, last), &stage, 0);  // (18b-d)
+    if (!is_sound(moving)) break;
     fraction = now.time;
   }
   return dt;

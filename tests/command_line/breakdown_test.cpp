@@ -1,6 +1,7 @@
 /// A method that breaks down does not take the other one with it: who, when, where and why stand
 /// in the table, in the report and in the summary, and the program ends with code 3.
 
+#include "common/io/field_writer.hpp"
 #include "common/io/run_record.hpp"
 #include "tests/command_line/program.hpp"
 
@@ -14,18 +15,23 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::AllOf;
+using testing::Each;
+using testing::Gt;
 using testing::HasSubstr;
 using testing::Not;
 using tests::diptych;
 using tests::Folder;
 using tests::text_of;
 
-/// A cube that is thrown at itself, `a` times its length a second; the exact velocity is there so
-/// that errors have something to be measured against.
+/// A cube that is thrown at itself, `a` times its length a second, too fast for the budgets of so
+/// few steps; the exact velocity is there so that errors have something to be measured against. No
+/// step is tried again.
 std::string crushed(const std::string& a) {
   return "[mesh]\nelement = \"hexahedron\"\ncells = [4, 4, 4]\n"
          "[material]\nmodel = \"neo-hookean\"\ndensity = 1100\nyoungs_modulus = 17e6\n"
-         "poissons_ratio = 0.3\n[time]\nend = 4e-3\n[exact]\nvelocity = [\"-1\", \"0\", \"0\"]\n"
+         "poissons_ratio = 0.3\n[time]\nend = 4e-3\nmax_retries = 0\n[guards]\nenergy_residual = "
+         "0.1\n"
+         "involution = 1\n[exact]\nvelocity = [\"-1\", \"0\", \"0\"]\n"
          "[initial]\nvelocity = [\"-" +
          a + "*x\", \"0\", \"0\"]\n";
 }
@@ -59,6 +65,29 @@ TEST(Breakdown, OfBothMethodsIsToldOfBoth) {
                   AllOf(HasSubstr("broke down on level 0"), HasSubstr("J &lt;= 0")));
     }
   }
+}
+
+/// What is left of a step that has failed for good is the state before it, to be looked at.
+TEST(Breakdown, LeavesTheLastGoodState) {
+  const Folder folder;
+  folder.write("case.toml", crushed("3e4"));
+  const auto outcome = diptych(
+      folder, "run case.toml --quiet --threads 1 --method fvm --out out --set time.max_retries=5");
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.text;
+  const fs::path run = folder.path() / "out" / "fvm";
+  const auto summary = summary_in(run);
+  EXPECT_GT(summary.rejected_steps, 0);
+  ASSERT_TRUE(summary.failure && summary.failure->step && summary.failure->node);
+  EXPECT_EQ(*summary.failure->step, summary.steps + 1);
+  const auto frames = io::read_series((run / "run.hdf.series").string());
+  ASSERT_EQ(frames.size(), 2u) << "that of t = 0 and that of the last good state";
+  EXPECT_EQ(frames.back().time, summary.end_time);
+  EXPECT_GT(summary.end_time, 0);
+  EXPECT_THAT(summary.failure->message, HasSubstr("is in out/fvm/frame_0001.hdf"));
+  EXPECT_THAT(io::read_field(frames.back().path, "jacobian [-]").values, Each(Gt(0)));
+  const auto rows = io::history_from_csv(text_of(run / "history.csv"), "history.csv");
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows.back().time, summary.end_time);
 }
 
 /// At this speed SPH breaks down on level 0 and on no other; the finite volumes never do.

@@ -32,6 +32,13 @@ TEST(ProgressLine, OfALogHasEverything) {
             "3 min 20 s left, all runs 2 h 5 min  energy residual 1.2e-05");
 }
 
+TEST(ProgressLine, CountsRejectedStepsWhereThereAreSuch) {
+  ProgressState s = state();
+  s.rejected = 7;
+  EXPECT_THAT(progress_line(s, 0), HasSubstr("  step 123456, 7 rejected  dt 2.35e-05 s"));
+  EXPECT_THAT(progress_line(s, 99), Not(HasSubstr("rejected"))) << "goes with the step";
+}
+
 TEST(ProgressLine, FitsTheTerminal) {
   for (size_t width = 20; width <= 200; ++width)
     EXPECT_LE(progress_line(state(), width).size(), width);

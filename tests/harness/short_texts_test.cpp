@@ -34,6 +34,15 @@ TEST(ShortTexts, OfDurations) {
   EXPECT_EQ(duration_text(-3), "unknown time");
 }
 
+TEST(ShortTexts, OfRejectedSteps) {
+  io::RunSummary summary;
+  EXPECT_THAT(run_table(summary), testing::Not(HasSubstr("made again")));
+  summary.rejected_steps = 1;
+  EXPECT_THAT(run_table(summary), HasSubstr("1 attempt at a step was rejected and made again"));
+  summary.rejected_steps = 12;
+  EXPECT_THAT(run_table(summary), HasSubstr("12 attempts at steps were rejected and made again"));
+}
+
 TEST(ShortTexts, OfARunWithoutASingleStep) {
   io::RunSummary summary;
   summary.status = "interrupted";

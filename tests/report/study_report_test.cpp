@@ -104,6 +104,13 @@ TEST(StudyReport, ShowsOrdersAndProvenance) {
   EXPECT_THAT(html, AllOf(HasSubstr("0.1.0 c0ffee"), HasSubstr("d00d"), HasSubstr("tau_C = 2 ms")));
 }
 
+TEST(StudyReport, CountsRejectedStepsWhereThereAreSuch) {
+  StudyReport study = sample_study();
+  EXPECT_THAT(page(study), Not(HasSubstr("rejected)")));
+  study.runs.front().rejected_steps = 4;
+  EXPECT_THAT(page(study), HasSubstr("<td>60 (4 rejected)</td>"));
+}
+
 TEST(StudyReport, BeginsWithAVerdictThatNamesABreakdownFirst) {
   StudyReport study = sample_study();
   std::string html = page(study);

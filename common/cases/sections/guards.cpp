@@ -7,11 +7,22 @@ SectionEntry guards_section() {
       SectionKeys<GuardsCase>("guards")
           .key("energy_residual", &GuardsCase::energy_residual,
                {"-", above(0),
-                "The run is stopped (code 3) where, at an output instant, the energy that the "
-                "budget does not account for is more than this share of the largest energy so "
-                "far. Not judged in the first 20 steps of a body at rest. Needs "
+                "The run is stopped (code 3) where the energy that the budget does not account for "
+                "is more than this share of the largest energy so far, at an output instant or "
+                "50 steps after the last judgement. Not judged in the first 20 steps of a body at "
+                "rest. Needs "
                 "scheme.energy_budget.",
                 "0.02"})
+          .key("involution", &GuardsCase::involution,
+               {"-", above(0),
+                "The run is stopped (code 3) where |H - cof F| or |J - det F| of a node is more "
+                "than this, at the same steps.",
+                "0.05"})
+          .key("least_step", &GuardsCase::least_step,
+               {"-", Range{0, 1, false, true},
+                "The run is stopped (code 3) where the time step has become less than this share "
+                "of the first one.",
+                "1e-4"})
           .key("inverted_cells", &GuardsCase::inverted_cells,
                one_of({"stop", "warn"},
                       "What happens where, at an output instant, cells of the deformed mesh are "

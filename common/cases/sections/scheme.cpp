@@ -48,7 +48,10 @@ SectionKeys<SchemeCase> scheme_keys() {
                   "pairs too; half the memory, some 1e-5 of error relative to the largest speed.",
                   "\"single\""))
       .key("angular_momentum_projection", &SchemeCase::angular_momentum_projection,
-           {"-", any, "Correct the forces so that angular momentum is conserved.", "true"})
+           {"-", any,
+            "Correct the velocities of a free body after each step so that its angular momentum is "
+            "conserved.",
+            "true"})
       .key("energy_budget", &SchemeCase::energy_budget,
            {"-", any, "Sum up stored, dissipated and external work.", "false"});
 }

@@ -7,15 +7,19 @@ SectionEntry sph_section() {
       SectionKeys<SphCase>("sph")
           .key("kernel", &SphCase::kernel,
                as(KeyType::name, {"-", any, "Smoothing kernel.", "\"wendland-c2\""}))
-          .key("kappa", &SphCase::kappa,
-               {"-", between(0.5, 4),
-                "Smoothing length over particle spacing: h_a = kappa Omega_a^(1/d). 1.2 suits any "
-                "nodes; 0.75, one spacing and its diagonals, is cheaper and errs less on regular "
-                "ones.",
-                "0.75"})
+          .key(
+              "kappa", &SphCase::kappa,
+              {"-", between(0.5, 4),
+               "Smoothing length over particle spacing: h_a = kappa (Omega_a/theta_a)^(1/d), "
+               "theta_a "
+               "the part of the angle around the node that the body fills, 1 inside. 1.2 suits any "
+               "nodes; 0.75, one spacing and its diagonals, is cheaper and errs less on regular "
+               "ones.",
+               "0.75"})
           .key("closure", &SphCase::closure,
                {"-", any,
-                "Repair of the boundary so that the pseudo-areas close (sum C_ab = -gamma_a).",
+                "Repair of the pseudo-areas at the boundary so that they close: "
+                "-1/2 sum_b (C_ab - C_ba) = A_a N_a.",
                 "false"});
   return plain_section({"sph", false, "What only SPH needs."}, keys, &Case::sph);
 }

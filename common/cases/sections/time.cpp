@@ -28,7 +28,14 @@ SectionEntry time_section() {
                       "the undeformed body (a stiffening body can then exceed the stable step).",
                       "\"bound\""))
           .key("max_steps", &TimeCase::max_steps,
-               {"-", at_least(0), "The run stops after so many steps; 0 sets no limit.", "1000"});
+               {"-", at_least(0), "The run stops after so many steps; 0 sets no limit.", "1000"})
+          .key("max_retries", &TimeCase::max_retries,
+               {"-", between(0, 40),
+                "A step that ends with J <= 0 or a value that is not finite is made again from its "
+                "beginning with half the size, so many times in a row; then the run is stopped "
+                "(code 3) and the state before the step is kept. The steps after grow back by 1.2 "
+                "each. 0: no retry, and no state kept, which saves a copy (diptych cost).",
+                "0"});
   return plain_section({"time", false, "How long and how."}, keys, &Case::time);
 }
 

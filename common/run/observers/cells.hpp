@@ -25,6 +25,7 @@ class Cells : public Observer {
   explicit Cells(std::function<LeastCell(std::span<const algebra::Vec3> u)> least);
 
   void at_output(const Output& output) override;
+  void at_breakdown(const Output& output) override { at_output(output); }
   /// At the last output time.
   const LeastCell& now() const { return now_; }
   /// Least of all output times, most inverted ones, the first time with such.

@@ -63,7 +63,8 @@ void Fields::at_output(const Output& output) {
   const std::vector<double>& probes = history_.rows().back().probes;
   for (size_t k = 0; k < probes.size(); ++k)
     values.push_back({columns_[k], probes[k]});
-  writer_.write(output.state.time, frame_fields(output.state, order_), values);
+  last_frame_ = {writer_.write(output.state.time, frame_fields(output.state, order_), values),
+                 output.state.time};
 }
 
 }  // namespace diptych::run

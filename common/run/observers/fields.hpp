@@ -29,12 +29,16 @@ class Fields : public Observer {
          const History& history);
 
   void at_output(const Output& output) override;
+  void at_breakdown(const Output& output) override { at_output(output); }
+  /// Path of the last frame and its time [s]; empty before the first.
+  const io::FrameEntry& last_frame() const { return last_frame_; }
 
  private:
   io::FieldWriter writer_;
   const std::vector<std::int32_t>& order_;
   std::vector<std::string> columns_;
   const History& history_;
+  io::FrameEntry last_frame_;
 };
 
 }  // namespace diptych::run

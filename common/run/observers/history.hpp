@@ -26,6 +26,7 @@ class History : public Observer {
   void write_to(const std::string& path, const std::vector<std::string>& columns);
 
   void at_output(const Output& output) override;
+  void at_breakdown(const Output& output) override { at_output(output); }
   /// The file is on the disk.
   void end(Ending ending) override;
 

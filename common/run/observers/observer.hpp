@@ -21,6 +21,13 @@ struct Output {
   const Snapshot& state;
 };
 
+/// What guards judge between output times.
+struct Check {
+  const StepReport& step;
+  const scheme::Balance& balance;
+  const scheme::Audit& audit;
+};
+
 /// What an observer throws ends the simulation, a base::BreakdownError as a breakdown.
 class Observer {
  public:
@@ -32,9 +39,14 @@ class Observer {
   /// The body is at t = 0; its output comes next.
   virtual void begin() {}
   virtual void after_step(const StepReport& step) { (void)step; }
+  /// After every Simulation::check_period steps without an output.
+  virtual void at_check(const Check& check) { (void)check; }
   /// At t = 0, at the instants of [output], and where the simulation ends before its time, but for
   /// a breakdown.
   virtual void at_output(const Output& output) { (void)output; }
+  /// A step or a check has broken down since the last output: the last good state, that before the
+  /// step or that of the check. Not judged any more.
+  virtual void at_breakdown(const Output& output) { (void)output; }
   /// Nothing more will come. Not told where an error other than a breakdown ends the simulation.
   virtual void end(Ending ending) { (void)ending; }
 };

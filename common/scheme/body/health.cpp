@@ -45,7 +45,8 @@ NodeState node_state(const Body<Dim>& body, std::int64_t a) {
 }  // namespace
 
 template <int Dim>
-std::string breakdown_report(const Body<Dim>& body, std::int64_t step, double time, double dt) {
+base::BreakdownError breakdown_error(
+    const Body<Dim>& body, std::int64_t step, double time, double dt, const std::string& remark) {
   std::int64_t first = -1, n_bad = 0;
   for (std::int64_t a = 0; a < body.n_owned; ++a) {
     const NodeState s = node_state(body, a);
@@ -53,23 +54,35 @@ std::string breakdown_report(const Body<Dim>& body, std::int64_t step, double ti
     if (first < 0) first = a;
     ++n_bad;
   }
-  if (first < 0) return "a value that is not a number appeared between two checks";
+  const std::string end = remark.empty() ? "" : "\n  " + remark;
+  if (first < 0) {
+    return base::BreakdownError(
+        fmt::format("a value that is not a number appeared between two "
+                    "checks, step {}, time {:.6g} s, dt {:.4g} s{}",
+                    step, time, dt, end));
+  }
   const NodeState s = node_state(body, first);
   const Vec3& X = body.X[first];
-  return fmt::format(
+  const std::string message = fmt::format(
       "{} at node {} ({} of {} nodes are bad), step {}, time {:.6g} s, dt {:.4g} s\n"
-      "  X = {} m, x = {} m, v = {} m/s\n  F = [{}], J = {:.6g}\n  {}",
+      "  X = {} m, x = {} m, v = {} m/s\n  F = [{}], J = {:.6g}\n  {}{}",
       s.is_finite() ? "J <= 0" : "a value is not finite", first, n_bad, body.n_owned, step, time,
       dt, place(X), place(X + s.u), place(s.v), rows_of(s.F), s.J,
       s.is_finite()
           ? "the material was turned inside out there: refine, load more slowly, or use the "
             "sign-preserving limiter"
-          : "the scheme became unstable: use a smaller time.cfl, or look at the first frames");
+          : "the scheme became unstable: use a smaller time.cfl, or look at the first frames",
+      end);
+  return {message, first};
 }
 
 template <int Dim>
-std::string collapse_report(
-    const Body<Dim>& body, std::int64_t step, double time, double dt, double first_dt) {
+base::BreakdownError collapse_error(const Body<Dim>& body,
+                                    std::int64_t step,
+                                    double time,
+                                    double dt,
+                                    double first_dt,
+                                    double least_share) {
   std::int64_t worst = 0;
   double least = 1e300;
   for (std::int64_t a = 0; a < body.n_owned; ++a) {
@@ -79,15 +92,21 @@ std::string collapse_report(
       worst = a;
     }
   }
-  return fmt::format(
+  const std::string message = fmt::format(
       "the stable time step collapsed to {:.4g} s (first step {:.4g} s) at step {}, time {:.6g} s; "
-      "least J = {:.4g} at node {}, X = {} m",
-      dt, first_dt, step, time, least, worst, place(body.X[worst]));
+      "least J = {:.4g} at node {}, X = {} m\n"
+      "  wave speeds grow without bound where a body is crushed or torn: refine, load more slowly, "
+      "or use the sign-preserving limiter; guards.least_step ({:g} of the first step) says what is "
+      "too small",
+      dt, first_dt, step, time, least, worst, place(body.X[worst]), least_share);
+  return {message, worst};
 }
 
-#define DIPTYCH_INSTANTIATE(Dim)                                                         \
-  template std::string breakdown_report(const Body<Dim>&, std::int64_t, double, double); \
-  template std::string collapse_report(const Body<Dim>&, std::int64_t, double, double, double);
+#define DIPTYCH_INSTANTIATE(Dim)                                                                \
+  template base::BreakdownError breakdown_error(const Body<Dim>&, std::int64_t, double, double, \
+                                                const std::string&);                            \
+  template base::BreakdownError collapse_error(const Body<Dim>&, std::int64_t, double, double,  \
+                                               double, double);
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)
 #undef DIPTYCH_INSTANTIATE

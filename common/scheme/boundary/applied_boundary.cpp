@@ -140,6 +140,24 @@ std::vector<Vec3> AppliedBoundary::prescribed(double t) const {
   return values;
 }
 
+void AppliedBoundary::keep(BoundaryState& state) const {
+  state.step_begin = step_begin_;
+  state.step = step_;
+  state.in_step = in_step_;
+  state.target = target_;
+  if (loads_depend_on_time_) state.forces = forces_;  // others never change
+  walls_.keep(state.closed);
+}
+
+void AppliedBoundary::restore(const BoundaryState& state) {
+  step_begin_ = state.step_begin;
+  step_ = state.step;
+  in_step_ = state.in_step;
+  target_ = state.target;
+  if (loads_depend_on_time_) forces_ = state.forces;
+  walls_.restore(state.closed);
+}
+
 void AppliedBoundary::begin_step(double t, double dt) {
   const bool goes_on = t == step_begin_ + step_ && !in_step_[4].empty();
   step_begin_ = t;

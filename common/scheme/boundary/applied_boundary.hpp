@@ -21,6 +21,15 @@ struct PlacedCondition {
   const BoundaryPatch* patch = nullptr;  ///< of the graph, which outlives this
 };
 
+/// What a boundary knows of a step, apart from the state of the body.
+struct BoundaryState {
+  double step_begin = 0, step = 0;           ///< s
+  std::array<std::vector<Vec3>, 5> in_step;  ///< m/s, prescribed
+  std::vector<Vec3> target;                  ///< m/s, prescribed, as last applied
+  std::vector<Vec3> forces;                  ///< N, loads, as last applied
+  std::vector<char> closed;                  ///< [nodes at walls]
+};
+
 class AppliedBoundary {
  public:
   AppliedBoundary() = default;
@@ -36,6 +45,10 @@ class AppliedBoundary {
 
   bool has_constraints() const { return !constrained_.empty() || !walls_.empty(); }
   bool has_loads() const { return !loaded_nodes_.empty(); }
+
+  /// Copies what the boundary knows into `state`, and back.
+  void keep(BoundaryState& state) const;
+  void restore(const BoundaryState& state);
 
   /// Prescribed velocities of the step from t to t + dt: five instants, a quarter of it apart.
   /// Rates are those of the polynomial through them.

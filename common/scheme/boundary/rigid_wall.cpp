@@ -62,6 +62,17 @@ double WallContacts::stop(const WallNode& w, Body<Dim>& body, ConstraintAction& 
   return impulse.dot(v + 0.5 * change);
 }
 
+void WallContacts::keep(std::vector<char>& closed) const {
+  closed.resize(nodes_.size());
+  for (size_t k = 0; k < nodes_.size(); ++k)
+    closed[k] = nodes_[k].closed ? 1 : 0;
+}
+
+void WallContacts::restore(const std::vector<char>& closed) {
+  for (size_t k = 0; k < nodes_.size(); ++k)
+    nodes_[k].closed = closed[k] != 0;
+}
+
 template <int Dim>
 void WallContacts::hold(Body<Dim>& body, ConstraintAction& action) const {
   for (const WallNode& w : nodes_) {

@@ -38,6 +38,10 @@ class WallContacts {
   void add(const RigidWall& wall, const WallCandidate& candidate);
   bool empty() const { return nodes_.empty(); }
 
+  /// Copies which nodes are closed into `closed`, and back.
+  void keep(std::vector<char>& closed) const;
+  void restore(const std::vector<char>& closed);
+
   /// Within a step: closed nodes keep v_n = 0. Adds the impulse.
   template <int Dim>
   void hold(Body<Dim>& body, ConstraintAction& action) const;

@@ -65,7 +65,11 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
   if (sweep.drift != 0) drift_block(body, sweep.drift, b);
   const Deformation<Lanes> X = load_deformation(body, b);
   totals.least_J = algebra::smaller(totals.least_J, X.J);
-  totals.n_bad += X.J > 0 ? Lanes{} : Lanes{} + 1.0;  // a comparison with NaN is false
+  Lanes rates{};  // not finite where one of them is not
+  for (int k = 0; k < Dim * Dim; ++k)
+    rates += L[k];
+  const auto is_sound = (X.J > 0) & (rates - rates == 0);  // comparisons with NaN are false
+  totals.n_bad += is_sound ? Lanes{} : Lanes{} + 1.0;
   Lanes dissipation{};
   Response<Lanes> response = response_of_block(
       model, body, sweep.relaxation, X, b,

@@ -14,7 +14,7 @@ namespace diptych::scheme {
 /// What the blocks of a chunk add up.
 struct BlockTotals {
   algebra::Lanes least_J = algebra::Lanes{} + 1e300;
-  algebra::Lanes n_bad{};    ///< nodes where J > 0 does not hold
+  algebra::Lanes n_bad{};    ///< nodes without J > 0 and finite dF/dt
   double viscous_power = 0;  ///< W
 };
 
@@ -29,7 +29,7 @@ struct StrainRateSweep {
   double drift;                   ///< s, leapfrog: moves u, F, H, J by the new rates
   // results, one per chunk of parallel::for_chunks
   double* viscous_power;  ///< W
-  double* least_J;        ///< NaN where a node has not J > 0
+  double* least_J;        ///< NaN where a node has not J > 0 and finite dF/dt
 };
 
 /// The sweep over all blocks.

@@ -93,6 +93,20 @@ double Sweeps<Dim>::least_J() const {
   return least;
 }
 
+template <int Dim>
+SweepResults Sweeps<Dim>::results() const {
+  return {stable_dt_, viscous_power_, least_J_, numerical_power_, largest_rate_};
+}
+
+template <int Dim>
+void Sweeps<Dim>::set_results(const SweepResults& results) {
+  stable_dt_ = results.stable_dt;
+  viscous_power_ = results.viscous_power;
+  least_J_ = results.least_J;
+  numerical_power_ = results.numerical_power;
+  largest_rate_ = results.largest_rate;
+}
+
 template class Sweeps<2>;
 template class Sweeps<3>;
 

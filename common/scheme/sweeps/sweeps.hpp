@@ -24,6 +24,13 @@ struct SweepOptions {
   TimeStepRule time_step;
 };
 
+/// What the last sweeps summed up.
+struct SweepResults {
+  double stable_dt = 0;                               ///< s
+  std::vector<double> viscous_power, least_J;         ///< [chunk] W, -
+  std::vector<double> numerical_power, largest_rate;  ///< [chunk] W, 1/s
+};
+
 template <int Dim>
 class Sweeps {
  public:
@@ -46,8 +53,12 @@ class Sweeps {
   double stable_dt() const { return stable_dt_; }  ///< s, of the last sum_forces with_step
   double numerical_power() const;                  ///< W, of the last sum_forces
   double viscous_power() const;                    ///< W, of the last strain_rates
-  /// Of the last strain_rates; NaN where a node has not J > 0.
+  /// Of the last strain_rates; NaN where a node has not J > 0 and finite dF/dt.
   double least_J() const;
+
+  /// To go back to a state whose sweeps are not to be made again.
+  SweepResults results() const;
+  void set_results(const SweepResults& results);
 
   const MaterialModel& material() const { return *material_; }
 

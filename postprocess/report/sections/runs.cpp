@@ -15,9 +15,11 @@ using io::RunSummary;
 
 std::string cost_row(const RunSummary& run) {
   return "<tr>" + run_head(run) + cell(count_html(run.nodes)) + cell(count_html(run.pairs)) +
-         cell(count_html(run.steps)) + cell(scientific_html(run.dt_min)) +
-         cell(number_html(run.loop_seconds)) + cell(number_html(run.wall_seconds)) +
-         cell(number_html(run.nanoseconds_per_node_stage)) +
+         cell(run.rejected_steps > 0 ? fmt::format("{} ({} rejected)", count_html(run.steps),
+                                                   count_html(run.rejected_steps))
+                                     : count_html(run.steps)) +
+         cell(scientific_html(run.dt_min)) + cell(number_html(run.loop_seconds)) +
+         cell(number_html(run.wall_seconds)) + cell(number_html(run.nanoseconds_per_node_stage)) +
          cell(number_html(static_cast<double>(run.peak_rss_bytes) / 1e6)) + "</tr>\n";
 }
 

@@ -2,6 +2,9 @@
 
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
+#include "common/run/model_menu.hpp"
+#include "fvm/fvm_graph.hpp"
+#include "sph/kernels/kernel.hpp"
 
 #include <gmock/gmock.h>
 #include <set>
@@ -11,15 +14,32 @@ namespace {
 
 using testing::HasSubstr;
 
+/// Of the rooms above common/cases, which the program gives to the reader.
+const Menus& menus_above() {
+  static const Menus menus{{"material.model", run::model_menu().names()},
+                           {"sph.kernel", sph::kernels().names()},
+                           {"fvm.stencil", fvm::stencil_names()}};
+  return menus;
+}
+
+TEST(CaseKeys, HaveTheirMenuHereOrAbove) {
+  for (const auto& [path, names] : menus_above()) {
+    const Key* key = find_key(path);
+    ASSERT_NE(key, nullptr) << path;
+    EXPECT_EQ(key->type, KeyType::name) << path;
+    EXPECT_TRUE(key->menu.empty()) << path << " has two menus";
+    const std::string standard = key->standard.substr(1, key->standard.size() - 2);
+    EXPECT_THAT(names, testing::Contains(standard)) << path;
+  }
+}
+
 TEST(CaseKeys, AreUniqueAndComplete) {
   std::set<std::string_view> paths;
   for (const Key& key : keys()) {
     EXPECT_TRUE(paths.insert(key.path).second) << key.path;
     EXPECT_FALSE(key.meaning.empty() || key.example.empty() || key.unit.empty()) << key.path;
     EXPECT_TRUE(!key.standard.empty() || !key.need.empty()) << key.path << ": default or need";
-    const bool has_menu_above =
-        std::set<std::string>{"material.model", "sph.kernel", "fvm.stencil"}.count(key.path) > 0;
-    EXPECT_EQ(key.type == KeyType::name, has_menu_above || !key.menu.empty()) << key.path;
+    EXPECT_EQ(key.type == KeyType::name, !names_of(key, menus_above()).empty()) << key.path;
     const size_t dot = key.path.rfind('.');
     const bool has_section =
         dot == std::string_view::npos || find_section(key.path.substr(0, dot)) != nullptr;
@@ -40,11 +60,37 @@ TEST(CaseKeys, HaveTheDefaultsOfTheStructs) {
       "shear_modulus = 1\nlame = 1\n[time]\nend = 1\n",
       "case.toml");
   EXPECT_EQ(read.mesh.generator, made.mesh.generator);
+  EXPECT_EQ(read.mesh.element, made.mesh.element);
+  EXPECT_EQ(read.mesh.lower, made.mesh.lower);
   EXPECT_EQ(read.mesh.upper, made.mesh.upper);
+  EXPECT_EQ(read.mesh.cells, made.mesh.cells);
+  EXPECT_EQ(read.mesh.perturbation, made.mesh.perturbation);
+  EXPECT_EQ(read.mesh.seed, made.mesh.seed);
+  EXPECT_EQ(read.initial.relaxed, made.initial.relaxed);
+  EXPECT_EQ(read.time.integrator, made.time.integrator);
   EXPECT_EQ(read.time.cfl, made.time.cfl);
+  EXPECT_EQ(read.time.speeds, made.time.speeds);
+  EXPECT_EQ(read.time.max_steps, made.time.max_steps);
+  EXPECT_EQ(read.time.max_retries, made.time.max_retries);
+  EXPECT_EQ(read.output.frames, made.output.frames);
+  EXPECT_EQ(read.output.fields, made.output.fields);
+  EXPECT_EQ(read.scheme.unknowns, made.scheme.unknowns);
+  EXPECT_EQ(read.scheme.reconstruction, made.scheme.reconstruction);
+  EXPECT_EQ(read.scheme.limiter, made.scheme.limiter);
+  EXPECT_EQ(read.scheme.impedance, made.scheme.impedance);
+  EXPECT_EQ(read.scheme.dissipation, made.scheme.dissipation);
+  EXPECT_EQ(read.scheme.face_correction, made.scheme.face_correction);
+  EXPECT_EQ(read.scheme.precision, made.scheme.precision);
+  EXPECT_EQ(read.scheme.angular_momentum_projection, made.scheme.angular_momentum_projection);
   EXPECT_EQ(read.scheme.energy_budget, made.scheme.energy_budget);
+  EXPECT_EQ(read.sph.kernel, made.sph.kernel);
+  EXPECT_EQ(read.sph.kappa, made.sph.kappa);
+  EXPECT_EQ(read.sph.closure, made.sph.closure);
+  EXPECT_EQ(read.fvm.stencil, made.fvm.stencil);
   EXPECT_EQ(read.fvm.order, made.fvm.order);
   EXPECT_EQ(read.guards.energy_residual, made.guards.energy_residual);
+  EXPECT_EQ(read.guards.involution, made.guards.involution);
+  EXPECT_EQ(read.guards.least_step, made.guards.least_step);
   EXPECT_EQ(read.guards.inverted_cells, made.guards.inverted_cells);
 }
 
