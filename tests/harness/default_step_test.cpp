@@ -23,6 +23,11 @@ void PrintTo(const StepCase& c, std::ostream* out) {
 
 class DefaultStep : public testing::TestWithParam<StepCase> {};
 
+/// Leapfrog's step has a cap for the error in time: dt omega = 0.92 of 2.
+double least_share(const StepCase& c) {
+  return std::string(c.integrator) == "leapfrog" ? 0.45 : 0.6;
+}
+
 TEST_P(DefaultStep, IsBetween06And095OfTheLimit) {
   const StepCase& c = GetParam();
   const std::string cells = c.cells;
@@ -37,7 +42,7 @@ TEST_P(DefaultStep, IsBetween06And095OfTheLimit) {
       stability_limit(setup, graph, c.integrator, {.n_steps = 400, .precision = 0.02},
                       [](double, const StabilityTrial&) {});
   RecordProperty("ratio", std::to_string(limit.ratio()));
-  EXPECT_GT(limit.ratio(), 0.6) << limit.why;
+  EXPECT_GT(limit.ratio(), least_share(c)) << limit.why;
   EXPECT_LT(limit.ratio(), 0.95);
 }
 
@@ -60,7 +65,8 @@ INSTANTIATE_TEST_SUITE_P(Bodies,
                                          StepCase{"fvm", "[6, 6, 1]", "0.49", "ssp-rk3", ""},
                                          StepCase{"fvm", "[1, 1, 1]", "0.4999", "leapfrog", ""},
                                          StepCase{"fvm", "[4, 4, 4]", "0.3", "ssp-rk3", ""},
-                                         StepCase{"fvm", "[4, 4, 4]", "0.49", "ssp-rk43", corrected},
+                                         StepCase{"fvm", "[4, 4, 4]", "0.49", "ssp-rk43",
+                                                  corrected},
                                          StepCase{"fvm", "[4, 4, 4]", "0.3", "leapfrog", ""}));
 
 }  // namespace

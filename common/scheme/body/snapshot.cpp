@@ -38,6 +38,7 @@ Snapshot snapshot_of(const MaterialModel& material,
     s.P[k] = algebra::to_eigen(material.stress(X, branches));
     if (!cell_J.empty()) {  // the pressure of the cells in place of that of the node
       s.P[k] += (material.volumetric_stress(cell_J[a]) - material.volumetric_stress(X.J)) * s.H[k];
+      s.J[k] = cell_J[a];
     }
     for (size_t r = 0; r < n_branches; ++r) {
       s.A[r][k] = algebra::to_eigen(branches[r].A);

@@ -3,7 +3,8 @@
 /// corners are the bilinear ones of the first-order cells: with m = 1/4 sum x the flux of x through
 /// such a face is exactly 1/2 m . ((x_3 - x_1) x (x_4 - x_2)), so a cell, of any shape, has
 ///   V = 1/6 sum_faces m . ((x_3 - x_1) x (x_4 - x_2)).
-/// A triangle is a face whose fourth corner is its first. Test: tests/common/scheme/volumes_test.cpp
+/// A triangle is a face whose fourth corner is its first. Test:
+/// tests/common/scheme/volumes_test.cpp
 
 #include "common/algebra/layout.hpp"
 
@@ -61,8 +62,8 @@ DIPTYCH_INLINE Lanes cell_volume(const CellCorners<3, n>& cell, CellGradient<3, 
     for (int i = 0; i < 3; ++i) {
       e[i] = cell.x[face[2]][i] - cell.x[face[0]][i];
       f[i] = cell.x[face[3]][i] - cell.x[face[1]][i];
-      sum[i] = 0.25 * (cell.x[face[0]][i] + cell.x[face[1]][i] + cell.x[face[2]][i] +
-                       cell.x[face[3]][i]);
+      sum[i] = 0.25 *
+               (cell.x[face[0]][i] + cell.x[face[1]][i] + cell.x[face[2]][i] + cell.x[face[3]][i]);
     }
     cross(e, f, area);
 #pragma GCC unroll 3

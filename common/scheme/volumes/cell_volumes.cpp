@@ -1,11 +1,8 @@
 #include "common/scheme/volumes/cell_volumes.hpp"
 
-#include "common/algebra/gather.hpp"
-#include "common/algebra/versions.hpp"
 #include "common/base/error.hpp"
-#include "common/parallel/for_chunks.hpp"
 #include "common/scheme/body/material_model.hpp"
-#include "common/scheme/volumes/cell_shapes.hpp"
+#include "common/scheme/volumes/cell_sweeps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,259 +10,25 @@
 
 namespace diptych::scheme {
 
-using algebra::InstructionSet;
-using algebra::n_lanes;
-
 namespace {
 
-/// Part of what the means smooth that is taken back. With the face correction's argument, on a line
-/// of nodes V_a/V_a(X) is a central difference, J (1 - theta^2/6), and S is 1 - theta^2/4 (bricks) or
-/// 1 - 5 theta^2/24 (six tetrahedra to a brick); across, bricks smooth by 1 - theta^2/4 too. 4/5
-/// leaves +0.03 and -0.05 theta^2 of bricks, and nothing along the axes of tetrahedra.
-constexpr double alpha = 0.8;
-
-/// Length of a row of positions: one gather.
-constexpr int stride = 4;
-
-/// What a sweep over the cells of a group reads and writes.
-struct CellSweep {
-  const std::int32_t* corner;
-  const double* share;     ///< null: equal ones
-  const double* x;         ///< [n_nodes][4]
-  const double* rate;      ///< [n_nodes][4] or null
-  const double* nodal;     ///< [n_nodes]: pressures of the sweep of forces, what is smoothed
-  const double* volume;    ///< [n_blocks][8] undeformed
-  double* out;             ///< of the cells of the group, or [n_nodes][4] forces
-};
-
-/// Rows of x at the corners of block b, from the first corner of each cell.
-template <InstructionSet isa, int Dim, int n>
-DIPTYCH_INLINE void corners_of(const CellSweep& sweep,
-                               const double* rows,
-                               std::int64_t b,
-                               CellCorners<Dim, n>& cell) {
-  Lanes first[stride];
-#pragma GCC unroll 8
-  for (int k = 0; k < n; ++k) {
-    const std::int32_t* corner = sweep.corner + (b * n + k) * n_lanes;
-    const double* row[n_lanes];
-    for (int l = 0; l < n_lanes; ++l)
-      row[l] = rows + static_cast<std::int64_t>(stride) * corner[l];
-    Lanes x[stride];
-    algebra::gather_four<isa>(row, 0, x);
-#pragma GCC unroll 3
-    for (int i = 0; i < Dim; ++i) {
-      if (k == 0) first[i] = x[i];
-      cell.x[k][i] = x[i] - first[i];
-    }
-  }
-}
-
-template <int n>
-DIPTYCH_INLINE Lanes share_of(const CellSweep& sweep, std::int64_t b, int k) {
-  if (sweep.share == nullptr) return Lanes{} + 1.0 / n;
-  return algebra::load(sweep.share + (b * n + k) * n_lanes);
-}
-
-template <int Dim, int n>
-struct VolumeKernel {
-  template <InstructionSet isa>
-  DIPTYCH_INLINE static void run(const CellSweep& sweep, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t b = begin; b < end; ++b) {
-      CellCorners<Dim, n> cell;
-      corners_of<isa>(sweep, sweep.x, b, cell);
-      Lanes volume{};
-      if (sweep.rate == nullptr) {
-        volume = cell_volume(cell, static_cast<CellGradient<Dim, n>*>(nullptr));
-      } else {
-        CellGradient<Dim, n> gradient{};
-        cell_volume(cell, &gradient);
-        CellCorners<Dim, n> rate;
-        corners_of<isa>(sweep, sweep.rate, b, rate);
-        for (int k = 0; k < n; ++k) {
-          for (int i = 0; i < Dim; ++i)
-            volume += gradient.x[k][i] * rate.x[k][i];
-        }
-      }
-      algebra::store(sweep.out + b * n_lanes, volume);
-    }
-  }
-};
-
-/// Mean of nodal values over the corners of eight cells, by their shares.
-template <int n>
-DIPTYCH_INLINE Lanes mean_of(const CellSweep& sweep, std::int64_t b) {
-  Lanes mean{};
-#pragma GCC unroll 8
-  for (int k = 0; k < n; ++k) {
-    const std::int32_t* c = sweep.corner + (b * n + k) * n_lanes;
-    const double* p = sweep.nodal;
-    mean += share_of<n>(sweep, b, k) *
-            Lanes{p[c[0]], p[c[1]], p[c[2]], p[c[3]], p[c[4]], p[c[5]], p[c[6]], p[c[7]]};
-  }
-  return mean;
-}
-
-/// Means of nodal values over cells, times their volumes.
-template <int Dim, int n>
-struct MeanKernel {
-  template <InstructionSet isa>
-  DIPTYCH_INLINE static void run(const CellSweep& sweep, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t b = begin; b < end; ++b) {
-      const Lanes mean = mean_of<n>(sweep, b) * algebra::load(sweep.volume + b * n_lanes);
-      algebra::store(sweep.out + b * n_lanes, mean);
-    }
-  }
-};
-
-template <int Dim, int n>
-struct ForceKernel {
-  template <InstructionSet isa>
-  DIPTYCH_INLINE static void run(const CellSweep& sweep, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t b = begin; b < end; ++b) {
-      CellCorners<Dim, n> cell;
-      corners_of<isa>(sweep, sweep.x, b, cell);
-      CellGradient<Dim, n> gradient{};
-      cell_volume(cell, &gradient);
-      const Lanes q = mean_of<n>(sweep, b);
-#pragma GCC unroll 8
-      for (int k = 0; k < n; ++k) {
-        Lanes force[stride] = {};
-        for (int i = 0; i < Dim; ++i)
-          force[i] = -q * gradient.x[k][i];
-        double rows[n_lanes * stride];
-        algebra::scatter_four(force, rows, stride);
-        const std::int32_t* corner = sweep.corner + (b * n + k) * n_lanes;
-#pragma GCC unroll 8
-        for (int l = 0; l < n_lanes; ++l) {  // one by one: cells of a block share nodes
-          double* to = sweep.out + static_cast<std::int64_t>(stride) * corner[l];
-          algebra::HalfLanes sum = algebra::load_quad(to);
-          sum += algebra::load_quad(rows + l * stride);
-          __builtin_memcpy(to, &sum, sizeof sum);
-        }
-      }
-    }
-  }
-};
-
-/// Sum over the cells around the nodes of block b of share times value.
-DIPTYCH_INLINE Lanes sum_of_cells(const CellsOfNodes& around, const double* value, std::int64_t b) {
-  const auto value_at = [&](std::int64_t k) DIPTYCH_INLINE_LAMBDA {
-    const std::int32_t* c = around.cell.data() + k * n_lanes;
-    return Lanes{value[c[0]], value[c[1]], value[c[2]], value[c[3]],
-                 value[c[4]], value[c[5]], value[c[6]], value[c[7]]};
-  };
-  Lanes sum{};
-  if (around.share.size() == 0) {
-    for (std::int64_t k = around.first[b]; k < around.first[b + 1]; ++k)
-      sum += value_at(k);
-    return around.equal_share * sum;
-  }
-  for (std::int64_t k = around.first[b]; k < around.first[b + 1]; ++k)
-    sum += algebra::load(around.share.data() + k * n_lanes) * value_at(k);
-  return sum;
-}
-
-/// V_a / V_a(X) of blocks of nodes.
-struct RatioKernel {
-  template <InstructionSet>
-  DIPTYCH_INLINE static void run(const CellsOfNodes& around,
-                                 const double* of_cells,
-                                 const double* inverse_V_0,
-                                 double* ratio,
-                                 std::int64_t begin,
-                                 std::int64_t end) {
-    for (std::int64_t b = begin; b < end; ++b) {
-      const Lanes sum = sum_of_cells(around, of_cells, b);
-      algebra::store(ratio + b * n_lanes, sum * algebra::load(inverse_V_0 + b * n_lanes));
-    }
-  }
-};
-
-/// values += alpha (values - S values) of blocks of nodes.
-struct SharpenKernel {
-  template <InstructionSet>
-  DIPTYCH_INLINE static void run(const CellsOfNodes& around,
-                                 const double* of_cells,
-                                 const double* inverse_V_0,
-                                 double* values,
-                                 std::int64_t begin,
-                                 std::int64_t end) {
-    for (std::int64_t b = begin; b < end; ++b) {
-      const Lanes mean = sum_of_cells(around, of_cells, b) * algebra::load(inverse_V_0 + b * n_lanes);
-      const Lanes value = algebra::load(values + b * n_lanes);
-      algebra::store(values + b * n_lanes, value + alpha * (value - mean));
-    }
-  }
-};
-
-template <class Kernel>
-void sweep_nodes(const CellsOfNodes& around,
-                 const double* of_cells,
-                 const double* inverse_V_0,
-                 double* values) {
-  const auto run = algebra::version_here<
-      algebra::Versions<Kernel, const CellsOfNodes&, const double*, const double*, double*,
-                        std::int64_t, std::int64_t>>();
-  parallel::for_chunks(around.first.size() - 1,
-                       [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-                         run(around, of_cells, inverse_V_0, values, begin, end);
-                       });
-}
-
-/// Rows of forces of blocks of nodes, added to T and emptied.
-template <int Dim>
-struct AddRowsKernel {
-  template <InstructionSet isa>
-  DIPTYCH_INLINE static void run(double* rows,
-                                 Body<Dim>& body,
-                                 std::int64_t begin,
-                                 std::int64_t end) {
-    for (std::int64_t b = begin; b < end; ++b) {
-      double* row[n_lanes];
-      for (int l = 0; l < n_lanes; ++l)
-        row[l] = rows + (b * n_lanes + l) * stride;
-      Lanes sum[stride];
-      algebra::gather_four<isa>(row, 0, sum);
-#pragma GCC unroll 3
-      for (int i = 0; i < Dim; ++i)
-        body.T.put(b, i, body.T.get(b, i) + sum[i]);
-      __builtin_memset(row[0], 0, sizeof(double) * n_lanes * stride);
-    }
-  }
-};
-
-using CellFunction = void (*)(const CellSweep&, std::int64_t begin, std::int64_t end);
-
-template <template <int, int> class Kernel, int Dim, int n>
-CellFunction function_here() {
-  return algebra::version_here<
-      algebra::Versions<Kernel<Dim, n>, const CellSweep&, std::int64_t, std::int64_t>>();
-}
-
-template <template <int, int> class Kernel, int Dim>
-CellFunction function_of(const CellGroup& group) {
-  if constexpr (Dim == 2) {
-    return group.n_corners == 3 ? function_here<Kernel, 2, 3>() : function_here<Kernel, 2, 4>();
-  } else {
-    return group.n_corners == 4   ? function_here<Kernel, 3, 4>()
-           : group.n_corners == 6 ? function_here<Kernel, 3, 6>()
-                                  : function_here<Kernel, 3, 8>();
-  }
-}
-
-/// Over all blocks of cells, each by itself.
-template <template <int, int> class Kernel, int Dim>
-void sweep_group(const CellSweep& sweep, const CellGroup& group) {
-  const CellFunction run = function_of<Kernel, Dim>(group);
-  parallel::for_chunks(group.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-    run(sweep, begin, end);
-  });
+/// Part of what the means smooth that is taken back, so that nothing is left along a line of nodes.
+/// There V_a/V_a(X) is a central difference, 1 - theta^2/6 of J, and the mean of means S is
+/// 1 - theta^2/4 of bricks and quadrilaterals, 5/24 of six tetrahedra to a brick, 2/9 of triangles,
+/// prisms between.
+double taken_back(int dimension, int n_corners) {
+  if (dimension == 2) return n_corners == 3 ? 3.0 / 4 : 2.0 / 3;
+  return n_corners == 4 ? 4.0 / 5 : n_corners == 6 ? 0.7 : 2.0 / 3;
 }
 
 CellSweep sweep_of(const CellGroup& group) {
-  return {group.corner.data(), group.share.size() > 0 ? group.share.data() : nullptr,
-          nullptr, nullptr, nullptr, group.volume.data(), nullptr};
+  return {group.corner.data(),
+          group.share.size() > 0 ? group.share.data() : nullptr,
+          nullptr,
+          nullptr,
+          nullptr,
+          group.weight.data(),
+          nullptr};
 }
 
 /// Nodes of a segment: no cell spans more, and whole blocks.
@@ -305,7 +68,7 @@ CellGroup group_of(const VolumeCells& cells,
     group.segment.push_back(group.n_blocks);
   }
   group.corner = algebra::AlignedArray<std::int32_t>(group.n_blocks * n * n_lanes);
-  group.volume = algebra::AlignedArray<double>(group.n_blocks * n_lanes);
+  group.weight = algebra::AlignedArray<double>(group.n_blocks * n_lanes);
   if (!equal) group.share = algebra::AlignedArray<double>(group.n_blocks * n * n_lanes);
   for (std::int64_t s = 0; s < n_segments; ++s) {
     for (std::int64_t at = group.segment[s] * n * n_lanes; at < group.segment[s + 1] * n * n_lanes;
@@ -356,13 +119,17 @@ CellVolumes<Dim>::CellVolumes(const VolumeCells& cells, const std::vector<algebr
       x_[a * stride + i] = X[a][i];
   }
   put_volumes(x_, nullptr, of_cells_);
-  for (CellGroup& group : groups_) {
-    for (std::int64_t i = 0; i < group.n_blocks * n_lanes; ++i)
-      group.volume[i] = of_cells_[group.first_cell + i];
-  }
   for (std::int64_t a = 0; a < n_nodes_; ++a)
     inverse_V_0_[a] = 1;
   put_ratios(of_cells_, V_0_);
+  for (CellGroup& group : groups_) {
+    for (std::int64_t i = 0; i < group.n_blocks * n_lanes; ++i) {
+      group.weight[i] = taken_back(Dim, group.n_corners) * of_cells_[group.first_cell + i];
+      of_cells_[group.first_cell + i] = group.weight[i];
+    }
+  }
+  around_.weight = Array(pressure_.size());
+  put_ratios(of_cells_, around_.weight);
   for (std::int64_t a = 0; a < n_nodes_; ++a)
     inverse_V_0_[a] = 1 / V_0_[a];
 }
@@ -415,9 +182,9 @@ template <int Dim>
 std::int64_t CellVolumes<Dim>::bytes() const {
   std::int64_t sum = V_0_.bytes() + inverse_V_0_.bytes() + x_.bytes() + of_cells_.bytes() +
                      pressure_.bytes() + force_.bytes() + around_.first.bytes() +
-                     around_.cell.bytes() + around_.share.bytes();
+                     around_.cell.bytes() + around_.share.bytes() + around_.weight.bytes();
   for (const CellGroup& group : groups_)
-    sum += group.corner.bytes() + group.share.bytes() + group.volume.bytes();
+    sum += group.corner.bytes() + group.share.bytes() + group.weight.bytes();
   return sum;
 }
 

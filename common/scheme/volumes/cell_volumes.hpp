@@ -1,12 +1,12 @@
 #pragma once
 /// Volumes of nodes made of the volumes of deformed cells, and the forces of a pressure in them
 /// (notes 3.9):
-///   V_a = sum_cells share_ca V_c(x),   J = M (V / V(X)),   M = (1 + alpha) I - alpha S,
-///   T_b = -sum_c q_c dV_c/dx_b,   q_c = sum_a share_ca (M U'(J))_a,
-/// S the mean over the cells of a node of the mean over the nodes of a cell: M takes back what the
-/// means of V have smoothed. The force is the derivative of sum_a V_a(X) U(J_a), so momentum,
-/// angular momentum and energy are kept by construction, and sum_a V_a(X) J_a is the volume that
-/// the boundary encloses. Sums of nodes have
+///   V_a = sum_c w_ca V_c(x),   J = M (V / V(X)),
+///   (M j)_a = j_a + sum_c alpha_c w_ca V_c(X) (j_a - sum_b w_cb j_b) / V_a(X),
+///   T_b = -sum_c q_c dV_c/dx_b,   q_c = sum_a w_ca (M U'(J))_a,
+/// w_ca the share of corner a: M takes back what the means of V have smoothed. The force is the
+/// derivative of sum_a V_a(X) U(J_a), so momentum, angular momentum and energy are kept by
+/// construction, and sum_a V_a(X) J_a is the volume that the boundary encloses. Sums of nodes have
 /// a fixed order: the same bits for every number of threads. Test:
 /// tests/common/scheme/volumes_test.cpp
 
@@ -37,7 +37,7 @@ struct CellGroup {
   std::vector<std::int64_t> segment;           ///< [n_segments + 1] blocks
   algebra::AlignedArray<std::int32_t> corner;  ///< [n_blocks][n_corners][8] nodes
   algebra::AlignedArray<double> share;         ///< the same; empty where all are 1/n_corners
-  algebra::AlignedArray<double> volume;        ///< [n_blocks][8] m^Dim, undeformed
+  algebra::AlignedArray<double> weight;        ///< [n_blocks][8] m^Dim, alpha_c V_c(X)
 };
 
 /// The cells around each node: block of eight nodes by block, the k-th of each side by side, padded
@@ -47,6 +47,7 @@ struct CellsOfNodes {
   algebra::AlignedArray<std::int32_t> cell;   ///< [eights][8]
   algebra::AlignedArray<double> share;        ///< [eights][8]; empty where all are the same
   double equal_share = 0;
+  algebra::AlignedArray<double> weight;  ///< [n_nodes, padded] m^Dim, of all their cells by share
 };
 
 template <int Dim>

@@ -3,15 +3,15 @@
 /// One evaluation per step, second order without D_ab. D_ab is taken at v^{n+1/2}: it lags by half
 /// a step, an error of first order in dt times the numerical damping, on the shear wave at the
 /// default step 2 % of the error in space and less, for every relaxation time.
-/// Stable to dt omega = 2; 1.2 is 0.6 of that. The error in time of a wave that the nodes resolve is
-/// (dt omega)^2/24 of it, of the sign opposite to that in space.
+/// Stable to dt omega = 2; 0.92 keeps the error in time small beside that in space
+/// (benchmarks/README.md).
 
 #include "common/time/integrator.hpp"
 
 namespace diptych::time {
 
 Integrator leapfrog() {
-  return {.order = 2, .default_dt_omega = 1.2, .stages = {}, .gauss_relaxation = false};
+  return {.order = 2, .default_dt_omega = 0.92, .stages = {}, .gauss_relaxation = false};
 }
 
 }  // namespace diptych::time

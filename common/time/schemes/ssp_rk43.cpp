@@ -4,7 +4,7 @@
 /// Its amplification is 1 + z + z^2/2 + z^3/6 + z^4/48: stable to dt omega = 2.15 (0.54 a stage,
 /// SSP-RK3 0.58) and to dt d = 5.15 of the dissipation (1.29 a stage, SSP-RK3 0.84). So it pays
 /// where the dissipation sets the step: slope limiters, strong dissipation (benchmarks/README.md).
-/// 1.73 is the share of the limit, and the error in time, that SSP-RK3 has with 1.39.
+/// 1.73 is the share of the limit that SSP-RK3 has with 1.39.
 
 #include "common/time/integrator.hpp"
 
