@@ -28,10 +28,11 @@ Sweeps<Dim>::Sweeps(const Body<Dim>& body,
       face_(face_correction_sweeps<Dim>()),
       geometric_rate_(geometric_rate),
       undeformed_speed_(material_->undeformed_speed()),
-      viscous_power_(parallel::n_chunks_of(body.n_blocks)),
-      least_J_(viscous_power_.size()),
-      numerical_power_(viscous_power_.size()),
-      largest_rate_(viscous_power_.size()) {}
+      viscous_dissipation_(parallel::n_chunks_of(body.n_blocks)),
+      old_power_(viscous_dissipation_.size()),
+      least_J_(viscous_dissipation_.size()),
+      numerical_power_(viscous_dissipation_.size()),
+      largest_rate_(viscous_dissipation_.size()) {}
 
 template <int Dim>
 void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
@@ -69,7 +70,8 @@ void Sweeps<Dim>::strain_rates(Body<Dim>& body,
     for_blocks(body, [&](auto begin, auto end) { face_.gradients(body, begin, end); });
   }
   evaluate_strain_rates<Dim>({body, *material_, relaxation, options_.energy_budget, kappa_f, stage,
-                              drift, viscous_power_.data(), least_J_.data()});
+                              drift, viscous_dissipation_.data(), least_J_.data(),
+                              drift != 0 ? old_power_.data() : nullptr});
   if (kappa_f != 0) {
     for_blocks(body, [&](auto begin, auto end) { face_.stresses(body, kappa_f, begin, end); });
   }
@@ -81,8 +83,13 @@ double Sweeps<Dim>::numerical_power() const {
 }
 
 template <int Dim>
-double Sweeps<Dim>::viscous_power() const {
-  return parallel::sum_in_order(viscous_power_);
+double Sweeps<Dim>::old_numerical_power(double loads) const {
+  return loads - parallel::sum_in_order(old_power_);
+}
+
+template <int Dim>
+double Sweeps<Dim>::viscous_dissipation() const {
+  return parallel::sum_in_order(viscous_dissipation_);
 }
 
 template <int Dim>

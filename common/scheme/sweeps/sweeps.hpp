@@ -45,7 +45,11 @@ class Sweeps {
 
   double stable_dt() const { return stable_dt_; }  ///< s, of the last sum_forces with_step
   double numerical_power() const;                  ///< W, of the last sum_forces
-  double viscous_power() const;                    ///< W, of the last strain_rates
+  /// J, of the step that the last strain_rates ended; 0 where it ended none.
+  double viscous_dissipation() const;
+  /// W, of the D_ab of the sum_forces before the last strain_rates with drift, with the velocities
+  /// of that drift.  @param loads  power of the loads in T with them  [W]
+  double old_numerical_power(double loads) const;
   /// Of the last strain_rates; NaN where a node has not J > 0.
   double least_J() const;
 
@@ -62,7 +66,7 @@ class Sweeps {
   double undeformed_speed_;
   double stable_dt_ = 0;
   // results of the sweeps, one per chunk
-  std::vector<double> viscous_power_, least_J_, numerical_power_, largest_rate_;
+  std::vector<double> viscous_dissipation_, old_power_, least_J_, numerical_power_, largest_rate_;
 };
 
 extern template class Sweeps<2>;
