@@ -83,8 +83,9 @@ double Sweeps<Dim>::numerical_power() const {
 }
 
 template <int Dim>
-double Sweeps<Dim>::old_numerical_power(double loads) const {
-  return loads - parallel::sum_in_order(old_power_);
+double Sweeps<Dim>::old_numerical_power(const Body<Dim>& body, double loads) const {
+  const double cells = body.cells.empty() ? 0 : body.cells.power(body);
+  return loads + cells - parallel::sum_in_order(old_power_);
 }
 
 template <int Dim>

@@ -49,7 +49,7 @@ class Sweeps {
   double viscous_dissipation() const;
   /// W, of the D_ab of the sum_forces before the last strain_rates with drift, with the velocities
   /// of that drift.  @param loads  power of the loads in T with them  [W]
-  double old_numerical_power(double loads) const;
+  double old_numerical_power(const Body<Dim>& body, double loads) const;
   /// Of the last strain_rates; NaN where a node has not J > 0.
   double least_J() const;
 

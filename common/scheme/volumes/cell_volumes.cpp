@@ -312,6 +312,22 @@ void CellVolumes<Dim>::sum_forces(Body<Dim>& body) {
 }
 
 template <int Dim>
+double CellVolumes<Dim>::power(const Body<Dim>& body) const {
+  std::vector<double> parts(parallel::n_chunks_of(body.n_blocks));
+  parallel::for_chunks(body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t c) {
+    const std::int64_t last = std::min(end * n_lanes, n_nodes_);
+    for (std::int64_t a = begin * n_lanes; a < last; ++a) {
+      for (std::int64_t k = row_[a]; k < row_[a + 1]; ++k) {
+        const double* force = &force_[slot_[k] / n_lanes * n_lanes * Dim + slot_[k] % n_lanes];
+        for (int i = 0; i < Dim; ++i)
+          parts[c] += body.v.at(a, i) * force[i * n_lanes];
+      }
+    }
+  });
+  return parallel::sum_in_order(parts);
+}
+
+template <int Dim>
 std::vector<double> CellVolumes<Dim>::ratios(const Body<Dim>& body) const {
   Array x(n_nodes_ * stride), volume(n_slots_);
   put_positions(body, x);
