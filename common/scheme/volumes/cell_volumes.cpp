@@ -135,12 +135,8 @@ void sweep_group(const CellSweep& sweep, const CellGroup& group) {
 }
 
 CellSweep sweep_of(const CellGroup& group) {
-  return {group.corner.data(),
-          group.share.size() > 0 ? group.share.data() : nullptr,
-          nullptr,
-          nullptr,
-          nullptr,
-          nullptr};
+  return {group.corner.data(), group.share.size() > 0 ? group.share.data() : nullptr,
+          nullptr, nullptr, nullptr, nullptr};
 }
 
 /// Cells of n corners, in their order. Lanes of the last block that are left over hold a cell that
@@ -183,9 +179,8 @@ CellVolumes<Dim>::CellVolumes(const VolumeCells& cells, const std::vector<algebr
     groups_.push_back(std::move(group));
   }
   if (n_slots_ > std::numeric_limits<std::int32_t>::max()) {
-    throw base::InputError(
-        "the mesh has more cells than the volumes of cells can count; use "
-        "scheme.volumes = \"nodes\", or a coarser mesh");
+    throw base::InputError("the mesh has more cells than the volumes of cells can count; use "
+                           "scheme.volumes = \"nodes\", or a coarser mesh");
   }
   const auto for_slots = [&](const auto& use) {
     for (const CellGroup& group : groups_) {
@@ -194,7 +189,8 @@ CellVolumes<Dim>::CellVolumes(const VolumeCells& cells, const std::vector<algebr
         left += cells.row[c + 1] - cells.row[c] == group.n_corners;
       for (std::int64_t i = 0; i < left; ++i) {
         for (int k = 0; k < group.n_corners; ++k) {
-          const std::int64_t slot = (i / n_lanes * group.n_corners + k) * n_lanes + i % n_lanes;
+          const std::int64_t slot =
+              (i / n_lanes * group.n_corners + k) * n_lanes + i % n_lanes;
           use(group.corner[slot], group.first_slot + slot);
         }
       }
@@ -225,9 +221,10 @@ CellVolumes<Dim>::CellVolumes(const VolumeCells& cells, const std::vector<algebr
 
 template <int Dim>
 std::int64_t CellVolumes<Dim>::bytes() const {
-  std::int64_t sum =
-      V_0_.bytes() + x_.bytes() + volume_.bytes() + pressure_.bytes() + force_.bytes() +
-      static_cast<std::int64_t>(row_.size() * sizeof row_[0] + slot_.size() * sizeof slot_[0]);
+  std::int64_t sum = V_0_.bytes() + x_.bytes() + volume_.bytes() + pressure_.bytes() +
+                     force_.bytes() +
+                     static_cast<std::int64_t>(row_.size() * sizeof row_[0] +
+                                               slot_.size() * sizeof slot_[0]);
   for (const CellGroup& group : groups_)
     sum += group.corner.bytes() + group.share.bytes();
   return sum;
