@@ -177,6 +177,7 @@ void add_quantities(const RunResult& run, const NaturalScales& natural, RegressF
   add_energy("viscous dissipation", s.energy.viscous_dissipation);
   add_energy("numerical dissipation", s.energy.numerical_dissipation);
   add_energy("external work", s.energy.external_work);
+  if (s.energy.projection_work != 0) add_energy("projection work", s.energy.projection_work);
   for (const io::QuantitySummary& q : s.quantities) {
     const double scale =
         std::max({std::abs(q.least), std::abs(q.greatest), floor_of(q.unit, natural, energy)});
@@ -292,7 +293,7 @@ void add_agreement(const cases::Case& setup,
                    RegressMeasurement& measurement) {
   std::map<std::string, double> floors{{"min jacobian", 1.0}};
   for (const char* name : {"kinetic energy", "strain energy", "viscous dissipation",
-                           "numerical dissipation", "external work"})
+                           "numerical dissipation", "external work", "projection work"})
     floors[name] = energy;
   for (const cases::ProbeCase& probe : setup.probes)
     floors[probe.name] = floor_of(probe.unit, natural, energy);

@@ -54,10 +54,12 @@ std::string run_table(const io::RunSummary& s) {
     text += "\n";
   }
   text += fmt::format(
-      "  energy: kinetic {:.4g}, strain {:.4g}, work {:.4g}, viscous {:.4g}, numerical {:.4g} J; "
-      "residual {:.1e}\n",
+      "  energy: kinetic {:.4g}, strain {:.4g}, work {:.4g}, viscous {:.4g}, numerical {:.4g}",
       s.energy.kinetic, s.energy.strain, s.energy.external_work, s.energy.viscous_dissipation,
-      s.energy.numerical_dissipation, s.energy.relative_residual);
+      s.energy.numerical_dissipation);
+  if (s.energy.projection_work != 0)
+    text += fmt::format(", projection {:.4g}", s.energy.projection_work);
+  text += fmt::format(" J; residual {:.1e}\n", s.energy.relative_residual);
   for (const io::QuantitySummary& quantity : s.quantities)
     text += "  " + quantity_line(quantity) + "\n";
   text += fmt::format("  status {}, least J {} (cells {}), state {}\n", s.status,

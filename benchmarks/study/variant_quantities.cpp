@@ -38,6 +38,7 @@ std::vector<RunQuantity> common_quantities(const WorkPoint& point) {
           {"external work", joule, run.energy.external_work},
           {"viscous dissipation", joule, run.energy.viscous_dissipation},
           {"numerical dissipation", joule, run.energy.numerical_dissipation},
+          {"projection work", joule, run.energy.projection_work},
           {"energy residual", "-", run.energy.relative_residual},
           {"least J", "-", run.min_jacobian},
           {"seconds", "s", point.least},
@@ -72,7 +73,7 @@ bool is_shown_by_default(const std::string& name, const StudyRuns& runs) {
     }
   }
   const bool is_energy =
-      name.ends_with(" energy") || name.ends_with(" dissipation") || name == "external work";
+      name.ends_with(" energy") || name.ends_with(" dissipation") || name.ends_with(" work");
   return any && (any_not_zero || !is_energy);
 }
 

@@ -51,6 +51,7 @@ std::map<std::string, double> numbers_of(const VerificationTable& table,
   numbers["viscous"] = run.energy.viscous_dissipation;
   numbers["numerical"] = run.energy.numerical_dissipation;
   numbers["work"] = run.energy.external_work;
+  numbers["projection"] = run.energy.projection_work;
   numbers["residual"] = run.energy.relative_residual;
   numbers["nodes"] = static_cast<double>(run.nodes);
   numbers["steps"] = static_cast<double>(run.steps);

@@ -88,6 +88,16 @@ DIPTYCH_INLINE Lanes natural_log(Lanes a) {
     r[i] = std::log(a[i]);
   return r;
 }
+/// ln(1 + a), to rounding of a
+DIPTYCH_INLINE double natural_log_1p(double a) {
+  return std::log1p(a);
+}
+DIPTYCH_INLINE Lanes natural_log_1p(Lanes a) {
+  Lanes r;
+  for (int i = 0; i < n_lanes; ++i)
+    r[i] = std::log1p(a[i]);
+  return r;
+}
 DIPTYCH_INLINE double cube_root(double a) {
   return std::cbrt(a);
 }
@@ -117,6 +127,17 @@ DIPTYCH_INLINE double magnitude(double a) {
 template <Vectorised T>
 DIPTYCH_INLINE T magnitude(const T& a) {
   return a < 0 ? -a : a;
+}
+/// Whether a, every element of it, is below the bound.
+DIPTYCH_INLINE bool all_below(double a, double bound) {
+  return a < bound;
+}
+DIPTYCH_INLINE bool all_below(const Lanes& a, double bound) {
+  const auto below = a < bound;
+  bool all = true;
+  for (int i = 0; i < n_lanes; ++i)
+    all = all && below[i] != 0;
+  return all;
 }
 /// 1/a, or 0 where a is 0 or so small that 1/a is not finite (its product with 0 would be no
 /// number: ahead of a wave everything decays to such values).

@@ -17,7 +17,7 @@ namespace {
 
 /// Columns before the probes, in order. In two dimensions energies and momenta are per metre of
 /// thickness.
-constexpr std::array<std::string_view, 19> fixed_columns{
+constexpr std::array<std::string_view, 20> fixed_columns{
     "time [s]",
     "step",
     "dt [s]",
@@ -26,6 +26,7 @@ constexpr std::array<std::string_view, 19> fixed_columns{
     "viscous dissipation [J]",
     "numerical dissipation [J]",
     "external work [J]",
+    "projection work [J]",
     "relative energy residual",
     "linear momentum x [kg m/s]",
     "linear momentum y [kg m/s]",
@@ -171,6 +172,7 @@ HistoryRow read_row(RowReader& cells) {
   row.energy.viscous_dissipation = cells.number();
   row.energy.numerical_dissipation = cells.number();
   row.energy.external_work = cells.number();
+  row.energy.projection_work = cells.number();
   row.energy.relative_residual = cells.number();
   for (double& component : row.linear_momentum)
     component = cells.number();
@@ -191,10 +193,10 @@ void append_row(fmt::memory_buffer& text, const HistoryRow& row) {
   fmt::format_to(out, "{:.17g},{},{:.17g}", row.time, row.step, row.dt);
   for (const double value :
        {energy.kinetic, energy.strain, energy.viscous_dissipation, energy.numerical_dissipation,
-        energy.external_work, energy.relative_residual, row.linear_momentum[0],
-        row.linear_momentum[1], row.linear_momentum[2], row.angular_momentum[0],
-        row.angular_momentum[1], row.angular_momentum[2], row.min_jacobian, row.involution_H,
-        row.involution_J, row.least_cell_J}) {
+        energy.external_work, energy.projection_work, energy.relative_residual,
+        row.linear_momentum[0], row.linear_momentum[1], row.linear_momentum[2],
+        row.angular_momentum[0], row.angular_momentum[1], row.angular_momentum[2], row.min_jacobian,
+        row.involution_H, row.involution_J, row.least_cell_J}) {
     fmt::format_to(out, ",{:.17g}", value);
   }
   for (const double value : row.probes)

@@ -27,6 +27,7 @@ Json energy_json(const EnergySummary& energy) {
           {"viscous_dissipation", energy.viscous_dissipation},
           {"numerical_dissipation", energy.numerical_dissipation},
           {"external_work", energy.external_work},
+          {"projection_work", energy.projection_work},
           {"relative_residual", energy.relative_residual}};
 }
 
@@ -159,6 +160,7 @@ EnergySummary read_energy(const Section& section) {
   energy.viscous_dissipation = section.number("viscous_dissipation");
   energy.numerical_dissipation = section.number("numerical_dissipation");
   energy.external_work = section.number("external_work");
+  energy.projection_work = section.number("projection_work");
   energy.relative_residual = section.number("relative_residual");
   return energy;
 }

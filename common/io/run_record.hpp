@@ -19,7 +19,7 @@ struct ErrorNorms {
 /// Joule (per metre of thickness in 2-D).
 struct EnergySummary {
   double kinetic = 0, strain = 0, viscous_dissipation = 0, numerical_dissipation = 0;
-  double external_work = 0;
+  double external_work = 0, projection_work = 0;
   double relative_residual = 0;
 };
 

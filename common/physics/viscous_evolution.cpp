@@ -19,9 +19,6 @@ LinearRelaxation linear_relaxation(double z) {
   return w;
 }
 
-namespace {
-
-/// Moments c_k = int_0^1 z e^(-z u) u^k du, k = 0..3.
 void exponential_moments(double z, double c[4]) {
   if (z < 2) {
     for (int k = 0; k < 4; ++k) {
@@ -39,8 +36,6 @@ void exponential_moments(double z, double c[4]) {
   for (int k = 1; k < 4; ++k)
     c[k] = k / z * c[k - 1] - E;
 }
-
-}  // namespace
 
 GaussRelaxation gauss_relaxation(double z) {
   GaussRelaxation rule;

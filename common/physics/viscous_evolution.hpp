@@ -29,6 +29,9 @@ struct GaussRelaxation {
 /// @param z dt/tau >= 0
 GaussRelaxation gauss_relaxation(double z);
 
+/// Moments c_k = int_0^1 z e^(-z u) u^k du, k = 0..3, of the exponential weight.
+void exponential_moments(double z, double c[4]);
+
 template <class T>
 DIPTYCH_INLINE SymmetricTensor<T> relaxed(const LinearRelaxation& w,
                                           const SymmetricTensor<T>& A_old,

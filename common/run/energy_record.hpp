@@ -23,9 +23,9 @@ class EnergyRecord {
     e.external_work = audit.external_work;
     e.numerical_dissipation = audit.numerical_dissipation;
     e.viscous_dissipation = audit.viscous_dissipation;
+    e.projection_work = audit.projection_work;
     scale_ = std::max({scale_, now.kinetic + now.strain, std::abs(audit.external_work)});
-    const double residual = now.kinetic + now.strain - initial_ - audit.external_work +
-                            audit.numerical_dissipation + audit.viscous_dissipation;
+    const double residual = now.kinetic + now.strain - initial_ - audit.gain();
     e.relative_residual = scale_ > 0 ? residual / scale_ : residual;
     return e;
   }

@@ -46,8 +46,8 @@ scheme::TimeStepRule time_step_of(const cases::Case& setup,
                                   scheme::Body<Dim>& body,
                                   double geometric_rate,
                                   const time::Integrator& integrator) {
-  const double cfl =
-      setup.time.cfl > 0 ? setup.time.cfl
+  const double cfl = setup.time.cfl > 0
+                         ? setup.time.cfl
                          : default_cfl(setup, material, body, geometric_rate, integrator);
   return {scheme::speeds_menu().at(setup.time.speeds), cfl,
           scheme::frequency_factor(setup.scheme.face_correction)};
@@ -86,10 +86,10 @@ template <int Dim>
 std::unique_ptr<Solver> solver_in(const cases::Case& setup, const scheme::PairGraph& graph) {
   const ModelMaker maker = model_menu().at(setup.material.model);
   scheme::AppliedBoundary boundary = boundary_of(setup, graph);
-  if (setup.scheme.angular_momentum_projection && boundary.has_constraints()) {
+  if (setup.scheme.angular_momentum_projection && boundary.has_walls()) {
     throw base::InputError(
-        "scheme.angular_momentum_projection is for free bodies; this case prescribes velocities on "
-        "its boundary: remove one of the two");
+        "scheme.angular_momentum_projection does not go with rigid walls, whose impulses come and "
+        "go within a step: remove one of the two");
   }
   const auto material = maker.model(setup.material);
   const time::Integrator& integrator = time::integrator_menu().at(setup.time.integrator);

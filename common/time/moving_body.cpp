@@ -31,7 +31,6 @@ scheme::Audit audit_rates(const MovingBody<Dim>& moving) {
   rate.external_work = moving.load_rates.power;
   rate.impulse = {moving.load_rates.force, moving.load_rates.torque};
   rate.numerical_dissipation = moving.sweeps.numerical_power();
-  rate.viscous_dissipation = moving.sweeps.viscous_power();
   return rate;
 }
 
@@ -45,8 +44,9 @@ void book(MovingBody<Dim>& moving, const scheme::ConstraintAction& action) {
 template <int Dim>
 void keep_angular_momentum(MovingBody<Dim>& moving) {
   if (!moving.keeps_angular_momentum) return;
-  moving.audit.numerical_dissipation -= scheme::project_angular_momentum(
+  const scheme::Projection made = scheme::project_angular_momentum(
       moving.body, moving.initial_angular_momentum + moving.audit.impulse.angular);
+  moving.audit.projection_work += made.gain - moving.boundary.withheld(moving.body, made);
 }
 
 #define DIPTYCH_INSTANTIATE(Dim)                                         \

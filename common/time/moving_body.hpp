@@ -57,7 +57,7 @@ void begin_leapfrog(MovingBody<Dim>& moving);
 template <int Dim>
 double choose_dt(MovingBody<Dim>& moving, double t_limit);
 
-/// What loads and dissipations add to the audit at this instant, by the last sweeps.
+/// What loads and D_ab add to the audit at this instant, by the last sweep.
 template <int Dim>
 scheme::Audit audit_rates(const MovingBody<Dim>& moving);
 
@@ -66,8 +66,9 @@ template <int Dim>
 void book(MovingBody<Dim>& moving, const scheme::ConstraintAction& action);
 
 /// Gives back the angular momentum that D_ab and the integrator took, before the strain rates see
-/// the velocities: F stays the gradient of x. What this changes in the kinetic energy is booked
-/// with the dissipation that made it necessary.
+/// the velocities: F stays the gradient of x. Comes before the constraints of the end of the step,
+/// whose impulses are booked: supports feel it like a force of the body. What this changes in the
+/// kinetic energy is booked as the work of the projection.
 template <int Dim>
 void keep_angular_momentum(MovingBody<Dim>& moving);
 

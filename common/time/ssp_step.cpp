@@ -34,6 +34,10 @@ double ssp_step(MovingBody<Dim>& moving, double t_limit) {
   const scheme::Audit audit_0 = audit;
   const size_t n_stages = integrator.stages.size();
   double dt = 0, fraction = 0;  // of the step that has passed when a stage begins
+  const auto combination = [&](size_t i) -> scheme::StageCombination {
+    const SspStage& stage = moving.integrator.stages[i];
+    return {stage.alpha, stage.beta, stage.part * dt, i == 0, i + 1 == n_stages};
+  };
   for (size_t i = 0; i < n_stages; ++i) {
     const SspStage& now = integrator.stages[i];
     const bool first = i == 0, last = i + 1 == n_stages;
@@ -46,17 +50,18 @@ double ssp_step(MovingBody<Dim>& moving, double t_limit) {
     load_rates = boundary.add_loads(body, clock.time + fraction * dt);
     scheme::Audit rate = audit_rates(moving);
     rate.external_work += boundary.power_of_constraints(body, fraction);
-    const scheme::StageCombination stage{now.alpha, now.beta, now.part * dt, first};
+    const scheme::StageCombination stage = combination(i);
     audit = audit.combined(stage.alpha, audit_0, stage.beta, stage.dt, rate);
     combine_motion(body, stage);
-    book(moving, last ? boundary.constrain(body, clock.time + now.time * dt)
-                      : boundary.constrain_stage(body, stage, fraction));
     if (last) keep_angular_momentum(moving);
+    book(moving, last ? boundary.constrain(body, clock.time + now.time * dt)
+                      : boundary.constrain_stage(body, stage, combination(i + 1), fraction));
     exchange(body);
     sweeps.strain_rates(body, relaxation_of(moving, now.time * dt, last), &stage, 0);  // (18b-d)
     if (!is_sound(moving)) break;
     fraction = now.time;
   }
+  audit.viscous_dissipation += sweeps.viscous_dissipation();
   return dt;
 }
 

@@ -51,7 +51,8 @@ void StepBegin<Dim>::list_places(const MovingBody<Dim>& moving) {
   std::string_view last;
   int offset = 0;
   for (const scheme::Field<Dim>& field : body.fields()) {
-    const bool is_force = is_leapfrog_ && field.name == "T";  // of the last evaluation
+    // of the last evaluation: what the next step begins with, and what its budget is made of
+    const bool is_force = is_leapfrog_ && (field.name == "T" || field.name == "P");
     if (field.role != scheme::Role::unknown && !is_force) continue;
     offset = field.name == last ? offset : 0;  // H_33 stands behind H in plane
     Place place{field.table, field.block, field.first, field.n_components, nullptr, -1, offset};
@@ -121,6 +122,10 @@ void StepBegin<Dim>::restore(MovingBody<Dim>& moving) {
     return;
   }
   moving.sweeps.set_results(results_);
+  if (!moving.body.cells.empty()) {  // they remember the forces that they added
+    moving.body.cells.add_forces(moving.body, moving.sweeps.material());
+    put_back(moving.body);
+  }
   if (limits_.size() == 1) return;
   const double t_limit = limits_.back();
   limits_.pop_back();

@@ -39,12 +39,12 @@ std::optional<double> value_of(const io::HistoryRow& row, const std::string& col
 }
 
 /// Energies in joule and probes over time as columns. "supplied" is the energy at the start and the
-/// work since; "residual" what of it is not accounted for.
+/// work since, that of the projection too; "residual" what of it is not accounted for.
 Json history_json(const std::vector<io::HistoryRow>& rows,
                   const std::vector<io::HistoryColumn>& others) {
   Json columns = Json::object();
-  for (const char* name : {"time", "kinetic", "strain", "viscous", "numerical", "work", "supplied",
-                           "residual", "relative"}) {
+  for (const char* name : {"time", "kinetic", "strain", "viscous", "numerical", "work",
+                           "projection", "supplied", "residual", "relative"}) {
     columns[name] = Json::array();
   }
   columns["probes"] = Json::array();
@@ -57,13 +57,15 @@ Json history_json(const std::vector<io::HistoryRow>& rows,
     if (i % stride != 0 && i + 1 != rows.size()) continue;
     const io::HistoryRow& row = rows[i];
     const io::EnergySummary &e = row.energy, &start = rows.front().energy;
-    const double supplied = accounted(start) - start.external_work + e.external_work;
+    const double supplied = accounted(start) - start.external_work - start.projection_work +
+                            e.external_work + e.projection_work;
     columns["time"].push_back(row.time);
     columns["kinetic"].push_back(e.kinetic);
     columns["strain"].push_back(e.strain);
     columns["viscous"].push_back(e.viscous_dissipation);
     columns["numerical"].push_back(e.numerical_dissipation);
     columns["work"].push_back(e.external_work);
+    columns["projection"].push_back(e.projection_work);
     columns["supplied"].push_back(supplied);
     columns["residual"].push_back(accounted(e) - supplied);
     columns["relative"].push_back(e.relative_residual);

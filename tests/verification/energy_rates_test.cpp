@@ -74,7 +74,7 @@ class LoadedBody {
                             -loads.power,
                             -constraints,
                             parallel::sum_in_order(numerical_),
-                            parallel::sum_in_order(viscous_)};
+                            viscous_power()};
     double sum = 0;
     for (const double& term : terms) {
       EXPECT_TRUE(term != 0 || (material_.branches().empty() && &term == &terms[5]));
@@ -214,6 +214,21 @@ class LoadedBody {
                                                   : rate_of_velocity[i];
         power += mass * body_.v.at(a, i) * acceleration;
       }
+    }
+    return power;
+  }
+
+  /// sum Omega D_int (12).
+  double viscous_power() const {
+    double power = 0;
+    for (std::int64_t b = 0; b < body_.n_blocks; ++b) {
+      const auto now = physics::right_tensors(scheme::load_deformation(body_, b).F);
+      Lanes D{};
+      for (int k = 0; k < body_.options.n_branches; ++k) {
+        D += physics::branch_dissipation<true>(material_.branches()[k],
+                                               scheme::stored_branch<Dim, true>(body_, b, k), now);
+      }
+      power += algebra::lane_sum(algebra::load(body_.graph.Omega.data() + b * n_lanes) * D);
     }
     return power;
   }

@@ -137,10 +137,7 @@ TEST_P(Ladder, SpinningCubeKeepsMomentumOverTenThousandSteps) {
   for (const char* name : {"spinning-cube", "spinning-cube-ve2"}) {
     const auto result =
         run(name, 0,
-            // SPH, which dissipates at 3 cells across, loses track of the work of the projection:
-            // the residual of its budget grows by 0.1 a second (the guard stops at 0.1)
-            {"time.end=100", "time.max_steps=10000", "output.frames=1000", "mesh.cells=[3, 3, 3]",
-             "guards.energy_residual=10"});
+            {"time.end=100", "time.max_steps=10000", "output.frames=1000", "mesh.cells=[3, 3, 3]"});
     EXPECT_EQ(result.summary.steps, 10000) << name;
     EXPECT_LE(result.summary.linear_momentum_drift, 1e-13) << name;
     EXPECT_LE(result.summary.angular_momentum_drift, 1e-12) << name;

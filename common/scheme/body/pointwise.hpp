@@ -118,6 +118,42 @@ DIPTYCH_INLINE BranchState<Lanes> relaxed_branch(const Body<Dim>& body,
   return branch;
 }
 
+/// C and G over the step that ends now: the third order of the Hermite cubic of F where its rates
+/// at both ends are kept, the second without.
+template <int Dim, bool has_H>
+DIPTYCH_INLINE physics::StepPaths<Lanes> paths_of_step(const Body<Dim>& body,
+                                                       const Relaxation& relaxation,
+                                                       const physics::RightTensors<Lanes>& now,
+                                                       std::int64_t b) {
+  const Tensor<Lanes> F_0 = get_tensor<Dim>(body.F_0, b, 0, 1);
+  const bool with_rates = relaxation.rule == Relaxation::Rule::gauss;
+  Tensor<Lanes> F{}, rate_0{}, rate{};
+  if (with_rates) {
+    F = get_tensor<Dim>(body.F, b, 0, 1);
+    rate_0 = relaxation.dt * get_tensor<Dim>(body.L_0, b, 0);
+    rate = relaxation.dt * velocity_gradient(body, b);
+  }
+  return physics::step_paths<has_H>(physics::right_tensors(F_0), now, with_rates, F_0, rate_0, F,
+                                    rate);
+}
+
+/// What branch k has dissipated over the step that ends now  [J/m^3]
+template <int Dim, bool has_H>
+DIPTYCH_INLINE Lanes dissipation_of_step(const Body<Dim>& body,
+                                         const physics::MaxwellBranch& branch,
+                                         const Relaxation& relaxation,
+                                         const physics::StepPaths<Lanes>& paths,
+                                         const BranchState<Lanes>& end,
+                                         std::int64_t b,
+                                         int k) {
+  const BranchState<Lanes> begin = stored_branch<Dim, has_H>(body, b, k);
+  Lanes D = branch.xi * physics::released(relaxation.excess_C[k], paths.C, begin.A, end.A);
+  if constexpr (has_H) {
+    D += branch.zeta * physics::released(relaxation.excess_G[k], paths.G, begin.S, end.S);
+  }
+  return D;
+}
+
 /// Response of a block with all branches; per branch calls visit(k, branch state, C and G now).
 template <int Dim, class Material, class Visit>
 DIPTYCH_INLINE Response<Lanes> response_of_block(const Model<Material>& model,

@@ -3,6 +3,7 @@
 /// that has passed since the beginning of the step (notes 5.5).
 
 #include "common/physics/maxwell_branch.hpp"
+#include "common/physics/step_dissipation.hpp"
 #include "common/physics/viscous_evolution.hpp"
 
 #include <vector>
@@ -20,6 +21,7 @@ struct Relaxation {
   double dt = 0;        ///< s, since the beginning of the step
   std::vector<physics::LinearRelaxation> linear_C, linear_G;
   std::vector<physics::GaussRelaxation> gauss_C, gauss_G;
+  std::vector<physics::ExcessWeights> excess_C, excess_G;  ///< at the end of a step
 
   Relaxation() = default;
   Relaxation(Rule which,
@@ -30,6 +32,10 @@ struct Relaxation {
     for (const auto& branch : branches) {
       linear_C.push_back(physics::linear_relaxation(dt / branch.tau_C));
       linear_G.push_back(physics::linear_relaxation(dt / branch.tau_G));
+      if (commit) {
+        excess_C.push_back(physics::excess_weights(dt / branch.tau_C));
+        excess_G.push_back(physics::excess_weights(dt / branch.tau_G));
+      }
       if (rule != Rule::gauss) continue;
       gauss_C.push_back(physics::gauss_relaxation(dt / branch.tau_C));
       gauss_G.push_back(physics::gauss_relaxation(dt / branch.tau_G));

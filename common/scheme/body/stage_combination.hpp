@@ -8,6 +8,7 @@ struct StageCombination {
   double alpha = 0, beta = 1;  ///< alpha + beta = 1
   double dt = 0;               ///< s
   bool first = false;          ///< U_0 <- U before the update
+  bool last = false;           ///< H and J follow from the new F: the step ends (notes 3.5)
 };
 
 }  // namespace diptych::scheme

@@ -193,9 +193,9 @@ ConstraintAction AppliedBoundary::constrain(Body<Dim>& body, double t) {
   }
   ConstraintAction action{overwrite(body), 0};
   if (in_middle && !at_end) {
-    walls_.hold(body, action);
+    walls_.hold_in_middle(body, step_, action);
   } else {
-    walls_.settle(body, step_, action);
+    walls_.settle(body, action);
   }
   return action;
 }
@@ -203,13 +203,26 @@ ConstraintAction AppliedBoundary::constrain(Body<Dim>& body, double t) {
 template <int Dim>
 ConstraintAction AppliedBoundary::constrain_stage(Body<Dim>& body,
                                                   const StageCombination& stage,
+                                                  const StageCombination& next,
                                                   double fraction) {
   for (size_t k = 0; has_velocities_ && k < target_.size(); ++k)
     target_[k] =
         stage.alpha * in_step_[0][k] + stage.beta * (target_[k] + stage.dt * rate(k, fraction));
   ConstraintAction action{overwrite(body), 0};
-  walls_.hold(body, action);
+  walls_.hold(body, stage, next, action);
   return action;
+}
+
+template <int Dim>
+double AppliedBoundary::withheld(const Body<Dim>& body, const Projection& made) const {
+  double energy = 0;
+  for (const ConstrainedNode& c : constrained_) {
+    const Vec3 x = X_[c.node] + vector_at<Dim>(body.u, c.node);
+    const Vec3 change = made.spin.cross(x - made.centre);
+    const Vec3 mean = vector_at<Dim>(body.v, c.node) - 0.5 * change;
+    energy += body.options.rho_R * c.Omega * mean.dot(change - c.keep * change);
+  }
+  return energy;
 }
 
 template <int Dim>
@@ -354,7 +367,8 @@ Vec3 AppliedBoundary::reaction(const Body<Dim>& body,
 #define DIPTYCH_INSTANTIATE(Dim)                                                                  \
   template ConstraintAction AppliedBoundary::constrain(Body<Dim>&, double);                       \
   template ConstraintAction AppliedBoundary::constrain_stage(Body<Dim>&, const StageCombination&, \
-                                                             double);                             \
+                                                             const StageCombination&, double);    \
+  template double AppliedBoundary::withheld(const Body<Dim>&, const Projection&) const;           \
   template LoadRates AppliedBoundary::add_loads(Body<Dim>&, double);                              \
   template double AppliedBoundary::power_of_loads(const Body<Dim>&) const;                        \
   template double AppliedBoundary::power_of_constraints(const Body<Dim>&, double) const;          \

@@ -8,6 +8,7 @@
 #include "common/scheme/boundary/boundary_condition.hpp"
 #include "common/scheme/boundary/known_loads.hpp"
 #include "common/scheme/boundary/rigid_wall.hpp"
+#include "common/scheme/budget/angular_momentum.hpp"
 #include "common/scheme/budget/audit.hpp"
 
 #include <array>
@@ -43,7 +44,7 @@ class AppliedBoundary {
   /// Adds the body force of a known motion, and its stress for conditions that need it.
   void follow(std::shared_ptr<KnownLoads> known);
 
-  bool has_constraints() const { return !constrained_.empty() || !walls_.empty(); }
+  bool has_walls() const { return !walls_.empty(); }
   bool has_loads() const { return !loaded_nodes_.empty(); }
 
   /// Copies what the boundary knows into `state`, and back.
@@ -65,8 +66,17 @@ class AppliedBoundary {
   /// Overwrites them by what the stage alpha v^n + beta (v + dt v') makes of the rate at the
   /// beginning of the stage (fraction of the step). The exact values at the time of the stage would
   /// differ from what the free nodes have then by O(dt^2), and so strain the body beside them.
+  /// @param next  the stage that follows: walls look ahead to the end of the step
   template <int Dim>
-  ConstraintAction constrain_stage(Body<Dim>& body, const StageCombination& stage, double fraction);
+  ConstraintAction constrain_stage(Body<Dim>& body,
+                                   const StageCombination& stage,
+                                   const StageCombination& next,
+                                   double fraction);
+
+  /// What held directions keep of the kinetic energy that a projection of the velocities, just
+  /// made, has given: the constraints that follow it overwrite them  [J]
+  template <int Dim>
+  double withheld(const Body<Dim>& body, const Projection& made) const;
 
   /// Adds the loads at time t to state.T. @return their power and their force and torque
   template <int Dim>

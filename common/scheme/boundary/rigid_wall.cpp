@@ -46,12 +46,24 @@ void WallContacts::add(const RigidWall& wall, const WallCandidate& candidate) {
   nodes_.push_back({candidate, wall, free / share, false});
 }
 
-/// Sets v_n = 0 by an impulse along the free direction. @return change of the kinetic energy  [J]
+namespace {
+
 template <int Dim>
-double WallContacts::stop(const WallNode& w, Body<Dim>& body, ConstraintAction& action) {
+double gap_of(const RigidWall& wall, const Vec3& X, const BlockField& u, std::int32_t node) {
+  return (X + vector_at<Dim>(u, node) - wall.point).dot(wall.normal);
+}
+
+}  // namespace
+
+/// Sets v_n by an impulse along the free direction.
+template <int Dim>
+void WallContacts::set_normal_velocity(const WallNode& w,
+                                       double v_n,
+                                       Body<Dim>& body,
+                                       ConstraintAction& action) {
   const std::int32_t a = w.body.node;
   const Vec3 v = vector_at<Dim>(body.v, a);
-  const Vec3 wanted = v - v.dot(w.wall.normal) * w.push;
+  const Vec3 wanted = v + (v_n - v.dot(w.wall.normal)) * w.push;
   for (int i = 0; i < Dim; ++i)
     body.v.set(a, i, wanted[i]);
   const Vec3 change = vector_at<Dim>(body.v, a) - v;  // as the state has it
@@ -59,7 +71,22 @@ double WallContacts::stop(const WallNode& w, Body<Dim>& body, ConstraintAction& 
   const Vec3 x = w.body.X_centred + vector_at<Dim>(body.u, a);
   action.impulse.linear += impulse;
   action.impulse.angular += x.cross(impulse);
-  return impulse.dot(v + 0.5 * change);
+}
+
+/// The velocity with which the stage began follows from what it made of it.
+template <int Dim>
+void WallContacts::add_work_of_force(WallNode& w,
+                                     const Body<Dim>& body,
+                                     const StageCombination& stage) {
+  const std::int32_t a = w.body.node;
+  const Vec3 along = w.along();
+  const double T = vector_at<Dim>(body.T, a).dot(along);
+  const double v = vector_at<Dim>(body.v, a).dot(along);
+  const double v_0 = stage.alpha == 0 ? v : vector_at<Dim>(body.v_0, a).dot(along);
+  const double change = stage.dt * T / (body.options.rho_R * w.body.Omega);
+  const double begin = v_0 + (v - v_0) / stage.beta - change;
+  if (stage.first) w.work_of_force = 0;
+  w.work_of_force = stage.beta * (w.work_of_force + stage.dt * T * begin);
 }
 
 void WallContacts::keep(std::vector<char>& closed) const {
@@ -74,27 +101,78 @@ void WallContacts::restore(const std::vector<char>& closed) {
 }
 
 template <int Dim>
-void WallContacts::hold(Body<Dim>& body, ConstraintAction& action) const {
-  for (const WallNode& w : nodes_) {
-    if (w.closed) stop(w, body, action);
+void WallContacts::hold(Body<Dim>& body,
+                        const StageCombination& stage,
+                        const StageCombination& next,
+                        ConstraintAction& action) {
+  last_ = next;
+  for (WallNode& w : nodes_) {
+    if (w.closed) {
+      set_normal_velocity(w, 0, body, action);
+      continue;
+    }
+    add_work_of_force(w, body, stage);
+    if (!next.last) continue;
+    const std::int32_t a = w.body.node;
+    // alpha gap_0 + beta (gap + dt v_n) >= 0
+    const double v_n = vector_at<Dim>(body.v, a).dot(w.wall.normal);
+    const double least = -(next.alpha / next.beta * gap_of<Dim>(w.wall, w.body.X, body.u_0, a) +
+                           gap_of<Dim>(w.wall, w.body.X, body.u, a)) /
+                         next.dt;
+    if (v_n >= least) continue;
+    w.lands = true;
+    w.v_begin = vector_at<Dim>(body.v_0, a).dot(w.along());
+    set_normal_velocity(w, least, body, action);
   }
 }
 
 template <int Dim>
-void WallContacts::settle(Body<Dim>& body, double dt, ConstraintAction& action) {
+void WallContacts::hold_in_middle(Body<Dim>& body, double dt, ConstraintAction& action) {
+  last_ = {.alpha = 0, .beta = 1, .dt = 0.5 * dt, .first = false, .last = true};  // the second kick
   for (WallNode& w : nodes_) {
-    const double v_n = vector_at<Dim>(body.v, w.body.node).dot(w.wall.normal);
+    if (w.closed) {
+      set_normal_velocity(w, 0, body, action);
+      continue;
+    }
+    const std::int32_t a = w.body.node;
+    const double v_n = vector_at<Dim>(body.v, a).dot(w.wall.normal);
+    const double least = -gap_of<Dim>(w.wall, w.body.X, body.u, a) / dt;
+    if (v_n >= least) continue;
+    w.lands = true;
+    const Vec3 along = w.along();
+    const double T = vector_at<Dim>(body.T, a).dot(along);
+    w.v_begin =
+        vector_at<Dim>(body.v, a).dot(along) - 0.5 * dt * T / (body.options.rho_R * w.body.Omega);
+    set_normal_velocity(w, least, body, action);
+    w.work_of_force = 0.5 * dt * T * vector_at<Dim>(body.v, a).dot(along);
+  }
+}
+
+template <int Dim>
+void WallContacts::settle(Body<Dim>& body, ConstraintAction& action) {
+  for (WallNode& w : nodes_) {
+    const std::int32_t a = w.body.node;
+    const double v_n = vector_at<Dim>(body.v, a).dot(w.wall.normal);
     if (w.closed) {
       // began the step with v_n = 0, so the sign of v_n is that of the force
       w.closed = v_n <= 0;
-      if (w.closed) stop(w, body, action);
+      if (w.closed) set_normal_velocity(w, 0, body, action);
       continue;
     }
-    const Vec3 x = w.body.X + vector_at<Dim>(body.u, w.body.node);
-    const double gap = (x - w.wall.point).dot(w.wall.normal);
-    if (v_n < 0 && gap + 0.5 * v_n * dt <= 0) {
+    const double half_mass = 0.5 * body.options.rho_R * w.body.Omega;
+    const auto speed = [&] { return vector_at<Dim>(body.v, a).dot(w.along()); };
+    if (w.lands) {
+      add_work_of_force(w, body, last_);
+      w.lands = false;
       w.closed = true;
-      action.work += stop(w, body, action);
+      set_normal_velocity(w, 0, body, action);
+      action.work += half_mass * (speed() * speed() - w.v_begin * w.v_begin) - w.work_of_force;
+    } else if (v_n < 0 && gap_of<Dim>(w.wall, w.body.X, body.u, a) <= 0) {
+      // stands there from the start
+      const double before = speed();
+      w.closed = true;
+      set_normal_velocity(w, 0, body, action);
+      action.work += half_mass * (speed() * speed() - before * before);
     }
   }
 }
@@ -109,9 +187,11 @@ Vec3 WallContacts::force(const Body<Dim>& body, const std::vector<std::int32_t>&
   return sum;
 }
 
-#define DIPTYCH_INSTANTIATE(Dim)                                             \
-  template void WallContacts::hold(Body<Dim>&, ConstraintAction&) const;     \
-  template void WallContacts::settle(Body<Dim>&, double, ConstraintAction&); \
+#define DIPTYCH_INSTANTIATE(Dim)                                                                 \
+  template void WallContacts::hold(Body<Dim>&, const StageCombination&, const StageCombination&, \
+                                   ConstraintAction&);                                           \
+  template void WallContacts::hold_in_middle(Body<Dim>&, double, ConstraintAction&);             \
+  template void WallContacts::settle(Body<Dim>&, ConstraintAction&);                             \
   template Vec3 WallContacts::force(const Body<Dim>&, const std::vector<std::int32_t>&) const;
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)

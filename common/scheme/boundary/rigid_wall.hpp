@@ -1,20 +1,24 @@
 #pragma once
 /// Frictionless contact of nodes with fixed rigid planes (notes 3.6), by impulses.
 ///
-/// A node is open or closed. Within a step a closed node keeps v_n = 0 and an open one is free; at
+/// A node is open or closed. Within a step a closed node keeps v_n = 0 and an open one is free. An
+/// open node that the last stage of a step would carry through the plane is given the normal
+/// velocity, before that stage, with which the step ends on the plane: its position needs no change
+/// of its own, F remains the gradient of x, and no node is inside the wall at the end of a step. At
 /// the end of the step
 ///   - a closed node whose force pulls it off the wall (traction would be tensile) is let go,
-///   - an open node that would reach the wall in less than half a step is caught: v_n becomes 0.
-/// Catching takes 1/2 m v_n^2 from the node and nothing ever gives energy: the impact of a body
-/// loses the kinetic energy of the layer of nodes that hits, a fraction that falls with h (the
-/// waves that carry the rest are the scheme's own). A caught node stays within |v_n| dt / 2 of the
-/// plane, on either side; it is not moved there, which would need work.
+///   - a node that has landed is closed: v_n becomes 0.
+/// The wall's work is what the kinetic energy of the node has changed by beyond the work of the
+/// other forces on it, with the weights of the stages: about -1/2 m v_n^2 of the node that hits.
+/// The impact of a body loses the kinetic energy of the layer of nodes that hits, a fraction that
+/// falls with h (the waves that carry the rest are the scheme's own).
 ///
 /// Bouncing nodes back instead would keep the energy of the layer but leave it as noise of the
 /// shortest waves, and a penalty has a stiffness to choose and shortens the stable step.
 /// Test: tests/common/scheme/rigid_wall_test.cpp
 
 #include "common/scheme/body/body.hpp"
+#include "common/scheme/body/stage_combination.hpp"
 #include "common/scheme/boundary/boundary_condition.hpp"
 #include "common/scheme/budget/audit.hpp"
 
@@ -42,13 +46,21 @@ class WallContacts {
   void keep(std::vector<char>& closed) const;
   void restore(const std::vector<char>& closed);
 
-  /// Within a step: closed nodes keep v_n = 0. Adds the impulse.
+  /// After a stage that is not the last: closed nodes keep v_n = 0, and open ones that the next
+  /// stage, if it is the last, would carry through the plane land on it. Adds the impulse.
   template <int Dim>
-  void hold(Body<Dim>& body, ConstraintAction& action) const;
+  void hold(Body<Dim>& body,
+            const StageCombination& stage,
+            const StageCombination& next,
+            ConstraintAction& action);
 
-  /// At the end of a step of dt: lets go and catches. Adds impulse and work.
+  /// The same in the middle of a step of leapfrog, between kick and drift.
   template <int Dim>
-  void settle(Body<Dim>& body, double dt, ConstraintAction& action);
+  void hold_in_middle(Body<Dim>& body, double dt, ConstraintAction& action);
+
+  /// At the end of a step: lets go and catches. Adds impulse and work.
+  template <int Dim>
+  void settle(Body<Dim>& body, ConstraintAction& action);
 
   /// Force of the wall on those of these nodes (ascending) that are closed  [N]
   template <int Dim>
@@ -60,11 +72,22 @@ class WallContacts {
     RigidWall wall;
     Vec3 push;  ///< free direction with push . normal = 1
     bool closed = false;
+    bool lands = false;        ///< in this step
+    double v_begin = 0;        ///< m/s along push, at the beginning of the step where it lands
+    double work_of_force = 0;  ///< J, of T along push over the step so far
+
+    Vec3 along() const { return push.normalized(); }
   };
   std::vector<WallNode> nodes_;
+  StageCombination last_;  ///< that ends the step
 
   template <int Dim>
-  static double stop(const WallNode& w, Body<Dim>& body, ConstraintAction& action);
+  static void set_normal_velocity(const WallNode& w,
+                                  double v_n,
+                                  Body<Dim>& body,
+                                  ConstraintAction& action);
+  template <int Dim>
+  static void add_work_of_force(WallNode& w, const Body<Dim>& body, const StageCombination& stage);
 };
 
 }  // namespace diptych::scheme

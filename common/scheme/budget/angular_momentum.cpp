@@ -29,7 +29,7 @@ Vec3 position(const Body<Dim>& body, std::int64_t a) {
 }  // namespace
 
 template <int Dim>
-double project_angular_momentum(Body<Dim>& body, const Vec3& wanted) {
+Projection project_angular_momentum(Body<Dim>& body, const Vec3& wanted) {
   const auto for_nodes = [&](const auto& work) {
     parallel::for_chunks(body.n_blocks,
                          [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
@@ -76,10 +76,10 @@ double project_angular_momentum(Body<Dim>& body, const Vec3& wanted) {
     for (int i = 0; i < Dim; ++i)
       body.v.add(a, i, change[i]);
   });
-  return gain;
+  return {lambda, centre, gain};
 }
 
-template double project_angular_momentum(Body<2>&, const Vec3&);
-template double project_angular_momentum(Body<3>&, const Vec3&);
+template Projection project_angular_momentum(Body<2>&, const Vec3&);
+template Projection project_angular_momentum(Body<3>&, const Vec3&);
 
 }  // namespace diptych::scheme

@@ -2,7 +2,8 @@
 /// The audit: integrals over time of what enters and leaves a body, evolved with the same scheme
 /// and the same weights as the state (notes 6), so that their residuals converge at its
 /// order:
-///   K + W - (K + W)_0 = external work - numerical dissipation - viscous dissipation.
+///   K + W - (K + W)_0 = external work + projection work
+///                       - numerical dissipation - viscous dissipation.
 
 #include "common/algebra/vectors.hpp"
 
@@ -34,19 +35,24 @@ struct Audit {
   double external_work = 0;          ///< J
   double numerical_dissipation = 0;  ///< J
   double viscous_dissipation = 0;    ///< J
+  double projection_work = 0;        ///< J, kinetic energy that the projection of notes 3.7 gave
   Impulse impulse;                   ///< of loads and constraints
 
-  /// alpha old + beta (this + dt rate)
+  /// What the energy of the body has grown by, were the budget exact  [J]
+  double gain() const {
+    return external_work + projection_work - numerical_dissipation - viscous_dissipation;
+  }
+
+  /// alpha old + beta (this + dt rate) of what has a rate at an instant; the viscous dissipation
+  /// and the projection are added by whole steps.
   Audit combined(double alpha, const Audit& old, double beta, double dt, const Audit& rate) const {
     const auto mix = [&](const auto& now, const auto& before, const auto& slope) {
       return alpha * before + beta * (now + dt * slope);
     };
-    Audit r;
+    Audit r = *this;
     r.external_work = mix(external_work, old.external_work, rate.external_work);
     r.numerical_dissipation =
         mix(numerical_dissipation, old.numerical_dissipation, rate.numerical_dissipation);
-    r.viscous_dissipation =
-        mix(viscous_dissipation, old.viscous_dissipation, rate.viscous_dissipation);
     r.impulse.linear = mix(impulse.linear, old.impulse.linear, rate.impulse.linear);
     r.impulse.angular = mix(impulse.angular, old.impulse.angular, rate.impulse.angular);
     return r;

@@ -45,6 +45,22 @@ DIPTYCH_INLINE void write_records(Body<Dim>& body,
   body.records.put(b, Record::W_FJ, response.W_FJ);
 }
 
+/// v . T + Omega P : L of block b with the forces and stresses of the evaluation before.
+template <int Dim>
+DIPTYCH_INLINE double power_of_old_forces(const Body<Dim>& body,
+                                          std::int64_t b,
+                                          const Lanes (&L)[Dim * Dim]) {
+  const Tensor<Lanes> P = body.options.face_correction
+                              ? get_tensor<Dim>(body.stresses, b, 0)
+                              : get_tensor<Dim>(body.records, b, NodeRecord<Dim>::P);
+  Lanes inner{}, outer{};
+  for (int k = 0; k < Dim * Dim; ++k)
+    inner += P(k / Dim, k % Dim) * L[k];
+  for (int i = 0; i < Dim; ++i)
+    outer += body.v.get(b, i) * body.T.get(b, i);
+  return algebra::lane_sum(outer + algebra::load(body.graph.Omega.data() + b * n_lanes) * inner);
+}
+
 /// What the strain-rate sweep does with a block once its dF/dt is known: H and J (18c,d) with F,
 /// relaxation (14), stress (9), wave speeds.
 template <int Dim, class Material>
@@ -59,6 +75,7 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
   if (body.in_runs()) {
     prefetch_to_write<NodeRecord<Dim>::n_isotropic>(body.records, b);
   }
+  if (sweep.old_power != nullptr) totals.old_power += power_of_old_forces(body, b, L);
   if (sweep.stage != nullptr) update_deformation_of_block(body, *sweep.stage, b);
   body.records.template put_each<Dim * Dim>(b, NodeRecord<Dim>::L,
                                             [&](int k) DIPTYCH_INLINE_LAMBDA { return L[k]; });
@@ -70,15 +87,19 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
     rates += L[k];
   const auto is_sound = (X.J > 0) & (rates - rates == 0);  // comparisons with NaN are false
   totals.n_bad += is_sound ? Lanes{} : Lanes{} + 1.0;
+  const bool with_dissipation = sweep.with_dissipation && sweep.relaxation.excess_C.size() > 0;
   Lanes dissipation{};
+  physics::StepPaths<Lanes> paths;
   Response<Lanes> response = response_of_block(
       model, body, sweep.relaxation, X, b,
       [&](int k, const BranchState<Lanes>& branch, const physics::RightTensors<Lanes>& now)
           DIPTYCH_INLINE_LAMBDA {
-            if (sweep.with_dissipation) {
-              dissipation += physics::branch_dissipation<has_H>(model.branches[k], branch, now);
-            }
             if (!sweep.relaxation.commit) return;
+            if (with_dissipation) {
+              if (k == 0) paths = paths_of_step<Dim, has_H>(body, sweep.relaxation, now, b);
+              dissipation += dissipation_of_step<Dim, has_H>(body, model.branches[k],
+                                                             sweep.relaxation, paths, branch, b, k);
+            }
             algebra::put_A<Dim>(body.A, b, k * Layout::n_A, branch.A);
             if constexpr (has_H) {
               algebra::put_S<Dim>(body.S, b, k * Layout::n_S, branch.S);
@@ -91,7 +112,7 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
   const auto speeds = physics::speed_bounds(response, X, rho_R, has_H, Material::has_W_FJ);
   body.records.put(b, NodeRecord<Dim>::z_p, rho_R * speeds.c_p);
   body.records.put(b, NodeRecord<Dim>::z_s, rho_R * speeds.c_s);
-  totals.viscous_power +=
+  totals.viscous_dissipation +=
       algebra::lane_sum(dissipation * algebra::load(body.graph.Omega.data() + b * n_lanes));
 }
 

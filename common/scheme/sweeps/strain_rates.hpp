@@ -14,8 +14,9 @@ namespace diptych::scheme {
 /// What the blocks of a chunk add up.
 struct BlockTotals {
   algebra::Lanes least_J = algebra::Lanes{} + 1e300;
-  algebra::Lanes n_bad{};    ///< nodes without J > 0 and finite dF/dt
-  double viscous_power = 0;  ///< W
+  algebra::Lanes n_bad{};          ///< nodes without J > 0 and finite dF/dt
+  double viscous_dissipation = 0;  ///< J, of the step that ends here
+  double old_power = 0;            ///< W, see StrainRateSweep
 };
 
 template <int Dim>
@@ -23,13 +24,16 @@ struct StrainRateSweep {
   Body<Dim>& body;
   const MaterialModel& material;
   const Relaxation& relaxation;
-  bool with_dissipation;   ///< sum the viscous dissipation
+  bool with_dissipation;   ///< sum the viscous dissipation of a step at its end (notes 6.1)
   double face_correction;  ///< kappa_f, 0: none; else body.gradients hold the uncorrected dF/dt
   const StageCombination* stage;  ///< SSP: moves F, H, J by the old rates first; may be null
   double drift;                   ///< s, leapfrog: moves u, F, H, J by the new rates
   // results, one per chunk of parallel::for_chunks
-  double* viscous_power;  ///< W
-  double* least_J;        ///< NaN where a node has not J > 0 and finite dF/dt
+  double* viscous_dissipation;  ///< J
+  double* least_J;              ///< NaN where a node has not J > 0 and finite dF/dt
+  /// W, leapfrog: of the forces before with the velocities of the drift, sum v . T + Omega P : L of
+  /// the T and P that are replaced; what central forces do cancels. May be null
+  double* old_power = nullptr;
 };
 
 /// The sweep over all blocks.

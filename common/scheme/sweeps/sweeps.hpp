@@ -27,7 +27,7 @@ struct SweepOptions {
 /// What the last sweeps summed up.
 struct SweepResults {
   double stable_dt = 0;                               ///< s
-  std::vector<double> viscous_power, least_J;         ///< [chunk] W, -
+  std::vector<double> viscous_dissipation, least_J;   ///< [chunk] J, -
   std::vector<double> numerical_power, largest_rate;  ///< [chunk] W, 1/s
 };
 
@@ -52,7 +52,11 @@ class Sweeps {
 
   double stable_dt() const { return stable_dt_; }  ///< s, of the last sum_forces with_step
   double numerical_power() const;                  ///< W, of the last sum_forces
-  double viscous_power() const;                    ///< W, of the last strain_rates
+  /// J, of the step that the last strain_rates ended; 0 where it ended none.
+  double viscous_dissipation() const;
+  /// W, of the D_ab of the sum_forces before the last strain_rates with drift, with the velocities
+  /// of that drift.  @param loads  power of the loads in T with them  [W]
+  double old_numerical_power(const Body<Dim>& body, double loads) const;
   /// Of the last strain_rates; NaN where a node has not J > 0 and finite dF/dt.
   double least_J() const;
 
@@ -64,6 +68,7 @@ class Sweeps {
 
  private:
   double rate() const;
+  double threshold_of_limiter(const Body<Dim>& body) const;
 
   std::shared_ptr<const MaterialModel> material_;
   SweepOptions options_;
@@ -72,8 +77,10 @@ class Sweeps {
   double geometric_rate_;
   double undeformed_speed_;
   double stable_dt_ = 0;
+  double length_ = 0;     ///< m, twice the largest distance from the centroid
+  double threshold_ = 0;  ///< of the limiter, see momentum.hpp
   // results of the sweeps, one per chunk
-  std::vector<double> viscous_power_, least_J_, numerical_power_, largest_rate_;
+  std::vector<double> viscous_dissipation_, old_power_, least_J_, numerical_power_, largest_rate_;
 };
 
 extern template class Sweeps<2>;

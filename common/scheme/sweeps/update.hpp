@@ -50,13 +50,14 @@ DIPTYCH_INLINE void combine(Storage& q,
 }
 
 /// F, H, J of a stage by the L of its beginning. Part of the strain-rate sweep, which needs them
-/// next and replaces L: one pass of memory instead of two.
+/// next and replaces L: one pass of memory instead of two. The last stage restarts H and J from the
+/// new F: their error of a step stays in the step (notes 3.5).
 template <int Dim>
 DIPTYCH_INLINE void update_deformation_of_block(Body<Dim>& body,
                                                 const StageCombination& stage,
                                                 std::int64_t b) {
   const Tensor<Lanes> L = velocity_gradient(body, b);
-  if (body.options.unknowns != Unknowns::F) {
+  if (body.options.unknowns != Unknowns::F && !stage.last) {
     const Deformation<Lanes> X = load_deformation(body, b);
     combine<1>(body.J, 0, body.J_0, 0, stage, b,
                [&](int) DIPTYCH_INLINE_LAMBDA { return algebra::contract(X.H, L); });
@@ -73,6 +74,10 @@ DIPTYCH_INLINE void update_deformation_of_block(Body<Dim>& body,
   if (stage.first && !body.L_0.empty()) put_tensor<Dim>(body.L_0, b, 0, L);
   combine<Dim * Dim>(body.F, 0, body.F_0, 0, stage, b,
                      [&](int k) DIPTYCH_INLINE_LAMBDA { return L(k / Dim, k % Dim); });
+  if (body.options.unknowns == Unknowns::F || !stage.last) return;
+  const Deformation<Lanes> X = physics::deformation_of(get_tensor<Dim>(body.F, b, 0, 1));
+  body.J.put(b, 0, X.J - 1.0);
+  if (body.options.unknowns == Unknowns::FHJ) put_H(body, b, X.H);
 }
 
 /// v <- v + dt T/(rho_R Omega); keeps F_0 <- F where keep_F is set (start of a step with branches).

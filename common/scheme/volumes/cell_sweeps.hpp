@@ -203,16 +203,16 @@ void sweep_nodes(const CellsOfNodes& around,
                        });
 }
 
-/// Rows of forces of blocks of nodes, added to T and emptied.
+/// Rows of forces of blocks of nodes, added to T.
 template <int Dim>
 struct AddRowsKernel {
   template <InstructionSet isa>
-  DIPTYCH_INLINE static void run(double* rows,
+  DIPTYCH_INLINE static void run(const double* rows,
                                  Body<Dim>& body,
                                  std::int64_t begin,
                                  std::int64_t end) {
     for (std::int64_t b = begin; b < end; ++b) {
-      double* row[n_lanes];
+      const double* row[n_lanes];
       for (int l = 0; l < n_lanes; ++l)
         row[l] = rows + (b * n_lanes + l) * stride;
       Lanes sum[stride];
@@ -220,7 +220,6 @@ struct AddRowsKernel {
 #pragma GCC unroll 3
       for (int i = 0; i < Dim; ++i)
         body.T.put(b, i, body.T.get(b, i) + sum[i]);
-      __builtin_memset(row[0], 0, sizeof(double) * n_lanes * stride);
     }
   }
 };

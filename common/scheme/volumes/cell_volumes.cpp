@@ -259,6 +259,10 @@ void CellVolumes<Dim>::add_linear_forces(Body<Dim>& body, double modulus) {
 
 template <int Dim>
 void CellVolumes<Dim>::sum_forces(Body<Dim>& body) {
+  parallel::for_chunks(body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+    constexpr std::int64_t row = n_lanes * stride;
+    std::fill(&force_[begin * row], &force_[begin * row] + (end - begin) * row, 0.0);
+  });
   for (const CellGroup& group : groups_) {
     CellSweep sweep = sweep_of(group);
     sweep.x = x_.data();
@@ -272,11 +276,25 @@ void CellVolumes<Dim>::sum_forces(Body<Dim>& body) {
       });
     }
   }
-  const auto add = algebra::version_here<
-      algebra::Versions<AddRowsKernel<Dim>, double*, Body<Dim>&, std::int64_t, std::int64_t>>();
+  const auto add =
+      algebra::version_here<algebra::Versions<AddRowsKernel<Dim>, const double*, Body<Dim>&,
+                                              std::int64_t, std::int64_t>>();
   parallel::for_chunks(body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
     add(force_.data(), body, begin, end);
   });
+}
+
+template <int Dim>
+double CellVolumes<Dim>::power(const Body<Dim>& body) const {
+  std::vector<double> parts(parallel::n_chunks_of(body.n_blocks));
+  parallel::for_chunks(body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t c) {
+    const std::int64_t last = std::min(end * n_lanes, n_nodes_);
+    for (std::int64_t a = begin * n_lanes; a < last; ++a) {
+      for (int i = 0; i < Dim; ++i)
+        parts[c] += body.v.at(a, i) * force_[a * stride + i];
+    }
+  });
+  return parallel::sum_in_order(parts);
 }
 
 template <int Dim>

@@ -70,6 +70,9 @@ class CellVolumes {
   /// body's velocities in the place of a change of displacement. For the frequencies of set-up.
   void add_linear_forces(Body<Dim>& body, double modulus);
 
+  /// Power of the forces that were added last with the velocities as they are now  [W]
+  double power(const Body<Dim>& body) const;
+
   /// J of the nodes by the volumes of cells  [n_nodes]
   std::vector<double> ratios(const Body<Dim>& body) const;
 

@@ -27,6 +27,7 @@
     const { history } = method;
     const fromRest = history.supplied[0] === 0;
     const lines = [line(method, 'supplied', fromRest ? 'external work' : 'start + work', 'ink', [5, 4])];
+    if (history.projection.some((y) => y !== 0)) lines.push(line(method, 'projection', 'work of the projection', 'soft', [6, 3]));
     if (!fromRest && history.work.some((y) => y !== 0)) lines.push(line(method, 'work', 'external work', 'soft', [1, 3]));
     return {
       type: 'line',

@@ -25,7 +25,7 @@ const std::vector<std::string> names{"tip z [m]", "v at (0, 0, \"top\") [m/s]"};
 std::vector<HistoryRow> rows() {
   HistoryRow first;
   first.time = 0.1, first.step = 3, first.dt = 1.0 / 3;
-  first.energy = {1e-300, -2.5, std::nextafter(1.0, 2.0), 4, 5, 6e-17};
+  first.energy = {1e-300, -2.5, std::nextafter(1.0, 2.0), 4, 5, -7, 6e-17};
   first.linear_momentum[2] = -0.0, first.angular_momentum[0] = 1e22;
   first.min_jacobian = 0.7, first.involution_H = 1e-16, first.involution_J = 5e-324;
   first.least_cell_J = -0.3;
@@ -42,6 +42,7 @@ TEST(History, IsReadBackBitForBit) {
   EXPECT_EQ(history_csv(read, names), text);
   EXPECT_EQ(read[0].dt, 1.0 / 3);
   EXPECT_EQ(read[0].energy.viscous_dissipation, std::nextafter(1.0, 2.0));
+  EXPECT_EQ(read[0].energy.projection_work, -7);
   EXPECT_EQ(read[0].involution_J, 5e-324);
   EXPECT_EQ(read[0].least_cell_J, -0.3);
   EXPECT_TRUE(std::signbit(read[0].linear_momentum[2]));
@@ -52,13 +53,13 @@ TEST(History, IsReadBackBitForBit) {
 
 TEST(History, IsReadAsColumnsOfAnyName) {
   const auto columns = history_columns_from_csv(history_csv(rows(), names), "history.csv");
-  ASSERT_EQ(columns.size(), 21u);
+  ASSERT_EQ(columns.size(), 22u);
   EXPECT_EQ(columns[0].name, "time");
   EXPECT_EQ(columns[0].unit, "s");
   EXPECT_EQ(columns[1].unit, "-") << "the number of the step";
-  EXPECT_EQ(columns[20].name, "v at (0, 0, \"top\")");
-  EXPECT_EQ(columns[20].unit, "m/s");
-  EXPECT_EQ(columns[19].values, (std::vector<double>{1.25, 1.25}));
+  EXPECT_EQ(columns[21].name, "v at (0, 0, \"top\")");
+  EXPECT_EQ(columns[21].unit, "m/s");
+  EXPECT_EQ(columns[20].values, (std::vector<double>{1.25, 1.25}));
 }
 
 TEST(History, HeaderNamesUnits) {

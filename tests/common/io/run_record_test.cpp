@@ -147,6 +147,7 @@ TEST(RunRecord, HasTheKeysOfTheContract) {
                               "/energy/viscous_dissipation",
                               "/energy/numerical_dissipation",
                               "/energy/external_work",
+                              "/energy/projection_work",
                               "/energy/relative_residual",
                               "/momentum/linear_drift",
                               "/momentum/angular_drift",

@@ -44,7 +44,8 @@ struct SignPreserving {
                                           const Vector<T>& plain,
                                           const Vector<T>&,
                                           const Vector<T>&,
-                                          const Vector<T>& n) {
+                                          const Vector<T>& n,
+                                          const T&) {
     Vector<T> jump = reconstructed;
     limit_sign_preserving<Dim>(jump, plain, n);
     return jump;

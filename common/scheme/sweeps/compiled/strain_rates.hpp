@@ -30,7 +30,8 @@ DIPTYCH_INLINE void evaluate_blocks(const StrainRateSweep<Dim>& sweep,
       evaluate(sweep, b + k, L[k], totals);
     b += n;
   }
-  sweep.viscous_power[chunk] = totals.viscous_power;
+  sweep.viscous_dissipation[chunk] = totals.viscous_dissipation;
+  if (sweep.old_power != nullptr) sweep.old_power[chunk] = totals.old_power;
   double least = totals.least_J[0];
   for (int l = 1; l < n_lanes; ++l)
     least = algebra::smaller(least, totals.least_J[l]);
