@@ -58,25 +58,25 @@ std::vector<double> least_edges(const Mesh& mesh) {
   return least;
 }
 
-}  // namespace
+/// The mesh before its nodes are moved, and what their shifts depend on.
+struct Unmoved {
+  std::vector<Vec3> nodes;
+  std::vector<bool> is_interior;
+  std::vector<double> least_edge;
+  std::uint64_t seed;
+};
 
-void perturb_interior(Mesh& mesh, double fraction, std::uint64_t seed) {
-  if (!(fraction >= 0) || !std::isfinite(fraction)) {
-    throw base::InputError(
-        fmt::format("perturbation = {} of the spacing must be zero or positive", fraction));
-  }
-  if (fraction == 0) return;
-  const std::vector<Vec3> original = mesh.nodes;
-  const auto is_interior = interior_nodes(mesh);
-  const auto least = least_edges(mesh);
+/// Moves the nodes; those of folded cells again, at most most_attempts times.
+/// @return whether no cell is folded in the end
+bool moved_soundly(Mesh& mesh, const Unmoved& unmoved, double fraction) {
   std::vector<int> attempts(mesh.n_nodes(), 0);
-  std::vector<bool> is_to_be_drawn = is_interior;
+  std::vector<bool> is_to_be_drawn = unmoved.is_interior;
   for (int round = 0; round < most_attempts; ++round) {
     for (std::int64_t a = 0; a < mesh.n_nodes(); ++a) {
-      if (!is_to_be_drawn[a] || !std::isfinite(least[a])) continue;
+      if (!is_to_be_drawn[a] || !std::isfinite(unmoved.least_edge[a])) continue;
       for (int d = 0; d < mesh.dimension; ++d) {
-        mesh.nodes[a][d] =
-            original[a][d] + fraction * least[a] * random_number(seed, a, attempts[a], d);
+        mesh.nodes[a][d] = unmoved.nodes[a][d] + fraction * unmoved.least_edge[a] *
+                                                     random_number(unmoved.seed, a, attempts[a], d);
       }
       ++attempts[a];
     }
@@ -86,14 +86,41 @@ void perturb_interior(Mesh& mesh, double fraction, std::uint64_t seed) {
       if (fault_of(mesh, c) == CellFault::none) continue;
       all_sound = false;
       for (const std::int32_t a : mesh.cell(c))
-        is_to_be_drawn[a] = is_interior[a];
+        is_to_be_drawn[a] = unmoved.is_interior[a];
     }
-    if (all_sound) return;
+    if (all_sound) return true;
   }
-  mesh.nodes = original;
+  return false;
+}
+
+/// The largest fraction in hundredths below one that folds cells which was tried and does not, by
+/// bisection; 0 where none was found.
+double largest_sound_fraction(Mesh& mesh, const Unmoved& unmoved, double folding) {
+  int sound = 0, unsound = std::max(1, static_cast<int>(std::ceil(100 * std::min(folding, 1.0))));
+  while (unsound - sound > 1) {
+    const int middle = (sound + unsound) / 2;
+    (moved_soundly(mesh, unmoved, middle / 100.0) ? sound : unsound) = middle;
+  }
+  return sound / 100.0;
+}
+
+}  // namespace
+
+void perturb_interior(Mesh& mesh, double fraction, std::uint64_t seed) {
+  if (!(fraction >= 0) || !std::isfinite(fraction)) {
+    throw base::InputError(
+        fmt::format("perturbation = {} of the spacing must be zero or positive", fraction));
+  }
+  if (fraction == 0) return;
+  const Unmoved unmoved{mesh.nodes, interior_nodes(mesh), least_edges(mesh), seed};
+  if (moved_soundly(mesh, unmoved, fraction)) return;
+  const double sound = largest_sound_fraction(mesh, unmoved, fraction);
+  mesh.nodes = unmoved.nodes;
   throw base::InputError(fmt::format(
-      "perturbation = {} of the spacing folds cells in each of {} draws: use at most 0.2", fraction,
-      most_attempts));
+      "perturbation = {} of the spacing folds cells in each of {} draws: {}", fraction,
+      most_attempts,
+      sound > 0 ? fmt::format("on this mesh, with this seed, {} does not", sound)
+                : "no fraction that does not was found; the cells of the mesh are too thin"));
 }
 
 }  // namespace diptych::meshes

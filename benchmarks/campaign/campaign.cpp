@@ -4,6 +4,7 @@
 #include "benchmarks/run/provenance.hpp"
 #include "benchmarks/run/resumption.hpp"
 #include "benchmarks/terminal/status_line.hpp"
+#include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/parallel/thread_count.hpp"
@@ -31,12 +32,23 @@ Schedule schedule_of(const std::vector<CampaignRun>& plan) {
 
 std::optional<RunResult> finished_before(const CampaignRun& run, TakeOver take_over) {
   if (take_over == TakeOver::nothing) return std::nullopt;
-  auto finished = finished_run(*run.setup, run.options);
-  if (!finished || take_over == TakeOver::finished) return finished;
+  auto finished = finished_run(*run.setup, run.options, take_over == TakeOver::ended);
+  if (!finished || take_over != TakeOver::timed) return finished;
   parallel::set_threads(run.options.threads);
   const bool same = finished->summary.threads == parallel::running_threads() &&
                     finished->summary.provenance.cpu == provenance("").cpu;
   return same ? std::move(finished) : std::nullopt;
+}
+
+/// The result of a run that could not be begun, of which nothing was written.
+RunResult not_begun(const CampaignRun& run, const std::string& status, const std::string& message) {
+  RunResult result;
+  result.summary.method = run.options.method;
+  result.summary.case_name = run.setup->name;
+  result.summary.level = run.options.level;
+  result.summary.status = status;
+  result.summary.failure = io::RunFailure{message, {}, {}, {}, {}};
+  return result;
 }
 
 RunResult made_now(const CampaignRun& run, const Schedule& schedule) {
@@ -44,7 +56,14 @@ RunResult made_now(const CampaignRun& run, const Schedule& schedule) {
   options.schedule = &schedule;
   StatusLine status(options.quiet);
   if (!run.label.empty()) status.show(run.label);
-  return attempt_case(*run.setup, options);
+  if (!run.may_be_refused) return attempt_case(*run.setup, options);
+  try {
+    return attempt_case(*run.setup, options);
+  } catch (const base::InputError& error) {
+    return not_begun(run, "failed", error.what());
+  } catch (const base::BreakdownError& error) {
+    return not_begun(run, "breakdown", error.what());
+  }
 }
 
 /// What is kept of a run for others that ask for the same.
@@ -76,7 +95,8 @@ bool make_runs(const std::vector<CampaignRun>& plan, TakeOver take_over, const C
       return false;  // while a mesh was made: what was finished before stands
     }
     const io::RunSummary& run = result.run.summary;
-    schedule.finish(run.status == "breakdown" ? std::nullopt : std::optional(run.wall_seconds));
+    const bool is_short = run.status == "breakdown" || run.status == "failed";
+    schedule.finish(is_short ? std::nullopt : std::optional(run.wall_seconds));
     if (--n_asked[key] > 0) asked_again[key] = without_state(result.run);
     each(i, std::move(result), schedule);
     if (interrupt_requested()) return false;

@@ -19,12 +19,15 @@ struct CampaignRun {
   std::string kind, family;            ///< see PlannedRun
   std::string label = {};              ///< what a terminal shows until the run itself does
   int repetition = 0;                  ///< of a timing: runs that differ in it are all made
+  bool may_be_refused = false;         ///< one that cannot be begun is a result: status "failed"
+                                       ///< (wrong input) or "breakdown"
 };
 
 /// Which runs of earlier commands need not be made again.
 enum class TakeOver {
   nothing,
   finished,  ///< those that finished_run() knows
+  ended,     ///< and those that broke down
   timed      ///< of these, those of as many threads on the same kind of processor
 };
 

@@ -8,12 +8,17 @@
 ///   quantities    probes, energies, least J, numbers of nodes, pairs and steps
 ///   conservation  momenta, energy residual, signs of both dissipations; needs no baseline
 ///
+/// A case with pass numbers of its own (section [expect]) is asked for them at the size it stands
+/// in, `expect`, and needs no baseline: a baseline would pin what is to be mended.
+///
 /// and of both: `agreement`, |SPH - FVM| of each scalar on level 1 within the sum of their error
 /// bars from levels 0 and 1 (Roache's factor 3 with the formal order). No bound is an option.
-/// Tests: tests/harness/regress_test.cpp, tests/command_line/regress_test.cpp
+/// Tests: tests/harness/regress_test.cpp, tests/harness/expectation_test.cpp,
+/// tests/command_line/regress_test.cpp
 
 #include "common/base/error.hpp"
 #include "common/cases/case.hpp"
+#include "common/io/run_record.hpp"
 
 #include <map>
 #include <string>
@@ -64,14 +69,17 @@ RegressBaseline baseline_from_json(const std::string& text, const std::string& p
 
 enum class Verdict { met, known, failed, skipped };
 
-/// One comparison: `measured` must not exceed `bound`.
+/// One comparison: `measured` must not exceed `bound`, or fall below it.
 struct RegressCheck {
   std::string name, figure;  ///< "canary"; "velocity norm"
   Verdict verdict = Verdict::failed;
   double measured = 0, bound = 0;
   std::string note;  ///< why skipped, or what is wrong besides numbers
   base::ExitCode code = base::ExitCode::bound_not_met;  ///< what it means where it failed
+  bool at_least = false;                                ///< the bound is one from below
 };
+/// Name of the checks that [expect] asks for.
+inline constexpr const char* expect_check = "expect";
 /// A failure that no number shows.
 RegressCheck failure(const std::string& name,
                      const std::string& figure,
@@ -118,6 +126,30 @@ std::vector<RegressCheck> checks_of(const MethodFigures& recorded,
 /// What was beyond the bars when it was recorded is `known` as long as it does not grow.
 std::vector<RegressCheck> agreement_checks(const RegressBaseline& recorded,
                                            const RegressMeasurement& now);
+
+/// A run that [expect] asks for: a method with a variant of the case, or "" for the case itself.
+struct ExpectedRun {
+  std::string method, variant;
+};
+std::vector<ExpectedRun> expected_runs(const cases::ExpectCase& expect);
+
+/// What such a run came to beside what is asked of it. What does not meet the pass numbers is
+/// `known` where the case says so in [[expect.unmet]] and it ends as is said there; where they are
+/// met in spite of such an entry the check fails: an entry that nobody removes would hide the next
+/// time that they are not.
+std::vector<RegressCheck> expectation_checks(const cases::ExpectCase& expect,
+                                             const ExpectedRun& asked,
+                                             const io::RunSummary& run,
+                                             const std::vector<io::HistoryRow>& history);
+
+/// The pass numbers of a case of one method: its runs, made here, and their seconds.
+struct ExpectationMeasurement {
+  std::vector<RegressCheck> checks;
+  double seconds = 0;
+};
+/// @return by method; not all after an interrupt
+std::map<std::string, ExpectationMeasurement> measure_expectations(const cases::Case& setup,
+                                                                   int threads);
 
 /// Folder of the baselines.
 /// @param asked  of --baselines; empty: the environment variable DIPTYCH_BASELINES, else the

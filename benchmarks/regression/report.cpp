@@ -37,6 +37,7 @@ Json check_json(const RegressRow& row, const RegressCheck& check) {
           {"kind", failed ? Json(kind_of(check.code)) : Json(nullptr)},
           {"measured", number(check.verdict == Verdict::skipped ? NAN : check.measured)},
           {"bound", number(check.verdict == Verdict::skipped ? NAN : check.bound)},
+          {"at_least", check.at_least},
           {"note", check.note}};
 }
 

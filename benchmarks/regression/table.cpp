@@ -18,13 +18,17 @@ constexpr size_t most_lines = 6;  ///< failures, or changes, that are shown one 
 
 /// How far up to its bound, or beyond it; infinite where a number is missing.
 double load(const RegressCheck& check) {
-  const double ratio = check.measured == 0 ? 0 : check.measured / check.bound;
+  double ratio = check.measured == 0 ? 0 : check.measured / check.bound;
+  if (check.at_least) ratio = 1 / ratio;
   return std::isfinite(ratio) ? ratio : std::numeric_limits<double>::infinity();
 }
 
 std::string figure_text(const RegressCheck& check) {
   if (!std::isfinite(check.measured)) return check.figure + ": " + check.note;
-  return fmt::format("{} {:.2g} of {:.2g}", check.figure, check.measured, check.bound);
+  // a pass number tells a per cent from none
+  const int digits = check.name == expect_check ? 4 : 2;
+  return fmt::format("{} {:.{}g} of {}{:.{}g}", check.figure, check.measured, digits,
+                     check.at_least ? "at least " : "", check.bound, digits);
 }
 
 /// Failures first, then what is nearest to its bound.
@@ -80,6 +84,18 @@ std::string failures_of(const RegressRow& row) {
   }
   if (failed.size() > most_lines)
     text += fmt::format("    and {} more\n", failed.size() - most_lines);
+  return text;
+}
+
+/// Pass numbers that are not met, which the case knows of, with the cause.
+std::string unmet_of(const RegressRow& row) {
+  std::string text;
+  for (const RegressCheck& check : row.checks) {
+    if (check.verdict != Verdict::known || check.name != expect_check) continue;
+    text += "    not met: " + figure_text(check);
+    if (std::isfinite(check.measured)) text += " (" + check.note + ")";
+    text += "\n";
+  }
   return text;
 }
 
@@ -161,7 +177,7 @@ std::string regress_table(const std::vector<RegressRow>& rows) {
   std::string text = fmt::format("{:<29} {:<4} {:<16} {}\n", "case", "", "checks",
                                  "nearest to its bound, or worst beyond");
   for (const RegressRow& row : rows)
-    text += line_of(row) + failures_of(row);
+    text += line_of(row) + failures_of(row) + unmet_of(row);
   const VerdictCounts n = count_verdicts(rows);
   return text + skips_of(rows) +
          fmt::format("{} checks met, {} failed; {} beyond their bounds as recorded, {} skipped\n",

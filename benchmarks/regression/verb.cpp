@@ -14,6 +14,7 @@
 #include "common/io/run_record.hpp"
 #include "meshes/gmsh.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -61,6 +62,25 @@ void write_measured(const RegressRequest& request,
   io::write_file_atomically(path, text);
 }
 
+/// The pass numbers of the case itself, added to the rows of its methods, which may be none.
+std::vector<RegressRow> with_expected(std::vector<RegressRow> rows,
+                                      const std::string& name,
+                                      const cases::Case& setup,
+                                      int threads) {
+  if (!setup.expect.is_given) return rows;
+  const auto measured = measure_expectations(setup, threads);
+  for (const std::string& method : method_menu().names()) {
+    const auto found = measured.find(method);
+    if (found == measured.end()) continue;  // interrupted
+    auto row = std::find_if(rows.begin(), rows.end(),
+                            [&](const RegressRow& other) { return other.method == method; });
+    if (row == rows.end()) row = rows.insert(row, {name, method, {}, 0});
+    row->checks.insert(row->checks.end(), found->second.checks.begin(), found->second.checks.end());
+    row->seconds += found->second.seconds;
+  }
+  return rows;
+}
+
 /// Checks a case or records its baseline. @return empty after an interrupt
 /// @throws base::Error where it cannot be judged
 std::vector<RegressRow> judged(const ListedCase& entry, const RegressRequest& request) {
@@ -68,10 +88,15 @@ std::vector<RegressRow> judged(const ListedCase& entry, const RegressRequest& re
   const bool blesses = !request.bless.empty(), has_baseline = fs::exists(path);
   const RegressBaseline old = has_baseline ? read_baseline(path, entry.name) : RegressBaseline{};
   const std::string mesh = harness::read_case(entry.file, old.set).mesh.file;
+  const cases::Case as_it_stands = harness::read_case(entry.file);
   if (fs::path(mesh).extension() == ".geo" && !meshes::has_gmsh()) {
     RegressCheck check{"run", "", Verdict::skipped, 0, 0, "its mesh needs the gmsh program"};
     return {{entry.name, "both", {check}}};
   }
+  // --bless all records what has been recorded, and no case that asks for its pass numbers alone
+  const bool is_recorded = blesses && request.bless != "all";
+  if (!has_baseline && as_it_stands.expect.is_given && !is_recorded)
+    return with_expected({}, entry.name, as_it_stands, request.threads);
   if (!has_baseline && !blesses) {
     const std::string note = fmt::format(
         "{} is not there; 'diptych regress --bless {} --why \"...\"', with the same --cases and "
@@ -84,7 +109,7 @@ std::vector<RegressRow> judged(const ListedCase& entry, const RegressRequest& re
   if (interrupt_requested()) return {};
   if (blesses) return rows_of(entry.name, recorded(request, old, size, now), now);
   write_measured(request, size, now);
-  return rows_of(entry.name, size, now);
+  return with_expected(rows_of(entry.name, size, now), entry.name, as_it_stands, request.threads);
 }
 
 /// What a case that cannot be judged looks like among the others.

@@ -1,6 +1,6 @@
 #pragma once
 /// Where the data that is shipped with the program lies: cases, baselines, verification,
-/// literature. Test: tests/harness/data_folder_test.cpp, tests/bare
+/// literature, atlas. Test: tests/harness/data_folder_test.cpp, tests/bare
 
 #include <filesystem>
 #include <string>

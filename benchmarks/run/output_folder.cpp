@@ -115,7 +115,8 @@ bool is_finished(const fs::path& run) {
 OutputFolder::OutputFolder(std::string directory,
                            const cases::Case& setup,
                            OutputKind kind,
-                           bool force)
+                           bool force,
+                           const std::vector<std::string>& also)
     : directory_(std::move(directory)), setup_(setup), kind_(kind) {
   if (directory_.empty()) return;
   for (const fs::path& run : all_runs(directory_)) {
@@ -123,7 +124,7 @@ OutputFolder::OutputFolder(std::string directory,
     if (!owner) continue;
     const bool is_same =
         owner->case_file.empty() ? owner->case_name == setup.name : owner->case_file == setup.file;
-    if (is_same) continue;
+    if (is_same || contains(also, owner->case_file)) continue;
     of_another_case_ = true;
     if (force) return;
     throw base::InputError(fmt::format(
@@ -143,6 +144,7 @@ void OutputFolder::prepare() {
     remove_runs();
     set_levels_aside();
   }
+  if (kind_ == OutputKind::atlas) return;  // of many cases
   write_case_copy((fs::path(directory_) / "case.toml").string(), setup_);
 }
 
@@ -158,7 +160,8 @@ void OutputFolder::remove_everything() const {
   remove_if_empty(directory / "runs");
   for (const char* name :
        {"report.html", "convergence.csv", "convergence.tex", "work_precision.csv",
-        "work_precision.html", "quantities.csv", "quantities.html", "stability.csv"}) {
+        "work_precision.html", "quantities.csv", "quantities.html", "stability.csv", "atlas.csv",
+        "atlas.json", "atlas.html"}) {
     std::error_code error;
     fs::remove(directory / name, error);
     if (error) fail(directory / name, "removed", error);
@@ -171,6 +174,7 @@ void OutputFolder::remove_pages() const {
   if (kind_ == OutputKind::study)
     names = {"work_precision.csv", "work_precision.html", "quantities.csv", "quantities.html"};
   if (kind_ == OutputKind::stability) names = {"stability.csv"};
+  if (kind_ == OutputKind::atlas) names = {"atlas.csv", "atlas.json", "atlas.html"};
   for (const char* name : names) {
     const fs::path page = fs::path(directory_) / name;
     std::error_code error;

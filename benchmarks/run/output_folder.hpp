@@ -12,17 +12,23 @@ namespace diptych::harness {
 
 /// What a command is about to put there.
 enum class OutputKind {
-  runs,      ///< of `run` and `compare`: DIR/<method>, report.html
-  levels,    ///< of `converge`: DIR/level_<L>/<method>, convergence.*, report.html
-  study,     ///< of `study`: DIR/runs, work_precision.*
-  stability  ///< of `study --stability`: stability.csv
+  runs,       ///< of `run` and `compare`: DIR/<method>, report.html
+  levels,     ///< of `converge`: DIR/level_<L>/<method>, convergence.*, report.html
+  study,      ///< of `study`: DIR/runs, work_precision.*
+  stability,  ///< of `study --stability`: stability.csv
+  atlas       ///< of `study --atlas`: DIR/runs, atlas.*
 };
 
 class OutputFolder {
  public:
   /// @param setup  kept by reference
+  /// @param also   files of other cases whose runs belong to the command
   /// @throws base::InputError where results of another case lie there and `force` is false
-  OutputFolder(std::string directory, const cases::Case& setup, OutputKind kind, bool force);
+  OutputFolder(std::string directory,
+               const cases::Case& setup,
+               OutputKind kind,
+               bool force,
+               const std::vector<std::string>& also = {});
 
   /// Of a convergence study: its runs are these. Those that are finished stay where they are, and
   /// are brought back from where they were set aside, unless all are to be run again.
@@ -31,8 +37,8 @@ class OutputFolder {
 
   /// Before the first file is written; later calls do nothing. Removes what earlier commands of
   /// this kind left, sets finished levels aside that are not taken over now, in DIR/earlier, and
-  /// leaves a copy of the case in DIR/case.toml, unless a case file of the user stands there. Of
-  /// another case everything goes.
+  /// leaves a copy of the case in DIR/case.toml, unless a case file of the user stands there or the
+  /// command is of many cases (atlas). Of another case everything goes.
   /// @throws base::EnvironmentError
   void prepare();
 

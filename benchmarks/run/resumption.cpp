@@ -19,7 +19,9 @@ std::string input_hash(const cases::Case& setup, const std::vector<NodeMeasure>&
   return cases::case_hash(all, {});
 }
 
-std::optional<RunResult> finished_run(const cases::Case& setup, const RunOptions& options) {
+std::optional<RunResult> finished_run(const cases::Case& setup,
+                                      const RunOptions& options,
+                                      bool broken_down) {
   if (options.directory.empty()) return std::nullopt;
   const fs::path summary = fs::path(options.directory) / "summary.json";
   const fs::path history = fs::path(options.directory) / "history.csv";
@@ -38,7 +40,8 @@ std::optional<RunResult> finished_run(const cases::Case& setup, const RunOptions
   const bool same = s.method == options.method && s.level == options.level &&
                     s.provenance.input_hash == input_hash(setup, options.measures) &&
                     s.provenance.program == program_hash();
-  if (!same || s.status != "done" || run.history.empty()) return std::nullopt;
+  const bool ended = s.status == "done" || (broken_down && s.status == "breakdown");
+  if (!same || !ended || run.history.empty()) return std::nullopt;
   return run;
 }
 

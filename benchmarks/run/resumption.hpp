@@ -16,7 +16,10 @@ std::string input_hash(const cases::Case& setup, const std::vector<NodeMeasure>&
 
 /// Summary, history and exact columns (where the case has an exact solution) of the finished run in
 /// options.directory, where method, level, input and program are those that a run with these
-/// options would have.
-std::optional<RunResult> finished_run(const cases::Case& setup, const RunOptions& options);
+/// options would have. A run is deterministic, so that one that broke down would do so again.
+/// @param broken_down  such a run counts as finished too
+std::optional<RunResult> finished_run(const cases::Case& setup,
+                                      const RunOptions& options,
+                                      bool broken_down = false);
 
 }  // namespace diptych::harness

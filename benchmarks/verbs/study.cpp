@@ -1,12 +1,14 @@
-/// diptych study: error against cost, or quantities, of a case and its variants; or stability
-/// limits.
+/// diptych study: error against cost, or quantities, of a case and its variants; stability limits;
+/// or an atlas.
 
 #include "benchmarks/run/breakdowns.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/menus.hpp"
+#include "benchmarks/study/atlas.hpp"
 #include "benchmarks/study/study_verb.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
+#include "common/base/error.hpp"
 
 #include <memory>
 
@@ -17,10 +19,46 @@ namespace {
 struct StudyArguments : CaseArguments {
   harness::StudyRequest request;
   int n_levels = 3;
-  bool stability = false, fresh = false;
+  bool stability = false, fresh = false, atlas = false, coarse = false;
+  std::string before;  ///< of an atlas
 };
 
+/// An atlas says itself what varies and what is judged.
+void check_atlas(const StudyArguments& arguments) {
+  const harness::StudyRequest& request = arguments.request;
+  const bool has_others = arguments.stability || !request.variations.empty() ||
+                          !request.quantities.empty() || !request.field.empty() ||
+                          !request.integrators.empty() ||
+                          request.repeats != harness::StudyRequest::by_default;
+  if (arguments.atlas && has_others) {
+    throw base::InputError(
+        "--atlas goes with --set, --level, --method, --coarse, --before, --fresh and --out: its "
+        "file says what varies");
+  }
+  if (!arguments.atlas && (arguments.coarse || !arguments.before.empty()))
+    throw base::InputError("--coarse and --before go with --atlas");
+}
+
+int atlas(const StudyArguments& arguments) {
+  harness::AtlasRequest request;
+  request.atlas = arguments.case_name;
+  request.cases_folder = arguments.cases_folder;
+  request.overrides = arguments.overrides;
+  request.methods = arguments.methods();
+  request.level = arguments.levels(1, 1).front();
+  request.threads = arguments.threads;
+  request.directory = arguments.directory;
+  request.before = arguments.before;
+  request.coarse = arguments.coarse;
+  request.fresh = arguments.fresh;
+  request.quiet = arguments.quiet;
+  request.force = arguments.force;
+  return harness::exit_code_of_study(harness::go_on_from(harness::make_atlas(request)));
+}
+
 int study(const StudyArguments& arguments) {
+  check_atlas(arguments);
+  if (arguments.atlas) return atlas(arguments);
   harness::StudyRequest request = arguments.request;
   request.case_file = arguments.file();
   request.overrides = arguments.overrides;
@@ -57,6 +95,12 @@ Action declare_study(CommandLine& line) {
   line.list("--integrators", request.integrators,
             "with --stability: leapfrog,ssp-rk2,ssp-rk3,ssp-rk43 (default all)");
   line.option("--steps", request.stability.n_steps, "with --stability: of a trial (default 1000)");
+  line.flag("--atlas", arguments->atlas,
+            "a map of what is stable, stopped or wrong: in place of the case the path of an atlas, "
+            "or a name of benchmarks/atlas");
+  line.flag("--coarse", arguments->coarse, "with --atlas: few values of each axis");
+  line.option("--before", arguments->before,
+              "with --atlas: the atlas.json of an earlier program, to compare with");
   return [arguments] { return study(*arguments); };
 }
 

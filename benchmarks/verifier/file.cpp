@@ -3,6 +3,7 @@
 #include "benchmarks/run/backends.hpp"
 #include "benchmarks/run/case_list.hpp"
 #include "benchmarks/run/data_folder.hpp"
+#include "benchmarks/run/toml_table.hpp"
 #include "benchmarks/terminal/text.hpp"
 #include "benchmarks/verifier/verification.hpp"
 #include "common/base/error.hpp"
@@ -21,111 +22,15 @@ namespace {
 
 namespace fs = std::filesystem;
 using cases::Value;
-
-[[noreturn]] void fail(const functions::SourcePlace& where, const std::string& what) {
-  throw base::InputError(functions::prefix(where) + what);
-}
-
-/// A table of the file that knows which keys it may have.
-class Keys {
- public:
-  Keys(const Value& table, std::string name, const std::vector<std::string>& known)
-      : table_(table), name_(std::move(name)) {
-    if (table.kind != Value::Kind::table)
-      fail(table.where, name_ + " must be a table, not " + cases::described(table));
-    for (const cases::Member& member : table.members) {
-      if (!contains(known, member.name)) {
-        fail(member.where, fmt::format("unknown key '{}' of {}{}", member.name, name_,
-                                       base::suggestion(member.name, known)));
-      }
-    }
-  }
-
-  const Value* find(const std::string& key) const {
-    const cases::Member* member = table_.find(key);
-    return member == nullptr ? nullptr : &member->value;
-  }
-  const Value& at(const std::string& key) const {
-    const Value* value = find(key);
-    if (value == nullptr) fail(table_.where, fmt::format("{} lacks '{}'", name_, key));
-    return *value;
-  }
-  std::string text(const std::string& key) const { return text_of(at(key), key); }
-  std::string text(const std::string& key, const std::string& standard) const {
-    return find(key) == nullptr ? standard : text(key);
-  }
-  bool flag(const std::string& key) const {
-    const Value* value = find(key);
-    if (value != nullptr && value->kind != Value::Kind::flag) wrong(*value, key, "true or false");
-    return value != nullptr && value->flag;
-  }
-  int count(const std::string& key, int standard) const {
-    const Value* value = find(key);
-    return value == nullptr ? standard : count_of(*value, key);
-  }
-  std::vector<std::string> texts(const std::string& key) const {
-    std::vector<std::string> all;
-    for (const Value& value : list(key))
-      all.push_back(text_of(value, key));
-    return all;
-  }
-  std::vector<int> counts(const std::string& key) const {
-    std::vector<int> all;
-    for (const Value& value : list(key))
-      all.push_back(count_of(value, key));
-    return all;
-  }
-  /// Entries of [[key]]; none where it is missing.
-  std::vector<Value> list(const std::string& key) const {
-    const Value* value = find(key);
-    if (value == nullptr) return {};
-    if (value->kind != Value::Kind::list) wrong(*value, key, "a list");
-    return value->elements;
-  }
-  [[noreturn]] void wrong(const Value& value,
-                          const std::string& key,
-                          const std::string& expected) const {
-    fail(value.where, fmt::format("'{}' of {} must be {}, not {}", key, name_, expected,
-                                  cases::described(value)));
-  }
-
- private:
-  std::string text_of(const Value& value, const std::string& key) const {
-    if (value.kind != Value::Kind::text) wrong(value, key, "a text");
-    return value.text;
-  }
-  int count_of(const Value& value, const std::string& key) const {
-    if (value.kind != Value::Kind::integer || value.integer < 0 || value.integer > 1000)
-      wrong(value, key, "a whole number from 0 to 1000");
-    return static_cast<int>(value.integer);
-  }
-
-  const Value& table_;
-  std::string name_;
-};
-
-/// A value as --set takes it.
-std::string assigned(const Value& value) {
-  switch (value.kind) {
-    case Value::Kind::text:
-      return value.text;
-    case Value::Kind::integer:
-      return fmt::format("{}", value.integer);
-    case Value::Kind::real:
-      return fmt::format("{}", value.real);
-    case Value::Kind::flag:
-      return value.flag ? "true" : "false";
-    default:
-      fail(value.where, "a value to vary must be a number or a text");
-  }
-}
+using Keys = TomlTable;
 
 std::map<std::string, double> read_parameters(const Value* section) {
   std::map<std::string, double> parameters;
   if (section == nullptr) return parameters;
   for (const cases::Member& member : section->members) {
     const Value& value = member.value;
-    if (!functions::is_name(member.name)) fail(member.where, "'" + member.name + "' is no name");
+    if (!functions::is_name(member.name))
+      toml_fail(member.where, "'" + member.name + "' is no name");
     const std::string text = assigned(value);
     parameters[member.name] = functions::constant_value(
         text, parameters, value.kind == Value::Kind::text ? value.text_where : value.where);
@@ -139,10 +44,10 @@ NodeMeasure read_measure(const Value& value, const std::map<std::string, double>
   measure.name = keys.text("name");
   measure.reduce = keys.text("reduce");
   if (!functions::is_name(measure.name))
-    fail(keys.at("name").where, "a name has letters, digits and _");
+    toml_fail(keys.at("name").where, "a name has letters, digits and _");
   if (!contains(reductions(), measure.reduce)) {
-    fail(keys.at("reduce").where, "unknown reduction '" + measure.reduce + "'" +
-                                      base::suggestion(measure.reduce, reductions()));
+    toml_fail(keys.at("reduce").where, "unknown reduction '" + measure.reduce + "'" +
+                                           base::suggestion(measure.reduce, reductions()));
   }
   const functions::Vocabulary vocabulary = node_vocabulary(parameters);
   measure.value =
@@ -157,18 +62,18 @@ NodeMeasure read_measure(const Value& value, const std::map<std::string, double>
 }
 
 void read_vary(const Value& section, VerificationRun& entry) {
-  if (section.kind != Value::Kind::table) fail(section.where, "vary must be a table");
+  if (section.kind != Value::Kind::table) toml_fail(section.where, "vary must be a table");
   for (const cases::Member& member : section.members) {
     if (member.value.kind != Value::Kind::list || member.value.elements.empty())
-      fail(member.value.where, "a varied key needs a list of values");
+      toml_fail(member.value.where, "a varied key needs a list of values");
     std::vector<std::string> values;
     for (const Value& value : member.value.elements)
       values.push_back(assigned(value));
     entry.vary.emplace_back(member.name, values);
     if (entry.levels.size() == 1) entry.levels.assign(values.size(), entry.levels[0]);
     if (values.size() != entry.levels.size()) {
-      fail(member.value.where, fmt::format("{} values for {} levels; give one for each",
-                                           values.size(), entry.levels.size()));
+      toml_fail(member.value.where, fmt::format("{} values for {} levels; give one for each",
+                                                values.size(), entry.levels.size()));
     }
   }
 }
@@ -181,12 +86,12 @@ VerificationRun read_run(const Value& value, const Keys& file) {
   entry.case_name = from("case").text("case");
   entry.levels = from("levels").counts("levels");
   entry.methods = from("methods").texts("methods");
-  if (entry.levels.empty()) fail(value.where, "[[run]] lacks 'levels'");
+  if (entry.levels.empty()) toml_fail(value.where, "[[run]] lacks 'levels'");
   if (entry.methods.empty()) entry.methods = method_menu().names();
   for (const std::string& method : entry.methods) {
     if (!contains(method_menu().names(), method))
-      fail(value.where,
-           "unknown method '" + method + "'" + base::suggestion(method, method_menu().names()));
+      toml_fail(value.where, "unknown method '" + method + "'" +
+                                 base::suggestion(method, method_menu().names()));
   }
   entry.set = file.texts("set");
   for (const std::string& assignment : keys.texts("set"))
@@ -195,7 +100,7 @@ VerificationRun read_run(const Value& value, const Keys& file) {
   try {
     find_case(entry.case_name);
   } catch (const base::InputError& error) {
-    fail(value.where, error.what());
+    toml_fail(value.where, error.what());
   }
   return entry;
 }
@@ -215,15 +120,15 @@ VerificationColumn read_column(const Value& value, const VerificationTable& tabl
   column.estimate = keys.flag("estimate");
   column.literature = keys.text("literature", "");
   if (!column.literature.empty() && !column.estimate) {
-    fail(keys.at("literature").where,
-         "literature stands beside an extrapolated value; add estimate = true");
+    toml_fail(keys.at("literature").where,
+              "literature stands beside an extrapolated value; add estimate = true");
   }
   std::vector<std::string> names;
   for (const VerificationRun& entry : table.runs)
     names.push_back(entry.name);
   if (!column.ratio_to.empty() && !contains(names, column.ratio_to)) {
-    fail(keys.at("ratio_to").where,
-         "no run '" + column.ratio_to + "'" + base::suggestion(column.ratio_to, names));
+    toml_fail(keys.at("ratio_to").where,
+              "no run '" + column.ratio_to + "'" + base::suggestion(column.ratio_to, names));
   }
   return column;
 }
@@ -236,8 +141,8 @@ std::vector<std::string> chosen(const Keys& keys,
   const std::vector<std::string> names = keys.texts(key);
   for (const std::string& name : names) {
     if (!contains(known, name)) {
-      fail(keys.at(key).where,
-           fmt::format("'{}' is none of the {}{}", name, key, base::suggestion(name, known)));
+      toml_fail(keys.at(key).where,
+                fmt::format("'{}' is none of the {}{}", name, key, base::suggestion(name, known)));
     }
   }
   return names;
@@ -271,14 +176,15 @@ VerificationBound read_bound(const Value& value, const VerificationTable& table)
         asked->kind == Value::Kind::real ? asked->real : static_cast<double>(asked->integer);
   }
   if (n_kinds != 1)
-    fail(value.where, "[[bound]] needs one of least_order, most, least, most_spread");
+    toml_fail(value.where, "[[bound]] needs one of least_order, most, least, most_spread");
   return bound;
 }
 
 void check_distinct(const functions::SourcePlace& where, const std::vector<std::string>& names) {
   std::set<std::string> seen;
   for (const std::string& name : names) {
-    if (!seen.insert(name).second) fail(where, "'" + name + "' stands twice; take another name");
+    if (!seen.insert(name).second)
+      toml_fail(where, "'" + name + "' stands twice; take another name");
   }
 }
 
@@ -304,10 +210,10 @@ VerificationTable read_verification_table(const std::string& path) {
   table.note = keys.text("note", "");
   const std::string order_in = keys.text("order_in", "spacing");
   if (order_in != "spacing" && order_in != "steps")
-    fail(keys.at("order_in").where, "order_in must be \"spacing\" or \"steps\"");
+    toml_fail(keys.at("order_in").where, "order_in must be \"spacing\" or \"steps\"");
   table.order_in_steps = order_in == "steps";
   table.repeat = keys.count("repeat", 1);
-  if (table.repeat < 1) fail(keys.at("repeat").where, "repeat must be 1 or more");
+  if (table.repeat < 1) toml_fail(keys.at("repeat").where, "repeat must be 1 or more");
   table.parameters = read_parameters(keys.find("parameters"));
   for (const Value& value : keys.list("measure"))
     table.measures.push_back(read_measure(value, table.parameters));
@@ -323,7 +229,7 @@ VerificationTable read_verification_table(const std::string& path) {
   for (const Value& value : keys.list("bound"))
     table.bounds.push_back(read_bound(value, table));
   if (table.runs.empty() || table.columns.empty())
-    fail(document.where, "a table needs a [[run]] and a [[column]]");
+    toml_fail(document.where, "a table needs a [[run]] and a [[column]]");
   check_distinct(document.where, names);
   check_distinct(document.where, titles);
   return table;

@@ -156,6 +156,36 @@ struct ExactCase {
   std::optional<functions::TensorExpression> stress;                ///< Pa, first Piola-Kirchhoff
 };
 
+/// One of expect.holds: a figure of the run and what it must not exceed, or fall below.
+struct BoundCase {
+  std::string text;    ///< as written: "energy residual <= 1e-2"
+  std::string figure;  ///< see run_figures
+  bool at_most = true;
+  double value = 0;
+  functions::SourcePlace where;
+
+  bool is_met_by(double measured) const;  ///< false for what is no finite number
+};
+
+/// [[expect.unmet]]: who does not meet the pass numbers today, and how the run ends until then.
+struct UnmetCase {
+  std::string method, variant;  ///< variant: one of expect.variants, or empty
+  std::string stops;            ///< part of the message that stops the run; empty: it ends
+  std::int64_t by_step = 0;     ///< at the latest; 0: at any
+  std::string because;
+  functions::SourcePlace where;
+};
+
+/// [expect]: the pass numbers of a case, which the regression asks of every run.
+struct ExpectCase {
+  bool is_given = false;
+  std::vector<BoundCase> holds;
+  std::vector<std::string> variants;  ///< "key=value", each beside the case as it stands
+  std::string stops;                  ///< the run is to be stopped with this in its message
+  std::int64_t by_step = 0;
+  std::vector<UnmetCase> unmet;
+};
+
 struct Case {
   std::string name;  ///< folder or file name of the case
   std::string file;  ///< absolute path; of a copy that a run left, that of its original
@@ -178,6 +208,7 @@ struct Case {
   SphCase sph;
   FvmCase fvm;
   ExactCase exact;
+  ExpectCase expect;
 };
 
 }  // namespace diptych::cases

@@ -1,6 +1,7 @@
 /// The page in a browser: nothing is cut at the width of a screen or of a phone, marks on the edge
 /// of a plot are whole, plots and pictures are saved as files. Built where Chromium was found.
 
+#include "postprocess/report/atlas_page.hpp"
 #include "postprocess/report/curve_page.hpp"
 #include "postprocess/report/study_report.hpp"
 #include "tests/report/browser.hpp"
@@ -31,6 +32,13 @@ class Page : public testing::Test {
     return curve_page("Work", "", "Too coarse.", {{"Error", "seconds", "error", {a, b}, true}},
                       table, script_);
   }
+  static std::string atlas() {
+    AtlasPicture picture{"sph", "nodes", "nu", {{"lattice"}, {"nodes moved by 30 %"}}, {}, {}};
+    for (int i = 0; i < 40; ++i)
+      picture.columns.push_back({std::to_string(i)});
+    picture.cells.assign(2, std::vector<AtlasCell>(40, {"wrong", "energy residual", "stopped"}));
+    return atlas_page("Map", "", "Of 80 points none is stable.", {picture}, std::string(300, 'x'));
+  }
   const std::string script_ = chart_script(chart_script_path());
 };
 
@@ -45,7 +53,7 @@ addEventListener('load', async () => {
   for (const element of document.querySelectorAll('body *')) {
     const { left, right, width: w } = element.getBoundingClientRect();
     const isSeen = w > 1 && getComputedStyle(element).visibility !== 'hidden' && !element.matches('.choice input, .choice legend');
-    if (isSeen && !element.closest('.scroll table, .scroll pre') && (right > width + 0.5 || left < -0.5)) cut.push(describe(element));
+    if (isSeen && !element.closest('.scroll table, .scroll pre, .scroll svg') && (right > width + 0.5 || left < -0.5)) cut.push(describe(element));
   }
   for (const place of document.querySelectorAll('.scroll')) {
     const box = place.getBoundingClientRect();
@@ -68,7 +76,7 @@ addEventListener('load', async () => {
 
 TEST_F(Page, CutsNothingOnAScreenAndOnAPhone) {
   for (const int width : {1400, 800, 390}) {
-    for (const std::string& page : {report(), curves()}) {
+    for (const std::string& page : {report(), curves(), atlas()}) {
       const nlohmann::json seen = seen_in(with_witness(page, measuring), width);
       ASSERT_TRUE(seen.is_object()) << "the page did not get to its end";
       EXPECT_EQ(seen["faults"], nlohmann::json::array()) << width;

@@ -155,6 +155,24 @@ TEST_F(RegressCases, GoOnWhereOneCannotBeReadAndOneBreaksDown) {
   EXPECT_EQ(json()["exit_code"], 2);
 }
 
+TEST_F(RegressCases, MayAskForPassNumbersInPlaceOfABaseline) {
+  write_case(folder_, "mine", "strip",
+             small_case("A strip") + "[expect]\nholds = [\"kinetic growth <= 1\"]\n");
+  const auto met = checked();
+  EXPECT_EQ(met.exit_code, 0) << met.text;
+  EXPECT_EQ(json()["totals"]["met"], 8);
+  write_case(folder_, "mine", "strip",
+             small_case("A strip") + "[expect]\nholds = [\"kinetic growth <= 0.5\"]\n");
+  EXPECT_EQ(checked().exit_code, 5);
+  write_case(folder_, "mine", "strip",
+             small_case("A strip") + "[expect]\nholds = [\"kinetic grwth <= 1\"]\n");
+  const auto misspelt = checked();
+  EXPECT_EQ(misspelt.exit_code, 2);
+  EXPECT_THAT(misspelt.text, HasSubstr("did you mean 'kinetic growth'?"));
+  EXPECT_EQ(regress("--bless all --why 'what is there'").exit_code, 2) << "asked all the same";
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "b" / "strip.json"));
+}
+
 TEST_F(RegressCases, NameBaselinesWithoutACase) {
   ASSERT_EQ(regress("--bless strip --why first").exit_code, 0);
   write_case(folder_, "mine", "kept", small_case("Kept"));

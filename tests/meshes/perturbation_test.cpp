@@ -55,6 +55,20 @@ TEST(PerturbInterior, DrawsAgainWhereACellWouldFold) {
   EXPECT_NO_THROW(check_cells(mesh, "perturbed"));
 }
 
+TEST(PerturbInterior, NamesAFractionThatWorksWhereTheOneAskedDoesNot) {
+  Mesh mesh = box(CellType::hexahedron, {0, 0, 0}, {1, 1, 1}, {6, 6, 6});
+  const Mesh original = mesh;
+  const std::string advice = input_error_of([&] { perturb_interior(mesh, 0.45, 1); });
+  const size_t at = advice.find("seed, ");
+  ASSERT_NE(at, std::string::npos) << advice;
+  EXPECT_EQ(mesh.nodes, original.nodes);
+  const double fraction = std::stod(advice.substr(at + 6));
+  EXPECT_GE(fraction, 0.3) << "which is known to work";
+  EXPECT_NO_THROW(perturb_interior(mesh, fraction, 1));
+  mesh.nodes = original.nodes;
+  EXPECT_NE(input_error_of([&] { perturb_interior(mesh, fraction + 0.01, 1); }), "");
+}
+
 TEST(PerturbInterior, ImpossibleFractionsAreRefusedAndLeaveTheMesh) {
   Mesh mesh = box(CellType::quadrilateral, {0, 0, 0}, {1, 1, 0}, {12, 12, 0});
   const auto nodes = mesh.nodes;

@@ -1,0 +1,117 @@
+#include "benchmarks/run/judgement.hpp"
+
+#include "common/base/error.hpp"
+#include "common/base/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace diptych::harness {
+
+namespace {
+
+/// NaN where the body was at rest at the start.
+double kinetic_growth(const std::vector<io::HistoryRow>& history) {
+  double greatest = 0;
+  for (const io::HistoryRow& row : history)
+    greatest = std::max(greatest, row.energy.kinetic);
+  const double start = history.empty() ? 0 : history.front().energy.kinetic;
+  return start > 0 ? greatest / start : std::numeric_limits<double>::quiet_NaN();
+}
+
+cases::BoundCase at_most(const std::string& figure, double value) {
+  return {fmt::format("{} <= {}", figure, value), figure, true, value, {}};
+}
+
+}  // namespace
+
+std::map<std::string, double> run_figures(const io::RunSummary& run,
+                                          const std::vector<io::HistoryRow>& history) {
+  std::map<std::string, double> figures{
+      {"energy residual", std::abs(run.energy.relative_residual)},
+      {"inverted cells", static_cast<double>(run.most_inverted_cells)},
+      {"least cell J", run.least_cell_J},
+      {"least J", run.min_jacobian},
+      {"kinetic growth", kinetic_growth(history)},
+      {"kinetic energy", run.energy.kinetic},
+      {"strain energy", run.energy.strain},
+      {"external work", run.energy.external_work},
+      {"viscous dissipation", run.energy.viscous_dissipation},
+      {"numerical dissipation", run.energy.numerical_dissipation},
+      {"linear momentum drift", run.linear_momentum_drift},
+      {"angular momentum drift", run.angular_momentum_drift},
+      {"steps", static_cast<double>(run.steps)}};
+  for (const io::QuantitySummary& probe : run.quantities) {
+    figures[probe.name + ", final"] = probe.final_value;
+    figures[probe.name + ", least"] = probe.least;
+    figures[probe.name + ", greatest"] = probe.greatest;
+    if (probe.n_periods > 0) figures[probe.name + ", period"] = probe.period;
+  }
+  return figures;
+}
+
+const std::vector<cases::BoundCase>& guard_bounds() {
+  static const std::vector<cases::BoundCase> bounds{at_most("energy residual", 1e-2),
+                                                    at_most("inverted cells", 0)};
+  return bounds;
+}
+
+std::string AskedBound::text() const {
+  return fmt::format("{} {:.3g}, asked {} {:.3g}", bound.figure, measured,
+                     bound.at_most ? "<=" : ">=", bound.value);
+}
+
+std::vector<AskedBound> asked_of(const io::RunSummary& run,
+                                 const std::vector<io::HistoryRow>& history,
+                                 const std::vector<cases::BoundCase>& bounds) {
+  const std::map<std::string, double> figures = run_figures(run, history);
+  std::vector<cases::BoundCase> all = guard_bounds();
+  all.insert(all.end(), bounds.begin(), bounds.end());
+  std::vector<AskedBound> asked;
+  for (const cases::BoundCase& bound : all) {
+    const auto found = figures.find(bound.figure);
+    if (found == figures.end()) {
+      std::vector<std::string> names;
+      for (const auto& [name, value] : figures)
+        names.push_back(name);
+      throw base::InputError(fmt::format("{}'{}' is no figure of a run{}",
+                                         functions::prefix(bound.where), bound.figure,
+                                         base::suggestion(bound.figure, names)));
+    }
+    asked.push_back({bound, found->second});
+  }
+  return asked;
+}
+
+const char* word_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::stable:
+      return "stable";
+    case Outcome::stopped:
+      return "stopped";
+    case Outcome::wrong:
+      return "wrong";
+    default:
+      return "refused";
+  }
+}
+
+Judgement judged(const io::RunSummary& run,
+                 const std::vector<io::HistoryRow>& history,
+                 const std::vector<cases::BoundCase>& bounds) {
+  if (run.status != "done" && run.status != "step limit") {
+    const std::string message = run.failure ? run.failure->message : run.status;
+    return {run.status == "breakdown" ? Outcome::stopped : Outcome::refused,
+            message.substr(0, message.find('\n'))};
+  }
+  std::vector<std::string> missed;
+  for (const AskedBound& asked : asked_of(run, history, bounds)) {
+    if (!asked.is_met()) missed.push_back(asked.text());
+  }
+  if (missed.empty()) return {Outcome::stable, ""};
+  return {Outcome::wrong, base::joined(missed, "; ")};
+}
+
+}  // namespace diptych::harness

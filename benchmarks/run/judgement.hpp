@@ -1,0 +1,59 @@
+#pragma once
+/// What a run is worth: stable, stopped by the program, or wrong, which is worse than both: it came
+/// to its end while its budget, its cells or a bound of its case say that it is no solution.
+/// Test: tests/harness/judgement_test.cpp
+
+#include "common/cases/case.hpp"
+#include "common/io/run_record.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace diptych::harness {
+
+/// Numbers of a run that bounds may be asked of, by name: "energy residual" (its magnitude at the
+/// end), "inverted cells" (the most at any output), "least cell J", "least J", "kinetic growth"
+/// (the greatest kinetic energy of any output over that of the start: noise on a body at rest must
+/// not exceed 1), energies at the end, drifts of the momenta, "steps", and of each probe "NAME,
+/// final", "NAME, least", "NAME, greatest", "NAME, period".
+std::map<std::string, double> run_figures(const io::RunSummary& run,
+                                          const std::vector<io::HistoryRow>& history);
+
+/// What is asked of every run that comes to its end: an energy residual of at most 1e-2 and no cell
+/// inside out at any output.
+const std::vector<cases::BoundCase>& guard_bounds();
+
+/// A bound and what a run came to.
+struct AskedBound {
+  cases::BoundCase bound;
+  double measured = 0;
+
+  bool is_met() const { return bound.is_met_by(measured); }
+  std::string text() const;  ///< "energy residual 0.036, asked <= 0.01"
+};
+
+/// Those of the guards, then `bounds`.
+/// @throws base::InputError for a figure that the run does not have, with those that it has
+std::vector<AskedBound> asked_of(const io::RunSummary& run,
+                                 const std::vector<io::HistoryRow>& history,
+                                 const std::vector<cases::BoundCase>& bounds);
+
+enum class Outcome {
+  stable,   ///< came to its end, every bound holds
+  stopped,  ///< code 3
+  wrong,    ///< came to its end, a bound does not hold
+  refused   ///< code 2: could not be begun
+};
+const char* word_of(Outcome outcome);
+
+struct Judgement {
+  Outcome outcome = Outcome::refused;
+  std::string reason;  ///< first line of the message, or the bounds that do not hold
+};
+
+Judgement judged(const io::RunSummary& run,
+                 const std::vector<io::HistoryRow>& history,
+                 const std::vector<cases::BoundCase>& bounds);
+
+}  // namespace diptych::harness
