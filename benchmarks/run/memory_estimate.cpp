@@ -33,7 +33,7 @@ constexpr double exact_impedance = 200;  ///< a node
 constexpr double cell_bytes = 30;
 constexpr double volume_corner = 70;  ///< of a cell that carries pressure
 constexpr double volume_node = 60;    ///< of a node of such
-constexpr double class_pair = 650;  ///< of rows that stand for many
+constexpr double class_pair = 650;    ///< of rows that stand for many
 
 struct Lattice {
   int dimension = 3;
@@ -199,7 +199,9 @@ double bytes_of(const cases::Case& setup,
   const double stored = scheme.precision == "mixed" ? of_mixed : costs.stored_pair;
   const bool commutes = method != "sph" && !is_simplex(setup.mesh.element) &&
                         setup.mesh.perturbation == 0 && setup.fvm.stencil != "integral";
-  const bool has_volumes = scheme.volumes == "cells" || (scheme.volumes == "auto" && !commutes);
+  const bool has_volumes =
+      scheme.volumes == "cells" || (scheme.volumes == "auto" && !commutes &&
+                                    setup.material.lame > 2 * setup.material.shear_modulus);
   const double corners = size.cells * corners_of_cell(setup.mesh);
   const double volumes = has_volumes ? volume_corner * corners + volume_node * size.nodes : 0;
   const double geometry = n_class_pairs > 0 ? class_pair * n_class_pairs : stored * size.pairs;

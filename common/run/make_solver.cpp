@@ -113,12 +113,19 @@ std::unique_ptr<Solver> solver_in(const cases::Case& setup, const scheme::PairGr
 
 }  // namespace
 
+/// Volumetric over shear modulus from which bulk pressure can destroy a body: at J = 1/2 the
+/// pressure is then the shear modulus, half of the least critical one that was found (notes 10.1).
+constexpr double least_bulk = 2;
+
 bool has_cell_volumes(const cases::Case& setup, const scheme::PairGraph& graph) {
   switch (scheme::volumes_menu().at(setup.scheme.volumes)) {
     case scheme::Volumes::nodes:
       return false;
-    case scheme::Volumes::automatic:
-      return !graph.commutes && !graph.cells.empty();
+    case scheme::Volumes::automatic: {
+      const auto material = model_menu().at(setup.material.model).model(setup.material);
+      return !graph.commutes && !graph.cells.empty() &&
+             material->volumetric_modulus() > least_bulk * setup.material.shear_modulus;
+    }
     case scheme::Volumes::cells:
       break;
   }

@@ -21,7 +21,8 @@ const std::string graph =
     "set = ['mesh.element=tetrahedron']\ncase = 'impact'\n";
 
 Atlas atlas_of(const std::string& text) {
-  const std::string path = testing::TempDir() + "/map.toml";
+  // tests run side by side
+  const std::string path = testing::TempDir() + "/" + std::to_string(getpid()) + "-map.toml";
   io::write_file_atomically(path, text);
   return read_atlas(path);
 }

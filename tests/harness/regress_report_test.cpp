@@ -178,7 +178,7 @@ TEST(RegressJson, HasItsDocumentedKeys) {
   EXPECT_EQ(json["cases"][1]["verdict"], "failed");
   EXPECT_EQ(json["checks"][1], nlohmann::json::parse(R"({"case": "bar", "method": "sph",
       "check": "errors", "figure": "velocity L2", "verdict": "failed", "kind": "bound",
-      "measured": 0.25, "bound": 1e-8, "note": "2 < 3 & \"4\""})"));
+      "measured": 0.25, "at_least": false, "bound": 1e-8, "note": "2 < 3 & \"4\""})"));
   EXPECT_EQ(json["checks"][0]["kind"], nullptr);
   EXPECT_EQ(json["checks"][3]["measured"], nullptr);
   EXPECT_EQ(json["checks"][4]["kind"], "breakdown");

@@ -9,10 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <fmt/format.h>
-#include <map>
 
 namespace diptych::harness {
 namespace {
@@ -98,85 +95,6 @@ TEST_P(Impact, OvershootNeedsLimiterAndFaceCorrection) {
   EXPECT_GE(run(-10, 1, {"scheme.limiter=none"}).overshoot, 0.05);
   EXPECT_GE(run(-10, 1, {"scheme.face_correction=0"}).overshoot, 0.05);
   EXPECT_LE(run(-10, 1, {"scheme.limiter=barth-jespersen"}).overshoot, 0.1);
-}
-
-/// A free bar that hits a wall obliquely and sticks to it, along axis `axis`; the others follow it
-/// in cyclic order.
-RunResult oblique_impact(const std::string& method, int axis, const std::string& limiter) {
-  const double upper[] = {1, 0.2, 0.15}, velocity[] = {-10, 4, 2};
-  const int cells[] = {20, 4, 3};
-  const auto turned = [&](const auto& values) {
-    return fmt::format("[{}, {}, {}]", values[(3 - axis) % 3], values[(4 - axis) % 3],
-                       values[(5 - axis) % 3]);
-  };
-  const std::string text =
-      fmt::format(R"(
-[mesh]
-element = "hexahedron"
-lower = [0, 0, 0]
-upper = {}
-cells = {}
-[material]
-model = "mooney-rivlin"
-density = 1100
-youngs_modulus = 17e6
-poissons_ratio = 0.3
-zeta_ratio = 0.5
-[initial]
-velocity = {}
-[[boundary]]
-group = "{}_min"
-type = "fixed"
-[time]
-end = 5e-3
-integrator = "ssp-rk43"
-[output]
-frames = 1
-[scheme]
-limiter = "{}"
-face_correction = "1/6"
-[sph]
-kappa = 0.75
-)",
-                  turned(upper), turned(cells), turned(velocity), "xyz"[axis], limiter);
-  RunOptions options;
-  options.method = method;
-  options.threads = 1;
-  options.quiet = true;
-  return run_case(cases::case_from_text(text, "oblique", {}), options);
-}
-
-/// Displacements by the node's position along the bar's own axes.
-std::map<std::array<int, 3>, Eigen::Vector3d> along_the_bar(const RunResult& run, int axis) {
-  std::map<std::array<int, 3>, Eigen::Vector3d> all;
-  for (size_t a = 0; a < run.graph.X.size(); ++a) {
-    std::array<int, 3> place{};
-    Eigen::Vector3d u;
-    for (int i = 0; i < 3; ++i) {
-      place[i] = static_cast<int>(std::lround(1e6 * run.graph.X[a][(i + axis) % 3]));
-      u[i] = run.final_state.u[a][(i + axis) % 3];
-    }
-    all[place] = u;
-  }
-  return all;
-}
-
-// Which of two roundings is larger must decide nothing: sums in another order are all that the
-// order of the axes changes.
-TEST_P(Impact, OrderOfTheAxesChangesRoundingsAlone) {
-  for (const char* limiter : {"none", "venkatakrishnan", "barth-jespersen"}) {
-    const auto first = along_the_bar(oblique_impact(GetParam(), 0, limiter), 0);
-    for (const int axis : {1, 2}) {
-      const auto other = along_the_bar(oblique_impact(GetParam(), axis, limiter), axis);
-      ASSERT_EQ(first.size(), other.size());
-      double largest = 0, scale = 0;
-      for (const auto& [place, u] : first) {
-        scale = std::max(scale, u.norm());
-        largest = std::max(largest, (other.at(place) - u).norm());
-      }
-      EXPECT_LE(largest, 1e-10 * scale) << limiter << " along axis " << axis;
-    }
-  }
 }
 
 }  // namespace

@@ -96,8 +96,10 @@ void WallContacts::keep(std::vector<char>& closed) const {
 }
 
 void WallContacts::restore(const std::vector<char>& closed) {
-  for (size_t k = 0; k < nodes_.size(); ++k)
+  for (size_t k = 0; k < nodes_.size(); ++k) {
     nodes_[k].closed = closed[k] != 0;
+    nodes_[k].lands = false;  // it does in a step alone
+  }
 }
 
 template <int Dim>

@@ -89,7 +89,7 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
   totals.n_bad += is_sound ? Lanes{} : Lanes{} + 1.0;
   const bool with_dissipation = sweep.with_dissipation && sweep.relaxation.excess_C.size() > 0;
   Lanes dissipation{};
-  physics::StepPaths<Lanes> paths;
+  physics::StepPaths<Lanes> paths{};
   Response<Lanes> response = response_of_block(
       model, body, sweep.relaxation, X, b,
       [&](int k, const BranchState<Lanes>& branch, const physics::RightTensors<Lanes>& now)

@@ -31,8 +31,6 @@ struct MomentumSweep {
   // results, one per chunk of parallel::for_chunks
   double* numerical_power;  ///< W
   double* largest_rate;     ///< 1/s, graph CFL: dt <= 1/rate
-  /// (m/s)^2/m^3: times |X_ab|^3 the square of the jumps below which slopes are not limited
-  double threshold = 0;
 };
 
 /// A compiled sweep over blocks [begin, end) of a chunk: forces of rows into state.T, of runs added

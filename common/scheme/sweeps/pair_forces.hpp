@@ -49,7 +49,6 @@ DIPTYCH_INLINE void mean_state(const Pairs& pairs,
 template <int Dim, class T>
 struct Slopes {
   Vector<T> sum{}, a{}, b{};
-  T threshold{};  ///< see slope_limited.hpp  [m^2/s^2]
 };
 
 /// v_b^rec - v_a^rec, limited.  @param h  along the normal of the pair in space
@@ -69,8 +68,7 @@ DIPTYCH_INLINE Vector<T> reconstructed_jump(const Vector<T>& plain,
   for (int i = 0; i < Dim; ++i)
     n[i] = h[i] * inverse;
   if constexpr (limiter != PairLimiter::none) {
-    jump = LimiterOf<limiter>::template limited<Dim>(jump, plain, slopes.a, slopes.b, n,
-                                                     slopes.threshold);
+    jump = LimiterOf<limiter>::template limited<Dim>(jump, plain, slopes.a, slopes.b, n);
   }
   return jump;
 }
@@ -96,15 +94,6 @@ DIPTYCH_INLINE Vector<T> dissipation_of(const MomentumSweep<Dim>& sweep,
   using Record = NodeRecord<Dim>;
   Vector<T> h{};
   Slopes<Dim, T> slopes;
-  if constexpr (limits_slopes(kind.limiter)) {
-    T X2{};
-    for (int j = 0; j < Dim; ++j) {
-      const T X = positions.neighbour(j) - positions.own(j);
-      X2 += X * X;
-    }
-    slopes.threshold =
-        static_cast<algebra::Element<T>>(sweep.threshold) * X2 * algebra::square_root(X2);
-  }
 #pragma GCC unroll 3
   for (int i = 0; i < Dim; ++i) {
     h[i] = pair.S[i] + pair.S[i];  // records hold H - I

@@ -32,63 +32,14 @@ Sweeps<Dim>::Sweeps(const Body<Dim>& body,
       old_power_(viscous_dissipation_.size()),
       least_J_(viscous_dissipation_.size()),
       numerical_power_(viscous_dissipation_.size()),
-      largest_rate_(viscous_dissipation_.size()) {
-  for (std::int64_t a = 0; a < body.n_owned; ++a)
-    length_ = std::max(length_, 2 * body.X_centred(a).norm());
-}
-
-/// eps^2/|X_ab|^3 = U^2 (K/L)^3, U the largest velocity from that of the centre of mass: the scheme
-/// has no other scale of velocity that a moving frame leaves alone (notes 3.4).
-template <int Dim>
-double Sweeps<Dim>::threshold_of_limiter(const Body<Dim>& body) const {
-  struct Sums {
-    double volume = 0;
-    Vec3 momentum = Vec3::Zero();
-  };
-  const auto velocity = [&](std::int64_t a) {
-    Vec3 v = Vec3::Zero();
-    for (int i = 0; i < Dim; ++i)
-      v[i] = body.v.at(a, i);
-    return v;
-  };
-  const auto for_nodes = [&](const auto& work) {
-    parallel::for_chunks(body.n_blocks, [&](auto begin, auto end, auto chunk) {
-      const std::int64_t last = std::min(end * algebra::n_lanes, body.n_owned);
-      for (std::int64_t a = begin * algebra::n_lanes; a < last; ++a)
-        work(a, chunk);
-    });
-  };
-  std::vector<Sums> parts(parallel::n_chunks_of(body.n_blocks));
-  for_nodes([&](std::int64_t a, std::int64_t chunk) {
-    parts[chunk].volume += body.graph.Omega[a];
-    parts[chunk].momentum += body.graph.Omega[a] * velocity(a);
-  });
-  Sums sum;
-  for (const Sums& part : parts) {
-    sum.volume += part.volume;
-    sum.momentum += part.momentum;
-  }
-  const Vec3 mean = sum.momentum / sum.volume;
-  std::vector<double> largest(parts.size());
-  for_nodes([&](std::int64_t a, std::int64_t chunk) {
-    largest[chunk] = std::max(largest[chunk], (velocity(a) - mean).squaredNorm());
-  });
-  const double ratio = threshold_factor / length_;
-  return *std::max_element(largest.begin(), largest.end()) * ratio * ratio * ratio;
-}
+      largest_rate_(viscous_dissipation_.size()) {}
 
 template <int Dim>
 void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
   const Speeds speeds = options_.time_step.speeds;
-  if (with_step && limits_slopes(options_.dissipation.limiter)) {
-    threshold_ = threshold_of_limiter(body);
-  }
-  const MomentumSweep<Dim> sweep{body,
-                                 options_.dissipation_factor,
-                                 with_step && speeds == Speeds::exact,
-                                 numerical_power_.data(),
-                                 largest_rate_.data(),
-                                 threshold_};
+  const MomentumSweep<Dim> sweep{body, options_.dissipation_factor,
+                                 with_step && speeds == Speeds::exact, numerical_power_.data(),
+                                 largest_rate_.data()};
   scheme::sum_forces(sweep, momentum_);
   if (!body.cells.empty()) body.cells.add_forces(body, *material_);
   if (with_step && speeds == Speeds::bound) {

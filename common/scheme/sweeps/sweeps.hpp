@@ -68,7 +68,6 @@ class Sweeps {
 
  private:
   double rate() const;
-  double threshold_of_limiter(const Body<Dim>& body) const;
 
   std::shared_ptr<const MaterialModel> material_;
   SweepOptions options_;
@@ -77,8 +76,6 @@ class Sweeps {
   double geometric_rate_;
   double undeformed_speed_;
   double stable_dt_ = 0;
-  double length_ = 0;     ///< m, twice the largest distance from the centroid
-  double threshold_ = 0;  ///< of the limiter, see momentum.hpp
   // results of the sweeps, one per chunk
   std::vector<double> viscous_dissipation_, old_power_, least_J_, numerical_power_, largest_rate_;
 };

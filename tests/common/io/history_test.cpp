@@ -103,7 +103,7 @@ TEST(History, RefusesDamageWithItsPlace) {
   EXPECT_THAT(refusal(with("\n0.10000000000000001", "\n1e400")), HasSubstr("expected a number"));
   EXPECT_THAT(refusal(with(",3,", ",3.5,")), HasSubstr("column 'step' holds '3.5'"));
   EXPECT_THAT(refusal(with(",3,", ",-3,")), HasSubstr("expected a whole number >= 0"));
-  EXPECT_THAT(refusal(with(",3,", ",3,,")), HasSubstr("22 values under 21 columns"));
+  EXPECT_THAT(refusal(with(",3,", ",3,,")), HasSubstr("23 values under 22 columns"));
   EXPECT_THAT(refusal(text.substr(0, text.size() - 4)), HasSubstr("cut off"));
   EXPECT_THAT(refusal("time [s],step\n"), HasSubstr("column 'dt [s]' is missing"));
 }

@@ -36,7 +36,7 @@ normal = [0, 0, 1]
 [time]
 end = 2e-3
 integrator = ")" +
-         integrator + "\"\n";
+         integrator + "\"\n[scheme]\nvolumes = \"nodes\"\n";  // volumes of cells stand this
 }
 
 struct Setting {

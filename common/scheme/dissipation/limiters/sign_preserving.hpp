@@ -44,8 +44,7 @@ struct SignPreserving {
                                           const Vector<T>& plain,
                                           const Vector<T>&,
                                           const Vector<T>&,
-                                          const Vector<T>& n,
-                                          const T&) {
+                                          const Vector<T>& n) {
     Vector<T> jump = reconstructed;
     limit_sign_preserving<Dim>(jump, plain, n);
     return jump;

@@ -16,12 +16,6 @@
 /// both.) In both directions 0 <= reconstructed jump <= plain jump, so every pair dissipates; the
 /// jump of an affine field is zero, limited or not.
 ///
-/// Limiters decide by which of two slopes is larger and by their signs. Where all three jumps of a
-/// pair are small against a threshold, after Venkatakrishnan (1995) eps^2 = U^2 (K |X_ab|/L)^3, the
-/// pair is reconstructed without limiter instead, in a smooth transition: rounding then decides
-/// nothing, and smooth extrema, whose jumps are of the order of h^2, keep their order. Above it
-/// every pair dissipates as said; below it pairs have no sign, as without limiter.
-///
 /// Measured on `impact` (tests/verification/shock_test.cpp). Overshoots come from the dispersion of
 /// the central difference: without the face correction (kappa_f = 1/6) no limiter brings them
 /// under some per cent.
@@ -53,28 +47,15 @@ struct LimitedDirection {
   }
 };
 
-/// Share of the limiter: 0 where the jumps are small against the threshold, 1 where they are large.
-/// @param  m  sum of squares of the jumps  [m^2/s^2]
-template <class T>
-DIPTYCH_INLINE T share_of_limiter(const T& m, const T& threshold) {
-  const T s = algebra::ratio_or_zero<T>(m, m + threshold);
-  return s * s;
-}
-
-/// K of the threshold: 1 leaves 0.4 % of U at 40 spacings to a length, 0.14 % at 80.
-inline constexpr double threshold_factor = 1;
-
 /// The jump that D_ab multiplies.
-/// @param  plain      v_b - v_a  [m/s]
-/// @param  l_a, l_b   L_a X_ab, L_b X_ab  [m/s]
-/// @param  n          unit normal of the pair in space
-/// @param  threshold  eps^2  [m^2/s^2]
+/// @param  plain     v_b - v_a  [m/s]
+/// @param  l_a, l_b  L_a X_ab, L_b X_ab  [m/s]
+/// @param  n         unit normal of the pair in space
 template <class Slope, int Dim, class T>
 DIPTYCH_INLINE Vector<T> slope_limited_jump(const Vector<T>& plain,
                                             const Vector<T>& l_a,
                                             const Vector<T>& l_b,
-                                            const Vector<T>& n,
-                                            const T& threshold) {
+                                            const Vector<T>& n) {
   T plain_n{}, a_n{}, b_n{};
   for (int i = 0; i < Dim; ++i) {
     plain_n += plain[i] * n[i];
@@ -82,31 +63,22 @@ DIPTYCH_INLINE Vector<T> slope_limited_jump(const Vector<T>& plain,
     b_n += l_b[i] * n[i];
   }
   Vector<T> t{};
-  T t_t{}, a_t{}, b_t{}, slopes_t{};
+  T t_t{}, a_t{}, b_t{};
   for (int i = 0; i < Dim; ++i) {
     t[i] = plain[i] - plain_n * n[i];
     t_t += t[i] * t[i];
     a_t += l_a[i] * t[i];
     b_t += l_b[i] * t[i];
-    const T a = l_a[i] - a_n * n[i], b = l_b[i] - b_n * n[i];
-    slopes_t += a * a + b * b;
   }
   const T length = algebra::square_root(t_t);
   const LimitedDirection<Slope, T> along(plain_n, a_n, b_n);
   const LimitedDirection<Slope, T> across(length, algebra::ratio_or_zero<T>(a_t, length),
                                           algebra::ratio_or_zero<T>(b_t, length));
-  const T one = T{} + 1.0F;
-  const T share_n = share_of_limiter<T>(plain_n * plain_n + a_n * a_n + b_n * b_n, threshold);
-  const T share_t = share_of_limiter<T>(t_t + slopes_t, threshold);
-  const T limited_n = plain_n - 0.5 * (along.phi_a * a_n + along.phi_b * b_n);
-  const T jump_n =
-      share_n * along.strength * limited_n + (one - share_n) * (plain_n - 0.5 * (a_n + b_n));
-  const T limited = share_t * across.strength, free = one - share_t;
-  const T of_a = limited * across.phi_a + free, of_b = limited * across.phi_b + free;
+  const T jump_n = plain_n - 0.5 * (along.phi_a * a_n + along.phi_b * b_n);
   Vector<T> jump{};
   for (int i = 0; i < Dim; ++i) {
-    const T slopes = of_a * (l_a[i] - a_n * n[i]) + of_b * (l_b[i] - b_n * n[i]);
-    jump[i] = jump_n * n[i] + (limited + free) * t[i] - 0.5 * slopes;
+    const T slopes = across.phi_a * (l_a[i] - a_n * n[i]) + across.phi_b * (l_b[i] - b_n * n[i]);
+    jump[i] = along.strength * jump_n * n[i] + across.strength * (t[i] - 0.5 * slopes);
   }
   return jump;
 }
@@ -120,9 +92,8 @@ struct SlopeLimited {
                                           const Vector<T>& plain,
                                           const Vector<T>& l_a,
                                           const Vector<T>& l_b,
-                                          const Vector<T>& n,
-                                          const T& threshold) {
-    return slope_limited_jump<Slope, Dim>(plain, l_a, l_b, n, threshold);
+                                          const Vector<T>& n) {
+    return slope_limited_jump<Slope, Dim>(plain, l_a, l_b, n);
   }
 };
 

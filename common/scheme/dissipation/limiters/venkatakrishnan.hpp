@@ -1,6 +1,6 @@
 #pragma once
-/// Limiter of Venkatakrishnan (J. Comput. Phys. 118, 1995), his threshold apart, which is that of
-/// all slope limiters (slope_limited.hpp): phi = (y^2 + 2 y) / (y^2 + y + 2), y as for Barth and
+/// Limiter of Venkatakrishnan (J. Comput. Phys. 118, 1995), without his threshold (K = 0, so that
+/// no scale of velocity is needed): phi = (y^2 + 2 y) / (y^2 + y + 2), y as for Barth and
 /// Jespersen, here y <= 2. Smooth, hence it limits earlier: fronts of `impact` overshoot by less
 /// than 1 % down to a compression of 0.7.
 
