@@ -201,7 +201,7 @@ double bytes_of(const cases::Case& setup,
                         setup.mesh.perturbation == 0 && setup.fvm.stencil != "integral";
   const bool has_volumes =
       scheme.volumes == "cells" || (scheme.volumes == "auto" && !commutes &&
-                                    setup.material.lame > 2 * setup.material.shear_modulus);
+                                    setup.material.lame > 2.5 * setup.material.shear_modulus);
   const double corners = size.cells * corners_of_cell(setup.mesh);
   const double volumes = has_volumes ? volume_corner * corners + volume_node * size.nodes : 0;
   const double geometry = n_class_pairs > 0 ? class_pair * n_class_pairs : stored * size.pairs;

@@ -113,9 +113,10 @@ std::unique_ptr<Solver> solver_in(const cases::Case& setup, const scheme::PairGr
 
 }  // namespace
 
-/// Volumetric over shear modulus from which bulk pressure can destroy a body: at J = 1/2 the
-/// pressure is then the shear modulus, half of the least critical one that was found (notes 10.1).
-constexpr double least_bulk = 2;
+/// Volumetric over shear modulus from which bulk pressure can destroy a body: at J = 0.6 the
+/// pressure is then the shear modulus, and the least critical one that was found is above it (notes
+/// 10.1).
+constexpr double least_bulk = 2.5;
 
 bool has_cell_volumes(const cases::Case& setup, const scheme::PairGraph& graph) {
   switch (scheme::volumes_menu().at(setup.scheme.volumes)) {

@@ -22,7 +22,9 @@ const std::string graph =
 
 Atlas atlas_of(const std::string& text) {
   // tests run side by side
-  const std::string path = testing::TempDir() + "/" + std::to_string(getpid()) + "-map.toml";
+  const auto folder = std::filesystem::path(testing::TempDir()) / std::to_string(getpid());
+  std::filesystem::create_directories(folder);
+  const std::string path = (folder / "map.toml").string();
   io::write_file_atomically(path, text);
   return read_atlas(path);
 }

@@ -47,7 +47,7 @@ inline report::StudyReport sample_study() {
     for (int i = 0; i <= 4; ++i) {
       io::HistoryRow row;
       row.time = 0.001 * i;
-      row.energy = {2.0 - 0.5 * i, 1.0 + 0.25 * i, 0.25 * i, 0.125 * i, 0.125 * i, 1e-7 * i};
+      row.energy = {2.0 - 0.5 * i, 1.0 + 0.25 * i, 0.25 * i, 0.125 * i, 0.125 * i, 0, 1e-7 * i};
       study.histories[method].push_back(row);
     }
   }

@@ -39,7 +39,7 @@ SectionKeys<SchemeCase> scheme_keys() {
           one_of(scheme::volumes_menu().names(),
                  "What carries the bulk pressure: J of the nodes, or volumes of deformed cells, "
                  "which keep bodies under pressure whole. auto: cells where the volumetric modulus "
-                 "is more than twice the shear modulus, but for fvm on boxes of hexahedra, where "
+                 "is more than 2.5 times the shear modulus, but for fvm on boxes of hexahedra, where "
                  "nodes are as safe, and on hexahedra with distorted faces on the boundary, where "
                  "only nodes have it.",
                  "\"cells\""))
