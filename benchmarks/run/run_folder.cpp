@@ -67,6 +67,15 @@ void remove_files(const fs::path& directory, const std::string& except) {
   }
 }
 
+/// Whether there is anything else than what a run leaves whose first file was cut off.
+bool holds_more_than_a_beginning(const fs::path& directory, std::error_code& error) {
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->path().filename() != "summary.json.tmp") return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string RunFolder::file(const char* name) const {
@@ -80,7 +89,7 @@ void RunFolder::check() const {
   if (!fs::is_directory(path, error)) {
     throw base::InputError(directory_ + ": is not a folder; give another --out");
   }
-  if (!fs::is_empty(path, error) && !fs::exists(path / "summary.json", error)) {
+  if (!fs::exists(path / "summary.json", error) && holds_more_than_a_beginning(path, error)) {
     throw base::InputError(directory_ +
                            ": holds files that no run of diptych made; give another --out");
   }

@@ -122,7 +122,16 @@ DIPTYCH_INLINE StepPaths<T> step_paths(const RightTensors<T>& begin,
   const auto det = [](const RightTensors<T>& X) DIPTYCH_INLINE_LAMBDA {
     return X.C(0, 0) * X.G(0, 0) + X.C(0, 1) * X.G(0, 1) + X.C(0, 2) * X.G(0, 2);
   };
-  StepPaths<T> paths{};
+  StepPaths<T> paths;
+  const auto straight = [](MetricPath<T>& path) DIPTYCH_INLINE_LAMBDA {
+    path.gamma[1] = path.gamma[2] = path.beta[1] = SymmetricTensor<T>{};
+  };
+  straight(paths.C);
+  if constexpr (has_H) {
+    straight(paths.G);
+  } else {
+    paths.G = MetricPath<T>{};
+  }
   const T det_0 = det(begin), det_1 = det(end);
   paths.C.begin = {begin.C, begin.inverse_C, begin.G, det_0};
   paths.C.end = {end.C, end.inverse_C, end.G, det_1};

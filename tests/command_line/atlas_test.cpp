@@ -82,6 +82,17 @@ TEST_F(OwnAtlas, GoesOnWhereItWasKilledAndRunsNothingTwice) {
   EXPECT_THAT(made("--fresh").text, HasSubstr("6 of 6 points, 0 of them taken over"));
 }
 
+// Killed while the first file of a run was written.
+TEST_F(OwnAtlas, MakesARunAgainWhoseFirstFileWasCutOff) {
+  made();
+  tests::shell(
+      folder,
+      "cd $(ls -d out/runs/*_sph_level_0 | head -n 1) && mv summary.json summary.json.tmp && "
+      "rm history.csv case.toml");
+  EXPECT_THAT(made().text, HasSubstr("6 of 6 points, 3 of them taken over"));
+  EXPECT_THAT(made().text, HasSubstr("6 of 6 points, 4 of them taken over"));
+}
+
 TEST_F(OwnAtlas, IsComparedWithThatOfAnEarlierProgram) {
   ASSERT_EQ(made("--quiet").exit_code, 0);
   std::filesystem::rename(folder.path() / "out" / "atlas.json", folder.path() / "before.json");

@@ -89,14 +89,13 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
   totals.n_bad += is_sound ? Lanes{} : Lanes{} + 1.0;
   const bool with_dissipation = sweep.with_dissipation && sweep.relaxation.excess_C.size() > 0;
   Lanes dissipation{};
-  physics::StepPaths<Lanes> paths{};
   Response<Lanes> response = response_of_block(
       model, body, sweep.relaxation, X, b,
       [&](int k, const BranchState<Lanes>& branch, const physics::RightTensors<Lanes>& now)
           DIPTYCH_INLINE_LAMBDA {
             if (!sweep.relaxation.commit) return;
             if (with_dissipation) {
-              if (k == 0) paths = paths_of_step<Dim, has_H>(body, sweep.relaxation, now, b);
+              const auto paths = paths_of_step<Dim, has_H>(body, sweep.relaxation, now, b);
               dissipation += dissipation_of_step<Dim, has_H>(body, model.branches[k],
                                                              sweep.relaxation, paths, branch, b, k);
             }
