@@ -1,6 +1,7 @@
 #pragma once
 /// The cells of a mesh with the shares of their volumes that are their corners': what the volumes
-/// of deformed cells are given back to nodes by (notes 3.9). Test: tests/graphs/dual_measure_test.cpp
+/// of deformed cells are given back to nodes by (notes 3.9). Test:
+/// tests/graphs/dual_measure_test.cpp
 
 #include "meshes/mesh.hpp"
 #include "meshes/shape_integrals.hpp"

@@ -190,8 +190,7 @@ std::array<Vec3, 4> face_area_shares(const BoundaryFace& face,
   }
   std::array<Vec3, 4> share;
   for (int a = 0; a < 4; ++a) {
-    share[a] =
-        0.25 * (corner[(a + 1) % 4] - corner[a]).cross(corner[(a + 3) % 4] - corner[a]);
+    share[a] = 0.25 * (corner[(a + 1) % 4] - corner[a]).cross(corner[(a + 3) % 4] - corner[a]);
   }
   return share;
 }

@@ -1,7 +1,7 @@
 #pragma once
 /// Shares of the corners in the area vector of a face, int N_a n dA: of an edge of the plane, a
-/// triangle, a bilinear quadrilateral. They are the derivatives of the volume behind the face by its
-/// corners. Tests: tests/graphs/shape_integrals_test.cpp, tests/common/scheme/volumes_test.cpp
+/// triangle, a bilinear quadrilateral. They are the derivatives of the volume behind the face by
+/// its corners. Tests: tests/graphs/shape_integrals_test.cpp, tests/common/scheme/volumes_test.cpp
 
 #include "common/algebra/vectors.hpp"
 

@@ -74,8 +74,8 @@ double default_cfl(const cases::Case& setup,
   return dt * geometric_rate * scheme::frequency_factor(kappa_f);
 }
 
-#define DIPTYCH_INSTANTIATE(Dim)                                                       \
-  template double default_cfl(const cases::Case&, const scheme::MaterialModel&,        \
+#define DIPTYCH_INSTANTIATE(Dim)                                                \
+  template double default_cfl(const cases::Case&, const scheme::MaterialModel&, \
                               scheme::Body<Dim>&, double, const time::Integrator&);
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)

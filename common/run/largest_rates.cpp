@@ -113,15 +113,12 @@ double LargestRates<Dim>::dissipation(double shear_ratio) {
 template <int Dim>
 double LargestRates<Dim>::frequency(const ElasticRatios& ratios) {
   return std::sqrt(lanczos::largest_eigenvalue<Four>(
-      body_.graph.Omega, body_.n_owned, [&](const Vectors& u, Vectors& out) {
-        apply_elasticity(u, ratios, out);
-      }));
+      body_.graph.Omega, body_.n_owned,
+      [&](const Vectors& u, Vectors& out) { apply_elasticity(u, ratios, out); }));
 }
 
 template <int Dim>
-double LargestRates<Dim>::leapfrog_limit(double dt,
-                                         const ElasticRatios& ratios,
-                                         double strength) {
+double LargestRates<Dim>::leapfrog_limit(double dt, const ElasticRatios& ratios, double strength) {
   Vectors damped(body_.n_owned);
   return lanczos::largest_eigenvalue<Four>(
       body_.graph.Omega, body_.n_owned, [&](const Vectors& v, Vectors& out) {

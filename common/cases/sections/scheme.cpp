@@ -34,15 +34,15 @@ SectionKeys<SchemeCase> scheme_keys() {
             "Factor kappa_f of the face correction with its adjoint: 0 none, 1/6 fourth-order "
             "first derivatives on a lattice, 1/8 exact face values of quadratics.",
             "\"1/6\""})
-      .key(
-          "volumes", &SchemeCase::volumes,
-          one_of(scheme::volumes_menu().names(),
-                 "What carries the bulk pressure: J of the nodes, or volumes of deformed cells, "
-                 "which keep bodies under pressure whole. auto: cells where the volumetric modulus "
-                 "is more than 2.5 times the shear modulus, but for fvm on boxes of hexahedra, where "
-                 "nodes are as safe, and on hexahedra with distorted faces on the boundary, where "
-                 "only nodes have it.",
-                 "\"cells\""))
+      .key("volumes", &SchemeCase::volumes,
+           one_of(
+               scheme::volumes_menu().names(),
+               "What carries the bulk pressure: J of the nodes, or volumes of deformed cells, "
+               "which keep bodies under pressure whole. auto: cells where the volumetric modulus "
+               "is more than 2.5 times the shear modulus, but for fvm on boxes of hexahedra, where "
+               "nodes are as safe, and on hexahedra with distorted faces on the boundary, where "
+               "only nodes have it.",
+               "\"cells\""))
       .key("precision", &SchemeCase::precision,
            one_of(scheme::precision_menu().names(),
                   "Precision of what the sweeps keep. mixed: pseudo-areas C_ab in single, half the "

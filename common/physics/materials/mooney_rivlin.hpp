@@ -29,7 +29,8 @@ struct MooneyRivlinFamily {
   double branch_zeta() const { return with_zeta ? zeta : 0; }
 
   /// The part of the energy that carries bulk pressure, lambda_hat/2 (J - 1)^2  [Pa], and its
-  /// derivative. The logarithm, of the size of mu, stays with F and H: a body at rest has no stress.
+  /// derivative. The logarithm, of the size of mu, stays with F and H: a body at rest has no
+  /// stress.
   template <class T>
   DIPTYCH_INLINE T volumetric_energy(const T& J) const {
     return 0.5 * lambda_hat * (J - 1.0) * (J - 1.0);

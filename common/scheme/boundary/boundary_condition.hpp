@@ -48,7 +48,7 @@ struct LoadedNode {
   /// m^2, where the deformed body has it: H A_a N_a, or, where volumes of cells carry the pressure,
   /// its share of the deformed faces. Follower loads only.
   Vec3 deformed_area;
-  Mat3 P;     ///< Pa, stress of a known motion, its tractions only
+  Mat3 P;  ///< Pa, stress of a known motion, its tractions only
 };
 
 class BoundaryCondition {

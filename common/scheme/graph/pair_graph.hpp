@@ -50,8 +50,8 @@ struct PairGraph {
   std::vector<Vec3> C;                ///< [n_pairs] m^2, C_ab of the directed pair (a,b)
   /// Where the factory knows them, which takes that rows stand in their common order; else empty.
   RowClasses classes;
-  VolumeCells cells;          ///< those between its nodes
-  bool commutes = false;      ///< its derivatives in different directions do, as of tensor products
+  VolumeCells cells;      ///< those between its nodes
+  bool commutes = false;  ///< its derivatives in different directions do, as of tensor products
   Precision precision = Precision::full;  ///< see set_precision
 
   std::int64_t n_nodes() const { return static_cast<std::int64_t>(X.size()); }
