@@ -188,11 +188,20 @@ void add_quantities(const RunResult& run, const NaturalScales& natural, RegressF
   }
 }
 
-void add_errors(const io::RunSummary& summary, RegressFigures& figures) {
+/// A field of small strains is what terms of the size of the modulus leave: it is known to some eps
+/// over the strain, and so are its errors, which are relative to it.
+double field_rounding(const NaturalScales& natural, double energy) {
+  constexpr double n_terms = 4;
+  const double strain = std::sqrt(2 * energy / (natural.stress * natural.volume));
+  return strain > 0 ? n_terms * eps / strain : 0;
+}
+
+void add_errors(const io::RunSummary& summary, double rounding, RegressFigures& figures) {
   // relative errors below 1e-4 are compared as if they were of that size: an exact field has an
   // error of rounding, which is 1e-15 here and 2e-15 there
+  const double least = std::max(1e-4, rounding / std::sqrt(eps));
   const auto add = [&](const std::string& name, double value) {
-    figures[name] = {value, std::max(value, 1e-4)};
+    figures[name] = {value, std::max(value, least)};
   };
   for (const auto& [field, norms] : summary.errors) {
     add(field + " L1", norms.l1);
@@ -366,7 +375,8 @@ RegressMeasurement measure_regress(const std::string& case_file,
     }
     records.push_back(record_of(setup, run));
     if (s.level > 0) return;
-    add_errors(s, now.figures.errors);
+    const double rounding = field_rounding(natural[s.method], energy_scale(run.history));
+    add_errors(s, rounding, now.figures.errors);
     add_quantities(run, natural[s.method], now.figures.quantities);
     now.conservation = conservation_of(setup, run);
     energy = std::max(energy, energy_scale(run.history));
