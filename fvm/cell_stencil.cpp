@@ -1,6 +1,6 @@
 #include "fvm/cell_stencil.hpp"
 
-#include "fvm/incidence.hpp"
+#include "meshes/incidence.hpp"
 
 #include <algorithm>
 #include <array>
@@ -41,7 +41,7 @@ std::array<Coupling, 5> couplings(Quadrature quadrature) {
 
 void find_pairs(const meshes::Mesh& mesh, Quadrature quadrature, scheme::PairGraph& graph) {
   const std::array<Coupling, 5> coupled = couplings(quadrature);
-  const Incidence around = cells_around_nodes(mesh);
+  const meshes::Incidence around = meshes::cells_around_nodes(mesh);
   graph.row.assign(1, 0);
   graph.neighbour.clear();
   std::vector<std::int32_t> found;

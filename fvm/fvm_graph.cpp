@@ -6,9 +6,9 @@
 #include "fvm/cell_stencil.hpp"
 #include "fvm/sbp_graph.hpp"
 #include "fvm/sbp_operator.hpp"
-#include "fvm/structured_block.hpp"
 #include "meshes/cell_shares.hpp"
 #include "meshes/dual_measure.hpp"
+#include "meshes/structured_block.hpp"
 
 #include <fmt/format.h>
 
@@ -54,7 +54,7 @@ scheme::PairGraph graph_of_cells(const meshes::Mesh& mesh, meshes::Quadrature qu
     closure::repair_closure_pairs(graph, k);
   }
   set_classes(graph);
-  graph.commutes = quadrature == meshes::Quadrature::vertex && is_undistorted_block(mesh);
+  graph.commutes = quadrature == meshes::Quadrature::vertex && meshes::is_undistorted_block(mesh);
   if (meshes::areas_are_of_cells(mesh, quadrature)) {
     auto cells = meshes::cell_shares(mesh, quadrature);
     graph.cells = {std::move(cells.row), std::move(cells.corner), std::move(cells.share)};

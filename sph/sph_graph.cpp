@@ -9,6 +9,7 @@
 #include "meshes/dual_measure.hpp"
 #include "sph/kernel_correction.hpp"
 #include "sph/neighbours.hpp"
+#include "sph/sbp_graph.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -18,6 +19,15 @@ namespace diptych::sph {
 namespace {
 
 constexpr double least_kappa = 0.5, greatest_kappa = 4;
+
+enum class Gradient { corrected, sbp };
+
+const base::Registry<Gradient>& gradients() {
+  static const auto menu = base::Registry<Gradient>("gradient of sph")
+                               .add("corrected", Gradient::corrected)
+                               .add("sbp", Gradient::sbp);
+  return menu;
+}
 
 /// h_a = kappa (Omega_a / part of the full angle that the body fills at a)^(1/d): a particle on the
 /// boundary has the smoothing length of those inside.
@@ -52,6 +62,10 @@ void repair_closure(const Kernel& kernel, const std::vector<double>& h, scheme::
 
 }  // namespace
 
+const std::vector<std::string>& gradient_names() {
+  return gradients().names();
+}
+
 scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) {
   const Kernel kernel = kernels().at(options.kernel);
   if (!(options.kappa >= least_kappa && options.kappa <= greatest_kappa)) {
@@ -59,6 +73,8 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
         fmt::format("kappa = {:.6g} is out of range; use {} to {} (1.2 is usual)", options.kappa,
                     least_kappa, greatest_kappa));
   }
+  if (gradients().at(options.gradient) == Gradient::sbp)
+    return sbp_graph(mesh, kernel, options.kappa);
   meshes::DualMeasure measure = meshes::dual_measure(mesh, meshes::Quadrature::vertex);
   scheme::PairGraph graph;
   graph.dimension = mesh.dimension;

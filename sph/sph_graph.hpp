@@ -6,6 +6,7 @@
 #include "meshes/mesh.hpp"
 
 #include <string>
+#include <vector>
 
 namespace diptych::sph {
 
@@ -13,7 +14,10 @@ struct Options {
   std::string kernel = "cubic-spline";  ///< cubic-spline, quintic-spline, wendland-c2
   double kappa = 1.2;                   ///< h_a = kappa (Omega_a / filled part of the angle)^(1/d)
   bool closure = true;                  ///< repair the closure
+  std::string gradient = "corrected";   ///< corrected, sbp
 };
+
+const std::vector<std::string>& gradient_names();
 
 /// Pairs are those with |X_b - X_a| < support (h_a + h_b)/2, W_ab = W(|X_b - X_a|, (h_a + h_b)/2):
 /// symmetric. Particles see each other across gaps and cracks narrower than that.

@@ -20,8 +20,17 @@ fvm::Options fvm_options(const cases::Case& setup) {
   return {setup.fvm.stencil, setup.fvm.order};
 }
 
-/// What operators that sum by parts do not go with.
-void check_sbp(const cases::Case& setup) {
+/// What SPH that sums by parts does not go with.
+void check_sph(const cases::Case& setup) {
+  if (setup.sph.gradient != "sbp" || setup.scheme.face_correction == 0) return;
+  throw base::InputError(fmt::format(
+      "{}: scheme.face_correction = {:.4g} corrects derivatives of second order and would spoil "
+      "those of sph.gradient = \"sbp\"; set it to 0",
+      setup.file, setup.scheme.face_correction));
+}
+
+/// What finite volumes that sum by parts do not go with.
+void check_fvm(const cases::Case& setup) {
   if (setup.fvm.stencil != "sbp" || setup.fvm.order == 2) return;
   const cases::SchemeCase& scheme = setup.scheme;
   if (scheme.face_correction != 0) {
@@ -48,12 +57,14 @@ const base::Registry<GraphMaker>& method_menu() {
       base::Registry<GraphMaker>("method")
           .add("sph",
                [](const meshes::Mesh& mesh, const cases::Case& setup) {
+                 check_sph(setup);
                  return in_precision(
-                     sph::build_graph(mesh, {setup.sph.kernel, setup.sph.kappa, setup.sph.closure}),
+                     sph::build_graph(mesh, {setup.sph.kernel, setup.sph.kappa, setup.sph.closure,
+                                             setup.sph.gradient}),
                      setup.scheme.precision);
                })
           .add("fvm", [](const meshes::Mesh& mesh, const cases::Case& setup) {
-            check_sbp(setup);
+            check_fvm(setup);
             return in_precision(fvm::build_graph(mesh, fvm_options(setup)), setup.scheme.precision);
           });
   return menu;

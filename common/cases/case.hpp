@@ -137,8 +137,10 @@ struct SchemeCase {
 /// [sph]
 struct SphCase {
   std::string kernel = "cubic-spline";
-  double kappa = 1.2;   ///< h_a = kappa (Omega_a / filled part of the angle)^(1/d)
-  bool closure = true;  ///< repair of the closure, notes 3.3
+  double kappa = 1.2;                  ///< h_a = kappa (Omega_a / filled part of the angle)^(1/d)
+  bool closure = true;                 ///< repair of the closure, notes 3.3
+  std::string gradient = "corrected";  ///< corrected (first order), or sbp (operators that sum by
+                                       ///< parts, on boxes)
 };
 
 /// [fvm]

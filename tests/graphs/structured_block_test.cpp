@@ -1,6 +1,6 @@
 /// Lines of nodes from the connectivity, and what is no block.
 
-#include "fvm/structured_block.hpp"
+#include "meshes/structured_block.hpp"
 
 #include "common/base/error.hpp"
 #include "meshes/gmsh.hpp"
@@ -43,11 +43,13 @@ meshes::Mesh part_of(const meshes::Mesh& whole, const Keep& keep) {
   return part;
 }
 
+const meshes::BlockUse use{"fvm.stencil = \"sbp\"", "fvm.stencil = \"edge\""};
+
 /// What the mesh is refused with; empty where it is not.
 std::string refusal(const meshes::Mesh& mesh) {
   try {
-    const fvm::StructuredBlock block = fvm::structured_block(mesh);
-    fvm::cell_edges(mesh, block);
+    const meshes::StructuredBlock block = meshes::structured_block(mesh, use);
+    meshes::cell_edges(mesh, block, use);
   } catch (const base::InputError& error) {
     return error.what();
   }
@@ -60,11 +62,11 @@ TEST(StructuredBlock, FindsTheLinesOfABoxInAnyNumbering) {
   std::iota(order.begin(), order.end(), 0);
   std::shuffle(order.begin(), order.end(), std::mt19937(3));
   mesh = meshes::renumbered(mesh, order);
-  const fvm::StructuredBlock block = fvm::structured_block(mesh);
+  const meshes::StructuredBlock block = meshes::structured_block(mesh, use);
   std::array<int, 3> n = block.n_nodes;
   std::sort(n.begin(), n.end());
   EXPECT_EQ(n, (std::array<int, 3>{3, 4, 5}));
-  const Mat3 edges = fvm::cell_edges(mesh, block);
+  const Mat3 edges = meshes::cell_edges(mesh, block, use);
   EXPECT_NEAR(edges.determinant(), 1.0 * 2.0 * 0.5, 1e-14);
   for (std::int64_t a = 0; a < mesh.n_nodes(); ++a) {
     const auto& at = block.place[a];
@@ -76,9 +78,9 @@ TEST(StructuredBlock, FindsTheLinesOfABoxInAnyNumbering) {
 
 TEST(StructuredBlock, FindsTheLinesOfASquare) {
   const meshes::Mesh mesh = meshes::box(CellType::quadrilateral, {0, 0, 0}, {1, 2, 0}, {1, 5, 1});
-  const fvm::StructuredBlock block = fvm::structured_block(mesh);
+  const meshes::StructuredBlock block = meshes::structured_block(mesh, use);
   EXPECT_EQ(block.n_nodes, (std::array<int, 3>{2, 6, 1}));
-  EXPECT_NEAR(fvm::cell_edges(mesh, block).determinant(), 0.4, 1e-15);
+  EXPECT_NEAR(meshes::cell_edges(mesh, block, use).determinant(), 0.4, 1e-15);
 }
 
 TEST(StructuredBlock, RefusesSimplices) {

@@ -20,8 +20,22 @@ SectionEntry sph_section() {
                {"-", any,
                 "Repair of the pseudo-areas at the boundary so that they close: "
                 "-1/2 sum_b (C_ab - C_ba) = A_a N_a.",
-                "false"});
-  return plain_section({"sph", false, "What only SPH needs."}, keys, &Case::sph);
+                "false"})
+          .key("gradient", &SphCase::gradient,
+               as(KeyType::name,
+                  {"-", any,
+                   "Pair areas from the kernel's gradient corrected to first order (corrected), or "
+                   "by its least change to operators that sum by parts (sbp), exact for quadratics "
+                   "up to the boundary: on boxes of hexahedra or quadrilaterals with lines of 8 "
+                   "nodes or more, kappa in spacings of each line. Twice as many steps.",
+                   "\"sbp\""}));
+  return {
+      {"sph", false, "What only SPH needs."}, keys.keys(), [keys](Reading& reading, Case& setup) {
+        const SectionValues section = reading.section("sph");
+        setup.sph = keys.read(section);
+        if (setup.sph.gradient == "sbp" && !setup.sph.closure)
+          section.refuse("closure", "has no effect on gradient = \"sbp\", which closes");
+      }};
 }
 
 }  // namespace diptych::cases

@@ -5,6 +5,7 @@
 #include "common/run/model_menu.hpp"
 #include "fvm/fvm_graph.hpp"
 #include "sph/kernels/kernel.hpp"
+#include "sph/sph_graph.hpp"
 
 #include <gmock/gmock.h>
 #include <set>
@@ -18,6 +19,7 @@ using testing::HasSubstr;
 const Menus& menus_above() {
   static const Menus menus{{"material.model", run::model_menu().names()},
                            {"sph.kernel", sph::kernels().names()},
+                           {"sph.gradient", sph::gradient_names()},
                            {"fvm.stencil", fvm::stencil_names()}};
   return menus;
 }

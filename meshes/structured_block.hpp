@@ -8,12 +8,12 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
-namespace diptych::fvm {
+namespace diptych::meshes {
 
 using algebra::Mat3;
-using algebra::Vec3;
 
 struct StructuredBlock {
   int dimension = 3;
@@ -27,16 +27,22 @@ struct StructuredBlock {
   }
 };
 
+/// Who asks for a block, for the messages where there is none.
+struct BlockUse {
+  std::string asked;    ///< key and value
+  std::string instead;  ///< what to use
+};
+
 /// @throws base::InputError where a cell is of another type or the cells are not one block, with
 ///         the cell or node, its place and what to use instead
-StructuredBlock structured_block(const meshes::Mesh& mesh);
+StructuredBlock structured_block(const Mesh& mesh, const BlockUse& use);
 
 /// The edges of the cells of an undistorted block (all cells the same parallelepiped), as columns;
 /// in 2-D the third is (0, 0, 1).
 /// @throws base::InputError that names the node that is most off
-Mat3 cell_edges(const meshes::Mesh& mesh, const StructuredBlock& block);
+Mat3 cell_edges(const Mesh& mesh, const StructuredBlock& block, const BlockUse& use);
 
 /// Whether the mesh is one.
-bool is_undistorted_block(const meshes::Mesh& mesh);
+bool is_undistorted_block(const Mesh& mesh);
 
-}  // namespace diptych::fvm
+}  // namespace diptych::meshes

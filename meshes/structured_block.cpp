@@ -1,27 +1,24 @@
-#include "fvm/structured_block.hpp"
+#include "meshes/structured_block.hpp"
 
 #include "common/base/error.hpp"
-#include "fvm/incidence.hpp"
 #include "meshes/cell_topology.hpp"
+#include "meshes/incidence.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
 #include <utility>
 
-namespace diptych::fvm {
+namespace diptych::meshes {
 
 namespace {
 
-using meshes::CellType;
-using meshes::LocalFace;
-using meshes::Mesh;
 using Place = std::array<std::int32_t, 3>;
 
-[[noreturn]] void refuse(const std::string& what) {
-  throw base::InputError(
-      "fvm.stencil = \"sbp\" takes one undistorted block of hexahedra or quadrilaterals, but " +
-      what + "; use fvm.stencil = \"edge\" or \"integral\"");
+[[noreturn]] void refuse(const BlockUse& use, const std::string& what) {
+  throw base::InputError(use.asked +
+                         " takes one undistorted block of hexahedra or quadrilaterals, but " +
+                         what + "; use " + use.instead);
 }
 
 std::string text(const Vec3& X) {
@@ -44,8 +41,9 @@ constexpr std::int32_t unknown = std::numeric_limits<std::int32_t>::min();
 /// Walks from cell 0, whose first corner is the origin, through the faces of cells.
 class Walk {
  public:
-  explicit Walk(const Mesh& mesh)
+  Walk(const Mesh& mesh, const BlockUse& use)
       : mesh_(mesh),
+        use_(use),
         type_(mesh.dimension == 3 ? CellType::hexahedron : CellType::quadrilateral),
         around_(cells_around_nodes(mesh)),
         visited_(static_cast<size_t>(mesh.n_cells()), 0),
@@ -55,12 +53,12 @@ class Walk {
   std::vector<Place> places() {
     place_first_cell();
     for (size_t next = 0; next < queue_.size(); ++next) {
-      for (const LocalFace& face : meshes::faces_of(type_))
+      for (const LocalFace& face : faces_of(type_))
         pass(queue_[next], face);
     }
     if (static_cast<std::int64_t>(queue_.size()) != mesh_.n_cells()) {
       const auto c = std::find(visited_.begin(), visited_.end(), 0) - visited_.begin();
-      refuse(cell_text(mesh_, c) + " is not connected to cell 0 through faces");
+      refuse(use_, cell_text(mesh_, c) + " is not connected to cell 0 through faces");
     }
     return std::move(place_);
   }
@@ -68,7 +66,7 @@ class Walk {
  private:
   void place_first_cell() {
     const auto nodes = mesh_.cell(0);
-    const meshes::LocalCorner& corner = meshes::corners_of(type_)[0];
+    const LocalCorner& corner = corners_of(type_)[0];
     place_[nodes[corner.node]] = {0, 0, 0};
     for (int d = 0; d < mesh_.dimension; ++d) {
       Place at{0, 0, 0};
@@ -79,7 +77,7 @@ class Walk {
     // direction as the farthest of them. All of a round at once: farther ones must not count.
     for (int round = 1; round < mesh_.dimension; ++round) {
       std::vector<std::pair<std::int32_t, Place>> found;
-      for (const meshes::LocalCorner& other : meshes::corners_of(type_)) {
+      for (const LocalCorner& other : corners_of(type_)) {
         const std::int32_t a = nodes[other.node];
         if (place_[a][0] == unknown) found.emplace_back(a, from_neighbours(nodes, other));
       }
@@ -91,8 +89,7 @@ class Walk {
   }
 
   /// Of a corner that is beside two known ones or more; unknown of others.
-  Place from_neighbours(std::span<const std::int32_t> nodes,
-                        const meshes::LocalCorner& corner) const {
+  Place from_neighbours(std::span<const std::int32_t> nodes, const LocalCorner& corner) const {
     Place at{0, 0, 0};
     int n_known = 0;
     for (int k = 0; k < mesh_.dimension; ++k) {
@@ -146,14 +143,14 @@ class Walk {
                       std::span<const std::int32_t> face_nodes,
                       std::int32_t a) const {
     const auto nodes = mesh_.cell(c);
-    for (const meshes::LocalCorner& corner : meshes::corners_of(type_)) {
+    for (const LocalCorner& corner : corners_of(type_)) {
       if (nodes[corner.node] != a) continue;
       for (int k = 0; k < mesh_.dimension; ++k) {
         const std::int32_t b = nodes[corner.neighbours[k]];
         if (std::find(face_nodes.begin(), face_nodes.end(), b) == face_nodes.end()) return b;
       }
     }
-    refuse(cell_text(mesh_, c) + " has only a part of a face in common with its neighbour");
+    refuse(use_, cell_text(mesh_, c) + " has only a part of a face in common with its neighbour");
   }
 
   void place_behind(std::int64_t c, std::int32_t b, std::int32_t a, const Place& step) {
@@ -162,13 +159,16 @@ class Walk {
       at[d] += step[d];
     if (place_[b][0] == unknown) place_[b] = at;
     if (place_[b] != at) {
-      refuse("at " + cell_text(mesh_, c) +
-             " the cells are not arranged as those of a box (a ring, or an inner edge where other "
-             "than four cells meet)");
+      refuse(
+          use_,
+          "at " + cell_text(mesh_, c) +
+              " the cells are not arranged as those of a box (a ring, or an inner edge where other "
+              "than four cells meet)");
     }
   }
 
   const Mesh& mesh_;
+  const BlockUse& use_;
   CellType type_;
   Incidence around_;
   std::vector<char> visited_;
@@ -176,11 +176,11 @@ class Walk {
   std::vector<std::int64_t> queue_;
 };
 
-void check_types(const Mesh& mesh) {
+void check_types(const Mesh& mesh, const BlockUse& use) {
   const CellType wanted = mesh.dimension == 3 ? CellType::hexahedron : CellType::quadrilateral;
   for (std::int64_t c = 0; c < mesh.n_cells(); ++c) {
     if (mesh.cell_types[c] == wanted) continue;
-    refuse(fmt::format("{} is a {}", cell_text(mesh, c), meshes::name_of(mesh.cell_types[c])));
+    refuse(use, fmt::format("{} is a {}", cell_text(mesh, c), name_of(mesh.cell_types[c])));
   }
 }
 
@@ -202,15 +202,15 @@ void count_from_zero(StructuredBlock& block) {
 }
 
 /// Every place of the box of lattice places has one node, and every cell of it is there.
-void fill_nodes(const Mesh& mesh, StructuredBlock& block) {
+void fill_nodes(const Mesh& mesh, const BlockUse& use, StructuredBlock& block) {
   const auto [nx, ny, nz] = block.n_nodes;
   const std::int64_t n_places = static_cast<std::int64_t>(nx) * ny * nz;
   const std::int64_t n_cells =
       static_cast<std::int64_t>(nx - 1) * (ny - 1) * (block.dimension == 3 ? nz - 1 : 1);
   if (n_places != mesh.n_nodes() || n_cells != mesh.n_cells()) {
-    refuse(fmt::format("its {} cells do not fill the {} x {}{} of the block of their lines",
-                       mesh.n_cells(), nx - 1, ny - 1,
-                       block.dimension == 3 ? fmt::format(" x {}", nz - 1) : ""));
+    refuse(use, fmt::format("its {} cells do not fill the {} x {}{} of the block of their lines",
+                            mesh.n_cells(), nx - 1, ny - 1,
+                            block.dimension == 3 ? fmt::format(" x {}", nz - 1) : ""));
   }
   block.node.assign(static_cast<size_t>(n_places), -1);
   for (std::int64_t a = 0; a < mesh.n_nodes(); ++a) {
@@ -218,8 +218,8 @@ void fill_nodes(const Mesh& mesh, StructuredBlock& block) {
     std::int32_t& node = block.node[static_cast<size_t>(
         (static_cast<std::int64_t>(at[2]) * ny + at[1]) * nx + at[0])];
     if (node >= 0) {
-      refuse(fmt::format("{} and {} have the same place on its lines of nodes",
-                         node_text(mesh, node), node_text(mesh, a)));
+      refuse(use, fmt::format("{} and {} have the same place on its lines of nodes",
+                              node_text(mesh, node), node_text(mesh, a)));
     }
     node = static_cast<std::int32_t>(a);
   }
@@ -231,21 +231,21 @@ constexpr double most_off = 1e-8;
 
 }  // namespace
 
-StructuredBlock structured_block(const Mesh& mesh) {
-  if (mesh.n_cells() == 0) refuse("the mesh has no cells");
-  check_types(mesh);
+StructuredBlock structured_block(const Mesh& mesh, const BlockUse& use) {
+  if (mesh.n_cells() == 0) refuse(use, "the mesh has no cells");
+  check_types(mesh, use);
   StructuredBlock block;
   block.dimension = mesh.dimension;
-  block.place = Walk(mesh).places();
+  block.place = Walk(mesh, use).places();
   for (std::int64_t a = 0; a < mesh.n_nodes(); ++a) {
-    if (block.place[a][0] == unknown) refuse(node_text(mesh, a) + " belongs to no cell");
+    if (block.place[a][0] == unknown) refuse(use, node_text(mesh, a) + " belongs to no cell");
   }
   count_from_zero(block);
-  fill_nodes(mesh, block);
+  fill_nodes(mesh, use, block);
   return block;
 }
 
-Mat3 cell_edges(const Mesh& mesh, const StructuredBlock& block) {
+Mat3 cell_edges(const Mesh& mesh, const StructuredBlock& block, const BlockUse& use) {
   const Vec3& origin = mesh.nodes[block.node_at({0, 0, 0})];
   Mat3 edges = Mat3::Identity();
   double least = std::numeric_limits<double>::infinity();
@@ -266,22 +266,23 @@ Mat3 cell_edges(const Mesh& mesh, const StructuredBlock& block) {
     worst = std::max(worst, off);
   }
   if (!(worst <= most_off * least)) {
-    refuse(
-        fmt::format("{} is {:.2g} of a spacing off the even lattice between the corners of the "
-                    "block (a curved or graded block, or mesh.perturbation)",
-                    node_text(mesh, worst_node), worst / least));
+    refuse(use,
+           fmt::format("{} is {:.2g} of a spacing off the even lattice between the corners of the "
+                       "block (a curved or graded block, or mesh.perturbation)",
+                       node_text(mesh, worst_node), worst / least));
   }
-  if (!(edges.determinant() > 0)) refuse("its cells are inside out");
+  if (!(edges.determinant() > 0)) refuse(use, "its cells are inside out");
   return edges;
 }
 
-bool is_undistorted_block(const meshes::Mesh& mesh) {
+bool is_undistorted_block(const Mesh& mesh) {
   try {
-    cell_edges(mesh, structured_block(mesh));
+    const BlockUse any;
+    cell_edges(mesh, structured_block(mesh, any), any);
     return true;
   } catch (const base::InputError&) {  // says why not, which only who asked for a block wants
     return false;
   }
 }
 
-}  // namespace diptych::fvm
+}  // namespace diptych::meshes

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace diptych::fvm {
+namespace diptych::meshes {
 
 /// Those of node a are cell[first[a]] to cell[first[a + 1] - 1], ascending, and place says which of
 /// their nodes a is.
@@ -21,6 +21,6 @@ struct Incidence {
   }
 };
 
-Incidence cells_around_nodes(const meshes::Mesh& mesh);
+Incidence cells_around_nodes(const Mesh& mesh);
 
-}  // namespace diptych::fvm
+}  // namespace diptych::meshes

@@ -1,8 +1,8 @@
-#include "fvm/incidence.hpp"
+#include "meshes/incidence.hpp"
 
-namespace diptych::fvm {
+namespace diptych::meshes {
 
-Incidence cells_around_nodes(const meshes::Mesh& mesh) {
+Incidence cells_around_nodes(const Mesh& mesh) {
   Incidence around;
   around.first.assign(static_cast<size_t>(mesh.n_nodes()) + 1, 0);
   for (std::int32_t a : mesh.cell_nodes)
@@ -23,4 +23,4 @@ Incidence cells_around_nodes(const meshes::Mesh& mesh) {
   return around;
 }
 
-}  // namespace diptych::fvm
+}  // namespace diptych::meshes

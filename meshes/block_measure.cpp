@@ -1,0 +1,123 @@
+#include "meshes/block_measure.hpp"
+
+#include "common/base/error.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace diptych::meshes {
+
+BlockMeasure::BlockMeasure(const Mesh& mesh,
+                           StructuredBlock block,
+                           std::vector<std::vector<double>> H,
+                           BlockUse use)
+    : mesh_(mesh),
+      block_(std::move(block)),
+      H_(std::move(H)),
+      use_(std::move(use)),
+      edges_(cell_edges(mesh, block_, use_)) {}
+
+double BlockMeasure::volume(std::int64_t a) const {
+  double Omega = edges_.determinant();
+  for (int d = 0; d < block_.dimension; ++d)
+    Omega *= H_[d][block_.place[a][d]];
+  return Omega;
+}
+
+Vec3 BlockMeasure::face(int d) const {
+  return edges_.col((d + 1) % 3).cross(edges_.col((d + 2) % 3));
+}
+
+Vec3 BlockMeasure::area(std::int64_t a, int d) const {
+  Vec3 M = face(d);
+  for (int t = 0; t < block_.dimension; ++t) {
+    if (t != d) M *= H_[t][block_.place[a][t]];
+  }
+  return M;
+}
+
+Vec3 BlockMeasure::boundary_area(std::int64_t a) const {
+  Vec3 sum = Vec3::Zero();
+  for (int d = 0; d < block_.dimension; ++d) {
+    const std::int32_t i = block_.place[a][d];
+    if (i == 0) sum -= area(a, d);
+    if (i == block_.n_nodes[d] - 1) sum += area(a, d);
+  }
+  return sum;
+}
+
+PatchArea BlockMeasure::patch(const BoundaryGroup& group) const {
+  PatchArea patch;
+  patch.name = group.name;
+  std::vector<std::pair<std::int32_t, Vec3>> shares;
+  Vec3 whole = Vec3::Zero();
+  for (const std::int32_t f : group.faces) {
+    const BoundaryFace& face = mesh_.boundary_faces[f];
+    const Side side = side_of(face);
+    const double sign = side.is_far ? 1 : -1;
+    patch.faces.push_back({-1, -1, -1, -1});
+    std::copy_n(face.nodes.begin(), face.n_nodes, patch.faces.back().begin());
+    whole += sign * this->face(side.direction);
+    for (int i = 0; i < face.n_nodes; ++i) {
+      const std::int32_t a = face.nodes[i];
+      shares.emplace_back(a, sign * area(a, side.direction) / n_faces_on_side(a, side));
+    }
+  }
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const auto& p, const auto& q) { return p.first < q.first; });
+  Vec3 sum = Vec3::Zero();
+  for (const auto& [a, share] : shares) {
+    if (patch.nodes.empty() || patch.nodes.back() != a) {
+      patch.nodes.push_back(a);
+      patch.area.push_back(Vec3::Zero());
+    }
+    patch.area.back() += share;
+    sum += share;
+  }
+  check_area(group, sum, whole, patch);
+  return patch;
+}
+
+/// @pre the face is of the boundary, so of a side
+BlockMeasure::Side BlockMeasure::side_of(const BoundaryFace& face) const {
+  for (int d = 0; d < block_.dimension; ++d) {
+    for (const bool is_far : {false, true}) {
+      const std::int32_t end = is_far ? block_.n_nodes[d] - 1 : 0;
+      const auto on_side = [&](std::int32_t a) { return block_.place[a][d] == end; };
+      if (std::all_of(face.nodes.begin(), face.nodes.begin() + face.n_nodes, on_side))
+        return {d, is_far};
+    }
+  }
+  const Vec3& X = mesh_.nodes[face.nodes[0]];
+  throw base::InputError(fmt::format(
+      "the boundary face with node {} at ({:.6g}, {:.6g}, {:.6g}) is on no side of the block; "
+      "repair the mesh",
+      face.nodes[0], X[0], X[1], X[2]));
+}
+
+/// Faces of the side around one of its nodes.
+double BlockMeasure::n_faces_on_side(std::int32_t a, const Side& side) const {
+  double n = 1;
+  for (int t = 0; t < block_.dimension; ++t) {
+    const std::int32_t i = block_.place[a][t];
+    if (t != side.direction && i != 0 && i != block_.n_nodes[t] - 1) n *= 2;
+  }
+  return n;
+}
+
+void BlockMeasure::check_area(const BoundaryGroup& group,
+                              const Vec3& sum,
+                              const Vec3& whole,
+                              const PatchArea& patch) const {
+  double size = 0;
+  for (const Vec3& area : patch.area)
+    size += area.norm();
+  if ((sum - whole).norm() <= 1e-12 * size) return;
+  throw base::InputError(fmt::format(
+      "boundary group '{}' ends within the first nodes of a side, where the weights of {} are not "
+      "those of its faces (area {:.6g} instead of {:.6g}): let it cover the whole side or end "
+      "farther from its edge, or use {}",
+      group.name, use_.asked, sum.norm(), whole.norm(), use_.instead));
+}
+
+}  // namespace diptych::meshes

@@ -1,0 +1,17 @@
+#pragma once
+/// SPH whose gradients sum by parts as a pair graph, on an undistorted block of hexahedra or
+/// quadrilaterals: rows of lattice_operator.hpp in lattice coordinates, turned into space by the
+/// cofactors of the edges of a cell. Lines of nodes have the smoothing length kappa in units of
+/// their own spacing.
+/// Source: notes 4.4. Test: tests/graphs/sph_sbp_test.cpp
+
+#include "sph/kernels/kernel.hpp"
+#include "sph/sph_graph.hpp"
+
+namespace diptych::sph {
+
+/// @throws base::InputError where the mesh is no undistorted block, has lines of fewer than eight
+///         nodes, or where the support is too small
+scheme::PairGraph sbp_graph(const meshes::Mesh& mesh, const Kernel& kernel, double kappa);
+
+}  // namespace diptych::sph
