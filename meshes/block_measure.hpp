@@ -27,7 +27,8 @@ class BlockMeasure {
                BlockUse use);
 
   const StructuredBlock& block() const { return block_; }
-  double volume(std::int64_t a) const;  ///< m^d
+  const Mat3& edges() const { return edges_; }  ///< of a cell, as columns  [m]
+  double volume(std::int64_t a) const;          ///< m^d
   /// M_d times the weights of the other directions: pseudo-area of node a per unit of Q.
   Vec3 area(std::int64_t a, int d) const;
   /// M_d  [m^(d-1)]: what a unit vector along the lines of direction d becomes in pseudo-areas.

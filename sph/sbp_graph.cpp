@@ -75,6 +75,8 @@ scheme::PairGraph sbp_graph(const meshes::Mesh& mesh, const Kernel& kernel, doub
     graph.patches.push_back({std::move(patch.name), std::move(patch.nodes), std::move(patch.area),
                              std::move(patch.faces)});
   }
+  constexpr double just_above = 1 + 1e-6;
+  graph.dissipation_metric = measure.edges().inverse() / just_above;
   link_reverse_pairs(graph);
   set_classes(graph);
   auto cells = meshes::cell_shares(mesh, meshes::Quadrature::vertex);

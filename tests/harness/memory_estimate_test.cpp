@@ -67,7 +67,7 @@ const Scene scenes[] = {
     {"wide", "hexahedron", 28, {"sph.kappa=1.5", "fvm.stencil=integral"}},
     {"touching", "hexahedron", 32, {"sph.kappa=1"}},
     {"quadrilaterals", "quadrilateral", 160, {}},
-    {"lines", "hexahedron", 28, {"fvm.stencil=sbp"}},
+    {"lines", "hexahedron", 28, {"fvm.stencil=sbp", "sph.gradient=sbp"}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Both,

@@ -39,6 +39,17 @@ TEST(Scene, HasTheGraphThatTheKeysOfTheMethodAskFor) {
   EXPECT_EQ(pairs("fvm", {"sph.kappa=0.75"}), pairs("fvm", {}));
   EXPECT_LT(pairs("fvm", {}), pairs("fvm", {"fvm.stencil=\"integral\""}));
   EXPECT_LT(pairs("fvm", {}), pairs("fvm", {"fvm.stencil=\"sbp\""}));
+  const auto Omega = graph_with("sph", {"sph.gradient=\"sbp\""}).graph.Omega;
+  EXPECT_LT(Omega[0], graph_with("sph", {}).graph.Omega[0]);  // (3/8)^2 beside (1/2)^2
+}
+
+TEST(Scene, RefusesTheFaceCorrectionWithOperatorsThatSumByParts) {
+  for (const char* method : {"sph", "fvm"}) {
+    EXPECT_THROW(graph_with(method, {"sph.gradient=\"sbp\"", "fvm.stencil=\"sbp\"",
+                                     "scheme.face_correction=\"1/6\""}),
+                 base::InputError)
+        << method;
+  }
 }
 
 TEST(Scene, DescribesOperatorsThatDependOnTheMesh) {

@@ -50,7 +50,10 @@ struct PairGraph {
   std::vector<Vec3> C;                ///< [n_pairs] m^2, C_ab of the directed pair (a,b)
   /// Where the factory knows them, which takes that rows stand in their common order; else empty.
   RowClasses classes;
-  VolumeCells cells;      ///< those between its nodes
+  VolumeCells cells;  ///< those between its nodes
+  /// Pairs for which it makes |X_b - X_a| more than one dissipate nothing (dissipation_area.hpp).
+  /// [1/m]
+  Mat3 dissipation_metric = Mat3::Zero();
   bool commutes = false;  ///< its derivatives in different directions do, as of tensor products
   Precision precision = Precision::full;  ///< see set_precision
 

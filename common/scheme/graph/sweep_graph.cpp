@@ -220,7 +220,8 @@ void set_directed(const PairGraph& graph,
     if (sweep.face.size() > 0) put(sweep.face[chunk].component, lane, S_ab);
     if (!rows) return;
     sweep.force.change(chunk, [&](auto& geometry) { put(geometry.component, lane, C_ba); });
-    sweep.area[chunk].area[lane] = static_cast<float>(dissipation_area(S_ab, X_ab));
+    sweep.area[chunk].area[lane] =
+        static_cast<float>(dissipation_area(S_ab, X_ab, graph.dissipation_metric));
   };
   set_geometry(graph, classes, layouts, alike, sweep.first, allocate, set);
 }
@@ -246,7 +247,8 @@ void set_mutual(const PairGraph& graph,
     mutual.geometry.change(chunk, [&](auto& geometry) {
       put(geometry.C_ab, lane, C_ab);
       put(geometry.C_ba, lane, C_ba);
-      geometry.area[lane] = static_cast<float>(dissipation_area(0.5 * (C_ab - C_ba), X_ab));
+      geometry.area[lane] =
+          static_cast<float>(dissipation_area(0.5 * (C_ab - C_ba), X_ab, graph.dissipation_metric));
     });
   };
   set_geometry(graph, classes, RunLayouts(graph, half), alike, mutual.first, allocate, set);
