@@ -38,6 +38,7 @@ CaseObservers::CaseObservers(const cases::Case& setup,
       history_(*scene.solver, probes_, cells_),
       steps_(*scene.solver, probes_),
       exact_(setup, scene.graph, *scene.solver, probes_),
+      fields_(scene.mesh.order, run::probe_columns(setup.probes, false), history_),
       progress_(setup, options, history_),
       involution_guard_(*scene.solver, setup.guards.involution) {
   if (options.scales) scales_.emplace(scene.graph);
@@ -50,6 +51,10 @@ CaseObservers::CaseObservers(const cases::Case& setup,
   }
 }
 
+void CaseObservers::check_files() const {
+  io::require_frames(options_.directory, fields_.frame_times());
+}
+
 void CaseObservers::open() {
   if (options_.directory.empty()) return;
   const std::filesystem::path folder = options_.directory;
@@ -58,16 +63,19 @@ void CaseObservers::open() {
   if (probes_.has_stepped()) {
     steps_.write_to((folder / "steps.csv").string(), run::probe_columns(setup_.probes, true));
   }
-  if (!options_.fields || !setup_.output.fields) return;
-  fields_.emplace(io::FieldWriter(options_.directory, visual_mesh(scene_.mesh)), scene_.mesh.order,
-                  columns, history_);
+  if (options_.fields && setup_.output.fields) {
+    fields_.write_with(
+        io::FieldWriter(options_.directory, visual_mesh(scene_.mesh), fields_.frame_times()));
+  } else if (!options_.checkpoint.empty()) {
+    io::keep_frames(options_.directory, fields_.frame_times());
+  }
 }
 
 std::vector<run::Observer*> CaseObservers::all() {
   std::vector<run::Observer*> all{&cells_, &history_};
   if (scales_) all.push_back(&*scales_);
   all.push_back(&exact_);
-  if (fields_) all.push_back(&*fields_);
+  all.push_back(&fields_);
   if (shapes_) all.push_back(&*shapes_);
   all.push_back(&steps_);
   all.push_back(&progress_);

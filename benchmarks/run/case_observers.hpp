@@ -31,12 +31,15 @@ class CaseObservers {
   /// @throws base::InputError on a probe that has no place in the body
   CaseObservers(const cases::Case& setup, const RunOptions& options, const Scene& scene);
 
+  /// Where it goes on from a checkpoint, which has been loaded: what it needs of the files that it
+  /// has written before is there. @throws base::InputError where it is not
+  void check_files() const;
   /// Makes the files that grow with the run, where it has a folder. @throws base::EnvironmentError
   void open();
   /// In the order in which they are to be told.
   std::vector<run::Observer*> all();
   /// Path and time [s] of the last frame of fields; an empty path where there is none.
-  io::FrameEntry last_frame() const { return fields_ ? fields_->last_frame() : io::FrameEntry{}; }
+  io::FrameEntry last_frame() const { return fields_.last_frame(); }
   /// Moves what was taken down, and what it comes to for the summary, into the result.
   void give(RunResult& result);
   /// field: size of the error at each node at the last output time
@@ -54,9 +57,9 @@ class CaseObservers {
   run::History history_;
   run::StepProbes steps_;
   run::ExactComparison exact_;
+  run::Fields fields_;
   ProgressObserver progress_;
   std::optional<run::FieldScales> scales_;
-  std::optional<run::Fields> fields_;
   std::optional<ShapeRecorder> shapes_;
   std::optional<run::CellGuard> cell_guard_;
   std::optional<run::EnergyGuard> energy_guard_;

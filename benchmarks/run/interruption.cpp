@@ -39,6 +39,10 @@ void end_after_this_step(int signal) {
   [[maybe_unused]] const auto written = write(STDERR_FILENO, text.data(), text.size());
 }
 
+void keep_after_this_step(int) {
+  base::request_checkpoint();
+}
+
 }  // namespace
 
 void catch_interrupts() {
@@ -47,6 +51,7 @@ void catch_interrupts() {
   // nohup has it ignored, which is to stay so
   if (std::signal(SIGHUP, end_after_this_step) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGUSR1, keep_after_this_step);
 }
 
 int exit_code_of_study(const std::string& to_go_on) {
@@ -59,6 +64,14 @@ std::string begin_again(const std::string& directory) {
   return fmt::format(
       "what had been computed is in {} (status \"interrupted\")\n"
       "diptych: the same command begins the run again, at t = 0",
+      directory);
+}
+
+std::string go_on_from_checkpoint(const std::string& directory) {
+  return fmt::format(
+      "what had been computed is in {} (status \"interrupted\")\n"
+      "diptych: with --restart latest the same command goes on from there; without it, it begins "
+      "again, at t = 0",
       directory);
 }
 

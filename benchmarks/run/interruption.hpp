@@ -13,7 +13,8 @@ using base::interrupt_requested;
 using base::request_interrupt;
 
 /// From now on the first of the three ends the step (see interrupt_requested), the second the
-/// program; a write beyond a limit of the size of files is an error of that write.
+/// program; SIGUSR1 asks for a checkpoint; a write beyond a limit of the size of files is an error
+/// of that write.
 void catch_interrupts();
 
 /// 0, or that of an interrupt with a line on the standard error stream.
@@ -22,6 +23,9 @@ int exit_code_of_study(const std::string& to_go_on);
 
 /// Of a single run, which left what it had in this folder.
 std::string begin_again(const std::string& directory);
+
+/// Of a run that has left a checkpoint there.
+std::string go_on_from_checkpoint(const std::string& directory);
 
 /// Of a study that takes finished runs over.
 std::string go_on_from(const std::string& directory);

@@ -140,7 +140,8 @@ void OutputFolder::prepare() {
   io::make_directory(directory_);
   if (of_another_case_) remove_everything();
   if (is_output_folder(directory_)) remove_pages();
-  if (kind_ == OutputKind::runs || kind_ == OutputKind::levels) {
+  const bool has_runs = kind_ == OutputKind::runs || kind_ == OutputKind::levels;
+  if (has_runs && !goes_on_) {
     remove_runs();
     set_levels_aside();
   }

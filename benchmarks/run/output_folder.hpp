@@ -35,6 +35,9 @@ class OutputFolder {
   /// @throws base::EnvironmentError
   void ask_for(const std::vector<int>& levels, const std::vector<std::string>& methods, bool fresh);
 
+  /// Runs that lie there go on: they stay, whatever came of them.
+  void go_on() { goes_on_ = true; }
+
   /// Before the first file is written; later calls do nothing. Removes what earlier commands of
   /// this kind left, sets finished levels aside that are not taken over now, in DIR/earlier, and
   /// leaves a copy of the case in DIR/case.toml, unless a case file of the user stands there or the
@@ -52,7 +55,7 @@ class OutputFolder {
   const cases::Case& setup_;
   OutputKind kind_;
   std::vector<std::string> asked_, taken_over_;  ///< folders of runs
-  bool of_another_case_ = false, prepared_ = false;
+  bool of_another_case_ = false, goes_on_ = false, prepared_ = false;
 };
 
 }  // namespace diptych::harness

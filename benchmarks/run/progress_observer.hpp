@@ -20,8 +20,17 @@ class ProgressObserver : public run::Observer {
     progress_.emplace(fmt::format("{} level {}", options_.method, options_.level), setup_.time.end,
                       options_.quiet, options_.schedule);
   }
+  void resume() override {
+    begin();
+    goes_on_ = true;
+  }
+  void archive(algebra::Archive& archive) override {
+    archive.integer("progress/rejected", rejected_);
+  }
   void after_step(const run::StepReport& step) override {
     rejected_ += step.rejected;
+    if (goes_on_) progress_->begin_at(step.time - step.dt);
+    goes_on_ = false;
     if (progress_->due())
       progress_->show(step.time, step.step, step.dt, history_.energy_residual(), rejected_);
   }
@@ -33,6 +42,7 @@ class ProgressObserver : public run::Observer {
   const run::History& history_;
   std::optional<Progress> progress_;
   std::int64_t rejected_ = 0;
+  bool goes_on_ = false;  // with the next step, from a checkpoint
 };
 
 }  // namespace diptych::harness

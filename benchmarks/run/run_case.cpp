@@ -2,13 +2,16 @@
 
 #include "benchmarks/run/breakdown_place.hpp"
 #include "benchmarks/run/case_observers.hpp"
+#include "benchmarks/run/checkpoints.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/memory.hpp"
 #include "benchmarks/run/provenance.hpp"
 #include "benchmarks/run/resumption.hpp"
 #include "benchmarks/run/run_folder.hpp"
+#include "benchmarks/run/run_identity.hpp"
 #include "benchmarks/run/scene.hpp"
 #include "common/base/error.hpp"
+#include "common/io/checkpoint_file.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/parallel/thread_count.hpp"
 #include "common/run/simulation.hpp"
@@ -69,11 +72,17 @@ class CaseRun {
 
  private:
   void identify();
+  void go_on();
+  void keep_checkpoints();
+  void archive(algebra::Archive& archive);
+  void tell(const std::string& notice) const;
+  void warn(const std::string& notice) const;
   void note_breakdown();
   void measure();
   void finish();
 
   Clock::time_point start_ = Clock::now();
+  double seconds_before_ = 0;  // a checkpoint
   RunMemory memory_;
   const cases::Case& setup_;
   const RunOptions& options_;
@@ -90,15 +99,69 @@ CaseRun::CaseRun(const cases::Case& setup, const RunOptions& options)
   scene_.emplace(setup, options.method, options.level);
   identify();
   describe_graph(*scene_, result_.summary);
-  for (const std::string& notice : scene_->description.notices) {
-    if (options.quiet) break;
-    std::fputs(fmt::format("{} level {}: {}\n", options.method, options.level, notice).c_str(),
-               stderr);
-  }
+  for (const std::string& notice : scene_->description.notices)
+    tell(notice);
   observers_.emplace(setup, options, *scene_);
+  simulation_.emplace(setup_, *scene_->solver, observers_->all(), interrupt_requested);
+  if (!options.checkpoint.empty()) go_on();
   folder_.check();
   if (folder_.is_written() && options.before_writing) options.before_writing();
-  folder_.open(setup, result_.summary);
+  folder_.open(setup, result_.summary, !options.checkpoint.empty());
+  if (folder_.is_written() && options.checkpoints) keep_checkpoints();
+}
+
+void CaseRun::tell(const std::string& notice) const {
+  if (!options_.quiet) warn(notice);
+}
+
+/// Told where no progress is, too.
+void CaseRun::warn(const std::string& notice) const {
+  std::fputs(fmt::format("{} level {}: {}\n", options_.method, options_.level, notice).c_str(),
+             stderr);
+}
+
+/// Takes state and records from the checkpoint.
+void CaseRun::go_on() {
+  io::CheckpointReader reader(options_.checkpoint);
+  archive(reader);
+  reader.finish();
+  observers_->check_files();
+  tell(fmt::format("goes on from {}, step {}, t = {:.6g} s", options_.checkpoint,
+                   simulation_->totals().steps, scene_->solver->time()));
+}
+
+void CaseRun::keep_checkpoints() {
+  if (!options_.checkpoint.empty())
+    remove_later_checkpoints(folder_.path(), simulation_->totals().steps);
+  simulation_->keep({setup_.time.checkpoint_every, setup_.time.checkpoint_seconds,
+                     base::take_checkpoint_request, [this] {
+                       write_checkpoint(folder_.path(), simulation_->totals().steps,
+                                        [this](algebra::Archive& to) { archive(to); });
+                     }});
+}
+
+/// @throws base::InputError where it is loading a checkpoint of another run
+void CaseRun::archive(algebra::Archive& archive) {
+  io::RunSummary& s = result_.summary;
+  const RunIdentity now = identity_of(setup_, scene_->graph, s);
+  RunIdentity identity = now;
+  identity.archive(archive);
+  const std::string difference = difference_of(identity, now);
+  if (!difference.empty()) throw base::InputError(options_.checkpoint + ": " + difference);
+  const std::string doubt = doubt_about(identity, now);
+  if (!doubt.empty()) warn(options_.checkpoint + " " + doubt);
+  std::string hash = scene_->solver->state_hash(scene_->mesh.order);
+  archive.text("identity/state hash", hash);
+  archive.integer("run/restarts", s.restarts);
+  double seconds = seconds_before_ + seconds_since(start_);
+  archive.real("run/wall seconds", "s", seconds);
+  simulation_->archive(archive);
+  if (!archive.is_loading()) return;
+  ++s.restarts;
+  seconds_before_ = seconds;
+  if (scene_->solver->state_hash(scene_->mesh.order) == hash) return;
+  throw base::InputError(options_.checkpoint +
+                         ": the state in it is not the one that it was written of");
 }
 
 void CaseRun::identify() {
@@ -126,7 +189,6 @@ void CaseRun::go() {
   s.building_rss_bytes = memory_.peak();
   s.running_rss_bytes = memory_.settled();
   s.setup_seconds = seconds_since(start_);
-  simulation_.emplace(setup_, *scene_->solver, observers_->all(), interrupt_requested);
   try {
     s.status = run::status_of(simulation_->run());
   } catch (...) {  // of an observer, which may have been closing a file after a breakdown
@@ -152,7 +214,7 @@ void CaseRun::note_breakdown() {
 /// What the run cost.
 void CaseRun::measure() {
   io::RunSummary& s = result_.summary;
-  if (simulation_) {
+  if (simulation_ && simulation_->totals().begun > 0) {
     const run::StepTotals& totals = simulation_->totals();
     s.steps = totals.steps;
     s.rejected_steps = totals.rejected;
@@ -163,7 +225,7 @@ void CaseRun::measure() {
   }
   s.stages = s.steps * scene_->solver->evaluations_per_step();
   s.end_time = scene_->solver->time();
-  s.wall_seconds = seconds_since(start_);
+  s.wall_seconds = seconds_before_ + seconds_since(start_);
   s.peak_rss_bytes = memory_.peak();
   if (s.stages == 0) return;
   s.nanoseconds_per_node_stage =

@@ -1,5 +1,6 @@
 #include "benchmarks/run/run_folder.hpp"
 
+#include "benchmarks/run/checkpoints.hpp"
 #include "common/base/error.hpp"
 #include "common/cases/copy.hpp"
 #include "common/io/atomic_file.hpp"
@@ -27,7 +28,7 @@ bool is_of_a_run(std::string name) {
                                            "exact.csv",     "case.toml",   "mesh.hdf",
                                            "run.hdf.series"};
   if (name.ends_with(".tmp")) name.resize(name.size() - 4);
-  if (names.count(name) > 0) return true;
+  if (names.count(name) > 0 || is_checkpoint_name(name)) return true;
   const bool is_frame = name.starts_with("frame_") && name.ends_with(".hdf") && name.size() >= 14;
   return is_frame && name.find_first_not_of("0123456789", 6) == name.size() - 4;
 }
@@ -95,13 +96,13 @@ void RunFolder::check() const {
   }
 }
 
-void RunFolder::open(const cases::Case& setup, io::RunSummary summary) const {
+void RunFolder::open(const cases::Case& setup, io::RunSummary summary, bool goes_on) const {
   if (!is_written()) return;
   io::make_directory(directory_);
   summary.status = "running";
   io::write_file_atomically(file("summary.json"),
                             io::to_json(summary) + std::string(room_for_a_message, ' ') + "\n");
-  remove_files(directory_, "summary.json");
+  if (!goes_on) remove_files(directory_, "summary.json");
   write_case_copy(file("case.toml"), setup);
 }
 

@@ -21,8 +21,9 @@ class RunFolder {
   void check() const;
   /// Makes or takes the folder, leaves word that a run is under way, removes what the earlier run
   /// left, and puts a copy of the case there.
+  /// @param goes_on  from a checkpoint: what was left is its own, and stays
   /// @throws base::EnvironmentError where it cannot
-  void open(const cases::Case& setup, io::RunSummary summary) const;
+  void open(const cases::Case& setup, io::RunSummary summary, bool goes_on) const;
   /// What a run leaves besides its frames and rows; the summary last.
   void close(const RunResult& result) const;
   /// The summary of a run that could not be finished, even where the disk is full. Never throws.

@@ -47,6 +47,10 @@ std::string run_table(const io::RunSummary& s) {
     text += fmt::format("  {} {} rejected and made again with half the size\n", s.rejected_steps,
                         s.rejected_steps == 1 ? "attempt at a step was" : "attempts at steps were");
   }
+  if (s.restarts > 0) {
+    text += fmt::format("  went on from a checkpoint {} {}\n", s.restarts,
+                        s.restarts == 1 ? "time" : "times");
+  }
   if (!s.errors.empty()) {
     text += "  relative L2 errors:";
     for (const auto& [name, norms] : s.errors)

@@ -45,7 +45,11 @@ RunOptions run_options(const StudyOptions& options, int level, const std::string
   run.fields = options.fields;
   run.quiet = options.quiet;
   run.shapes = options.shapes && level == options.levels.back();
-  run.scales = options.methods.size() == 2 && level == options.levels.back();
+  run.scales =
+      (options.methods.size() == 2 && level == options.levels.back()) || options.keeps_checkpoints;
+  run.checkpoints = options.keeps_checkpoints;
+  if (const auto found = options.checkpoints.find(method); found != options.checkpoints.end())
+    run.checkpoint = found->second;
   return run;
 }
 
@@ -71,6 +75,7 @@ Study run_study(const cases::Case& setup, const StudyOptions& options) {
   OutputFolder output(options.directory, setup, has_levels ? OutputKind::levels : OutputKind::runs,
                       options.force);
   if (has_levels) output.ask_for(options.levels, options.methods, !options.resume);
+  if (options.goes_on) output.go_on();
   Study study;
   std::vector<RunResult> finest;  // those that were run now
   const auto plan = plan_of(setup, options, output);

@@ -18,9 +18,12 @@ struct StudyOptions {
   std::string directory;  ///< runs go to DIR/<method> (one level) or DIR/level_<L>/<method>
   bool fields = true;
   bool quiet = false;
-  bool shapes = false;  ///< keep deformed surfaces of the finest level for the report
-  bool resume = false;  ///< runs that the same program has finished there are taken over
-  bool force = false;   ///< results of another case in the folder may be replaced
+  bool shapes = false;             ///< keep deformed surfaces of the finest level for the report
+  bool resume = false;             ///< runs that the same program has finished there are taken over
+  bool force = false;              ///< results of another case in the folder may be replaced
+  bool keeps_checkpoints = false;  ///< of runs, see RunOptions::checkpoints
+  bool goes_on = false;            ///< with what lies in the folder (one level)
+  std::map<std::string, std::string> checkpoints;  ///< method: file to go on from
 };
 
 struct Study {

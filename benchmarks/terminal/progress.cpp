@@ -83,7 +83,8 @@ bool Progress::due() const {
 
 void Progress::show(
     double time, std::int64_t step, double dt, double energy_residual, std::int64_t rejected) {
-  const double fraction = time / end_time_, elapsed = seconds_since(start_);
+  const double fraction = (time - begin_time_) / (end_time_ - begin_time_);
+  const double elapsed = seconds_since(start_);
   const double left = fraction > 0 ? elapsed * (1 - fraction) / fraction : 0;
   ProgressState state{label_,       1,       1, time, end_time_, step, dt, energy_residual, left,
                       std::nullopt, rejected};

@@ -38,6 +38,8 @@ class Progress {
   /// @param schedule  of the command that makes this run; null where it is the only one
   Progress(std::string label, double end_time, bool quiet, const Schedule* schedule = nullptr);
   ~Progress();
+  /// Where the run has begun, or gone on from: what is left is told by the pace since  [s]
+  void begin_at(double time) { begin_time_ = time; }
   /// Whether the next show() would print: the caller then works out the energy residual.
   bool due() const;
   void show(
@@ -48,7 +50,7 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
   std::string label_;
-  double end_time_;
+  double begin_time_ = 0, end_time_;
   bool quiet_, on_terminal_;
   const Schedule* schedule_;
   bool line_open_ = false;

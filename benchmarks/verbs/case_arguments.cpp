@@ -36,6 +36,11 @@ void CaseArguments::declare_force(CommandLine& line) {
   line.flag("--force", force, "replace results of another case in the output folder");
 }
 
+void CaseArguments::declare_restart(CommandLine& line) {
+  line.option("--restart", restart,
+              "go on from a checkpoint: latest, or the path of one in the output folder");
+}
+
 void CaseArguments::declare_with_method(CommandLine& line) {
   declare(line);
   line.option("--method", method, "sph, fvm or both");

@@ -18,7 +18,7 @@ constexpr const char* cases_help =
     "ones";
 
 struct CaseArguments {
-  std::string case_name, cases_folder, method = "both", directory;
+  std::string case_name, cases_folder, method = "both", directory, restart;
   std::vector<std::string> overrides;
   int level = 0, threads = 0;
   bool quiet = false, no_fields = false, force = false;
@@ -29,6 +29,8 @@ struct CaseArguments {
   void declare(CommandLine& line);
   /// Adds --force, of verbs that write results of the case.
   void declare_force(CommandLine& line);
+  /// Adds --restart.
+  void declare_restart(CommandLine& line);
   /// Adds --method too.
   void declare_with_method(CommandLine& line);
 

@@ -1,8 +1,10 @@
-/// diptych run: a case with one method or both.
+/// diptych run: a case with one method or both, from t = 0 or from a checkpoint.
 
 #include "benchmarks/run/breakdowns.hpp"
+#include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/run_table.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
+#include "benchmarks/verbs/restart.hpp"
 #include "benchmarks/verbs/table.hpp"
 
 #include <memory>
@@ -13,13 +15,19 @@ namespace {
 
 int run_methods(const CaseArguments& arguments) {
   const cases::Case setup = arguments.read();
-  const auto options = arguments.study_options(setup);
+  auto options = arguments.study_options(setup);
+  options.keeps_checkpoints = true;
+  go_on(setup, arguments.restart, !arguments.directory.empty(), options);
   const harness::Study study = harness::run_study(setup, options);
+  for (const std::string& directory : study.taken_over)
+    print("taken over, not run again: " + directory + "\n");
   for (const auto& summary : study.runs)
     print(harness::run_table(summary) + "\n");
   print_breakdowns(study);
   if (!study.is_empty()) print("output: " + options.directory + "\n");
-  return harness::exit_code_of_study(study.breakdowns, end_of(study, options.directory));
+  return harness::exit_code_of_study(
+      study.breakdowns, study.is_empty() ? end_of(study, options.directory)
+                                         : harness::go_on_from_checkpoint(options.directory));
 }
 
 }  // namespace
@@ -28,6 +36,7 @@ Action declare_run(CommandLine& line) {
   const auto arguments = std::make_shared<CaseArguments>();
   arguments->declare_with_method(line);
   arguments->declare_force(line);
+  arguments->declare_restart(line);
   return [arguments] { return run_methods(*arguments); };
 }
 

@@ -77,10 +77,12 @@ struct InitialCase {
 struct TimeCase {
   double end = 0;                      ///< s, > 0
   std::string integrator = "ssp-rk3";  ///< entry of the integrator menu
-  double cfl = 0;                ///< fraction of the graph bound; 0: default of the integrator
-  std::string speeds = "exact";  ///< of the time step: exact, bound or linearised
-  std::int64_t max_steps = 0;    ///< 0: none
-  int max_retries = 5;           ///< of one step, each with half its size
+  double cfl = 0;                     ///< fraction of the graph bound; 0: default of the integrator
+  std::string speeds = "exact";       ///< of the time step: exact, bound or linearised
+  std::int64_t max_steps = 0;         ///< 0: none
+  int max_retries = 5;                ///< of one step, each with half its size
+  std::int64_t checkpoint_every = 0;  ///< steps; 0: not by steps
+  double checkpoint_seconds = 0;      ///< of the clock; 0: not by the clock
 };
 
 /// [guards]

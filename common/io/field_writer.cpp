@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -94,13 +95,14 @@ bool is_frame_name(const std::string& name) {
 }
 
 /// Frames of an earlier run here would point into the new mesh: they go, the index first.
-void remove_earlier_frames(const std::string& directory) {
+void remove_frames(const std::string& directory, const std::set<std::string>& kept) {
   std::error_code failure;
   fs::remove(fs::path(directory) / series_file, failure);
   std::vector<fs::path> frames;
   if (!failure) {
     for (const auto& entry : fs::directory_iterator(directory, failure)) {
-      if (is_frame_name(entry.path().filename().string())) frames.push_back(entry.path());
+      const std::string name = entry.path().filename().string();
+      if (is_frame_name(name) && kept.count(name) == 0) frames.push_back(entry.path());
     }
   }
   for (size_t i = 0; i < frames.size() && !failure; ++i)
@@ -164,14 +166,36 @@ std::string stored_name(const std::string& name) {
   return *stored;
 }
 
-FieldWriter::FieldWriter(std::string directory, const VisualMesh& mesh)
+void require_frames(const std::string& directory, const std::vector<double>& times) {
+  for (size_t k = 0; k < times.size(); ++k) {
+    const fs::path frame = fs::path(directory) / frame_name(k);
+    std::error_code failure;
+    if (!fs::is_regular_file(frame, failure)) {
+      throw base::InputError(fmt::format(
+          "{}: is missing; a run goes on where all of its frames until then are", frame.string()));
+    }
+  }
+}
+
+void keep_frames(const std::string& directory, const std::vector<double>& times) {
+  require_frames(directory, times);
+  std::set<std::string> kept;
+  for (size_t k = 0; k < times.size(); ++k)
+    kept.insert(frame_name(k));
+  remove_frames(directory, kept);
+  if (!times.empty())
+    write_file_atomically((fs::path(directory) / series_file).string(), series_json(times));
+}
+
+FieldWriter::FieldWriter(std::string directory, const VisualMesh& mesh, std::vector<double> times)
     : directory_(std::move(directory)),
       n_points_(static_cast<std::int64_t>(mesh.points.size() / 3)),
       n_cells_(static_cast<std::int64_t>(mesh.types.size())),
-      n_connectivity_(static_cast<std::int64_t>(mesh.connectivity.size())) {
+      n_connectivity_(static_cast<std::int64_t>(mesh.connectivity.size())),
+      times_(std::move(times)) {
   check_mesh(mesh);
   make_directory(directory_);
-  remove_earlier_frames(directory_);
+  keep_frames(directory_, times_);
   Hdf5File file = Hdf5File::create((fs::path(directory_) / mesh_file).string());
   write_counts(file, n_points_, n_cells_, n_connectivity_);
   file.write(in_root("Points"), std::span(mesh.points), 3);

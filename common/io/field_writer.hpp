@@ -32,8 +32,11 @@ struct NamedValue {
 
 class FieldWriter {
  public:
-  /// Writes DIR/mesh.hdf. @throws base::EnvironmentError
-  FieldWriter(std::string directory, const VisualMesh& mesh);
+  /// Writes DIR/mesh.hdf. Frames that stand in the folder are removed but for the first ones, as
+  /// many as there are times: those that the run has written before a checkpoint.
+  /// @param times  s, of these frames
+  /// @throws base::InputError where one of them is not there; base::EnvironmentError
+  FieldWriter(std::string directory, const VisualMesh& mesh, std::vector<double> times = {});
   /// Writes DIR/frame_NNNN.hdf (fields as float32; field data "time" and the values) and refreshes
   /// run.hdf.series. @return path of the frame
   std::string write(double time,
@@ -54,6 +57,13 @@ NodeField read_field(const std::string& frame_path, const std::string& name);
 /// notation of CF and UDUNITS: "velocity [m/s]" as "velocity [m s-1]", "[kg/m^3]" as "[kg m-3]".
 /// read_field takes either.
 std::string stored_name(const std::string& name);
+
+/// @throws base::InputError where one of the first frames, as many as there are times, is not there
+void require_frames(const std::string& directory, const std::vector<double>& times);
+
+/// Removes the frames of the folder but for the first ones, as many as there are times, and makes
+/// the index anew. @throws base::EnvironmentError  and as require_frames does
+void keep_frames(const std::string& directory, const std::vector<double>& times);
 
 struct FrameEntry {
   std::string path;

@@ -107,6 +107,19 @@ Hdf5File Hdf5File::open_for_reading(const std::string& path) {
   return {path, H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "cannot open it"};
 }
 
+Hdf5File Hdf5File::open_image(const std::string& path, const std::string& image) {
+  be_quiet();
+  const Owned access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  // HDF5 takes a copy and does not write to it
+  const bool is_set =
+      set_access(access.get()) &&
+      H5Pset_file_image(access.get(), const_cast<char*>(image.data()), image.size()) >= 0;
+  // under a name that no file has: HDF5 refuses an image of one that is there
+  const std::string name = path + ".image";
+  return {path, is_set ? H5Fopen(name.c_str(), H5F_ACC_RDONLY, access.get()) : -1,
+          "cannot open it"};
+}
+
 Hdf5File::Hdf5File(Hdf5File&& other) noexcept
     : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)) {}
 
@@ -205,14 +218,18 @@ void Hdf5File::link(const std::string& name, const std::string& file, const std:
   }
 }
 
-void Hdf5File::publish() {
+std::string Hdf5File::take_image() {
   if (H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0) fail("cannot finish it");
   const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
   if (size <= 0) fail("cannot take its size");
   std::string image(static_cast<size_t>(size), '\0');
   if (H5Fget_file_image(file_, image.data(), image.size()) != size) fail("cannot take its bytes");
   if (H5Fclose(std::exchange(file_, -1)) < 0) fail("cannot close it");
-  write_file_atomically(path_, image);
+  return image;
+}
+
+void Hdf5File::publish() {
+  write_file_atomically(path_, take_image());
 }
 
 bool Hdf5File::contains(const std::string& name) const {

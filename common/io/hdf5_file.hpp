@@ -22,6 +22,8 @@ class Hdf5File {
   /// Starts a file in memory; nothing is at `path` before publish().
   static Hdf5File create(const std::string& path);
   static Hdf5File open_for_reading(const std::string& path);
+  /// Opens the bytes of a file for reading. @param path  for messages
+  static Hdf5File open_image(const std::string& path, const std::string& image);
 
   Hdf5File(Hdf5File&& other) noexcept;
   Hdf5File(const Hdf5File&) = delete;
@@ -51,6 +53,8 @@ class Hdf5File {
 
   /// Closes it and writes it to the path given to create(), whole or not at all.
   void publish();
+  /// Closes it. @return its bytes
+  std::string take_image();
 
   bool contains(const std::string& name) const;
   std::vector<std::string> names(const std::string& group) const;  ///< sorted

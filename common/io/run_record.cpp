@@ -197,6 +197,7 @@ void read_size_and_cost(const Section& file, RunSummary& summary) {
   summary.steps = file.large_count("steps");
   summary.stages = file.large_count("stages");
   summary.rejected_steps = file.large_count("rejected_steps");
+  summary.restarts = file.large_count("restarts");
   summary.threads = file.small_count("threads");
   summary.ranks = file.small_count("ranks");
   summary.setup_seconds = file.number("setup_seconds");
@@ -295,6 +296,7 @@ std::string to_json(const RunSummary& summary) {
       {"steps", summary.steps},
       {"stages", summary.stages},
       {"rejected_steps", summary.rejected_steps},
+      {"restarts", summary.restarts},
       {"threads", summary.threads},
       {"ranks", summary.ranks},
       {"precision", summary.precision},

@@ -59,6 +59,7 @@ struct RunSummary {
   int unknowns_per_node = 0;
   std::int64_t steps = 0, stages = 0;
   std::int64_t rejected_steps = 0;  ///< attempts that failed and were made again with half the size
+  std::int64_t restarts = 0;        ///< how often it went on from a checkpoint
   int threads = 1, ranks = 1;
   std::string precision = "double", integrator;
   std::string status = "done";  ///< running, done, step limit, interrupted, breakdown, failed
@@ -94,7 +95,7 @@ struct RunSummary {
 };
 
 /// JSON text with the key names of the contract: method, case, level, ..., steps, stages,
-/// rejected_steps, ..., dt{min,max},
+/// rejected_steps, restarts, ..., dt{min,max},
 /// errors{field{l1,l2,linf}}, energy{...}, momentum{linear_drift,angular_drift}, involution{H,J},
 /// min_jacobian, cells{least_J,most_inverted,inverted_from}, state_hash, provenance{...}; where the
 /// run was not finished, failure{message,time,step,node,place}.
@@ -128,6 +129,20 @@ struct HistoryRow {
   double least_cell_J = 1;  ///< least deformed over reference volume of a cell
   std::vector<double> probes;
 };
+
+/// use(value) of all numbers of a row but for its step and its probes, in the order of history.csv.
+template <class Use>
+void for_each_value(HistoryRow& row, const Use& use) {
+  EnergySummary& energy = row.energy;
+  for (double* value :
+       {&row.time, &row.dt, &energy.kinetic, &energy.strain, &energy.viscous_dissipation,
+        &energy.numerical_dissipation, &energy.external_work, &energy.projection_work,
+        &energy.relative_residual, &row.linear_momentum[0], &row.linear_momentum[1],
+        &row.linear_momentum[2], &row.angular_momentum[0], &row.angular_momentum[1],
+        &row.angular_momentum[2], &row.min_jacobian, &row.involution_H, &row.involution_J,
+        &row.least_cell_J})
+    use(*value);
+}
 
 /// history.csv and steps.csv are these header lines and these lines, one below the other.
 std::string history_header(const std::vector<std::string>& probe_names);

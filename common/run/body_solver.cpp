@@ -5,6 +5,7 @@
 #include "common/run/state_hash.hpp"
 #include "common/scheme/body/health.hpp"
 #include "common/scheme/budget/balance.hpp"
+#include "common/time/moving_body_archive.hpp"
 
 #include <fmt/format.h>
 
@@ -84,6 +85,18 @@ algebra::Vec3 BodySolver<Dim>::reaction(const std::vector<std::int32_t>& nodes) 
 template <int Dim>
 std::string BodySolver<Dim>::state_hash(const std::vector<std::int32_t>& order) const {
   return run::state_hash(moving_.body, order, time());
+}
+
+template <int Dim>
+void BodySolver<Dim>::archive(algebra::Archive& archive) {
+  time::archive(moving_, archive);
+  if (known_) known_->archive(archive);
+  if (!archive.is_loading()) return;
+  begin_ = time::StepBegin<Dim>(moving_);  // which keeps nothing of the steps until then
+  if (!time::is_sound(moving_)) {
+    throw base::InputError(
+        "the state to go on from is not sound: a node has J <= 0 or a value that is not finite");
+  }
 }
 
 template <int Dim>

@@ -27,6 +27,7 @@ class BodySolver : public Solver {
   Snapshot snapshot(std::span<const std::int32_t> nodes) const override;
   algebra::Vec3 reaction(const std::vector<std::int32_t>& nodes) override;
   std::string state_hash(const std::vector<std::int32_t>& order) const override;
+  void archive(algebra::Archive& archive) override;
   int unknowns_per_node() const override { return moving_.body.unknowns_per_node(); }
   std::string arrangement() const override { return moving_.body.in_runs() ? "runs" : "rows"; }
   double undeformed_speed() const override { return material().undeformed_speed(); }

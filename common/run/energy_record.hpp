@@ -1,12 +1,14 @@
 #pragma once
 /// The energy budget of a run over time, relative to what it has held.
 
+#include "common/algebra/archive.hpp"
 #include "common/io/run_record.hpp"
 #include "common/scheme/budget/audit.hpp"
 #include "common/scheme/budget/balance.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace diptych::run {
 
@@ -32,6 +34,12 @@ class EnergyRecord {
 
   /// The largest energy so far, to which residuals are relative  [J]
   double scale() const { return scale_; }
+
+  /// @param group  of the archive, without "/" at its end
+  void archive(const std::string& group, algebra::Archive& archive) {
+    archive.real(group + "/initial energy", "J", initial_);
+    archive.real(group + "/largest energy", "J", scale_);
+  }
 
  private:
   double initial_, scale_;

@@ -131,6 +131,22 @@ void ExactErrors::measure(const Snapshot& s) {
   measure_field("viscous_G", S, S_exact, I);
 }
 
+void ExactErrors::archive(algebra::Archive& archive) {
+  std::vector<std::string> names;
+  for (const auto& [name, norms] : norms_)
+    names.push_back(name);
+  archive.texts("errors/fields", names);
+  for (const std::string& name : names) {
+    auto& [error, scale] = norms_[name];
+    archive.real("errors/" + name + " l1", "-", error.l1);
+    archive.real("errors/" + name + " l2", "-", error.l2);
+    archive.real("errors/" + name + " linf", "-", error.linf);
+    archive.real("errors/" + name + " scale l1", "-", scale.l1);
+    archive.real("errors/" + name + " scale l2", "-", scale.l2);
+    archive.real("errors/" + name + " scale linf", "-", scale.linf);
+  }
+}
+
 std::map<std::string, io::ErrorNorms> ExactErrors::relative() const {
   std::map<std::string, io::ErrorNorms> result;
   const auto ratio = [](double error, double scale) { return scale > 0 ? error / scale : error; };

@@ -33,6 +33,8 @@ class ExactErrors {
   /// The exact fields at the time of the last snapshot; those that the case does not give are
   /// empty.
   const Snapshot& exact() const { return exact_; }
+  /// Norms and scales so far; not the fields of the last snapshot.
+  void archive(algebra::Archive& archive);
   /// Size of the error at each node in the last snapshot by field name, absolute.
   const std::map<std::string, std::vector<double>>& nodal() const { return nodal_; }
 

@@ -23,6 +23,8 @@ class Probes {
   Probes(const std::vector<cases::ProbeCase>& probes, const scheme::PairGraph& graph);
 
   bool empty() const { return all_.probes.empty(); }
+  size_t size() const { return all_.probes.size(); }
+  size_t n_stepped() const { return stepped_.probes.size(); }
   bool has_stepped() const { return !stepped_.probes.empty(); }
 
   /// Of all probes, in the order of the case.

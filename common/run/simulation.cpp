@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fmt/format.h>
 #include <utility>
 
 namespace diptych::run {
@@ -42,25 +43,99 @@ Ending Simulation::run() {
   return ending;
 }
 
-Ending Simulation::advance() {
+void Simulation::begin() {
+  if (goes_on_) {
+    for (Observer* observer : observers_)
+      observer->resume();
+    return;
+  }
   for (Observer* observer : observers_)
     observer->begin();
   output();
   totals_.dt_min = totals_.least_J = 1e300;
+}
+
+/// Of output.
+double Simulation::instant(int frame) const {
   const int n = setup_.output.frames;
-  const double end = setup_.time.end;
-  for (int frame = 1; frame <= n; ++frame) {
-    advance_to(frame == n ? end : end * frame / n);
-    output();
-    if (is_at_step_limit() && solver_.time() < end) return Ending::step_limit;
-    if (is_interrupted()) return Ending::interrupted;
+  return frame == n ? setup_.time.end : setup_.time.end * frame / n;
+}
+
+Ending Simulation::advance() {
+  begin();
+  for (int frame = 1; frame <= setup_.output.frames; ++frame) {
+    if (goes_on_ && instant(frame) <= solver_.time()) continue;  // of before the checkpoint
+    advance_to(instant(frame));
+    const bool ends_early = solver_.time() < instant(frame);
+    // a run that goes on from here has no output here
+    if (ends_early) checkpoint_at_the_end();
+    if (solver_.time() != state_.time) output();
+    const bool is_limited = is_at_step_limit() && solver_.time() < setup_.time.end;
+    if (is_limited || is_interrupted()) {
+      if (!ends_early) checkpoint_at_the_end();
+      return is_limited ? Ending::step_limit : Ending::interrupted;
+    }
+    checkpoint_where_due();
   }
+  checkpoint_at_the_end();
+  if (state_.u.empty()) state_ = solver_.snapshot();  // there was nothing left to do
   return Ending::done;
 }
 
+void Simulation::checkpoint_where_due() {
+  if (!checkpoints_.write) return;
+  const std::int64_t every = checkpoints_.every;
+  const bool is_due =
+      (every > 0 && totals_.steps % every == 0) ||
+      (checkpoints_.seconds > 0 &&
+       std::chrono::duration<double>(Clock::now() - kept_at_).count() >= checkpoints_.seconds) ||
+      (checkpoints_.asked && checkpoints_.asked());
+  if (is_due) checkpoint();
+}
+
+void Simulation::checkpoint_at_the_end() {
+  if (checkpoints_.write && (checkpoints_.is_regular() || is_interrupted())) checkpoint();
+}
+
+void Simulation::checkpoint() {
+  if (kept_ == totals_.steps) return;  // as it stands
+  checkpoints_.write();
+  kept_ = totals_.steps;
+  kept_at_ = Clock::now();
+}
+
+void Simulation::archive(algebra::Archive& archive) {
+  archive.integer("run/steps", totals_.steps);
+  archive.integer("run/steps begun", totals_.begun);
+  archive.real("run/least dt", "s", totals_.dt_min);
+  archive.real("run/largest dt", "s", totals_.dt_max);
+  archive.real("run/least J", "-", totals_.least_J);
+  archive.integer("run/rejected", totals_.rejected);
+  archive.real("run/seconds in steps", "s", totals_.seconds);
+  archive.integer("last step/number", last_.step);
+  archive.real("last step/time", "s", last_.time);
+  archive.real("last step/dt", "s", last_.dt);
+  archive.real("last step/least J", "-", last_.least_J);
+  archive.integer("last step/rejected", last_.rejected);
+  archive.integer("run/judged step", judged_);
+  archive.integer("run/outputs", n_outputs_);
+  archive.real("run/time of last output", "s", state_.time);
+  solver_.archive(archive);
+  for (Observer* observer : observers_)
+    observer->archive(archive);
+  if (!archive.is_loading()) return;
+  if (solver_.time() > setup_.time.end) {
+    throw base::InputError(
+        fmt::format("time.end = {:g} s is before the state to go on from, which "
+                    "is of t = {:g} s; give a later end",
+                    setup_.time.end, solver_.time()));
+  }
+  goes_on_ = true;
+  kept_ = totals_.steps;
+}
+
 void Simulation::advance_to(double limit) {
-  using Clock = std::chrono::steady_clock;
-  while (solver_.time() < limit && !is_interrupted()) {
+  while (solver_.time() < limit && !is_interrupted() && !is_at_step_limit()) {
     const auto start = Clock::now();
     totals_.begun = totals_.steps + 1;
     last_ = solver_.step(limit);
@@ -74,6 +149,7 @@ void Simulation::advance_to(double limit) {
       observer->after_step(last_);
     if (is_at_step_limit()) break;
     if (last_.step >= judged_ + check_period && solver_.time() < limit) check();
+    if (solver_.time() < limit) checkpoint_where_due();
   }
 }
 

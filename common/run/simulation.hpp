@@ -1,10 +1,12 @@
 #pragma once
-/// A case in motion from t = 0 to its end, or to what ends it before: steps from one output time to
-/// the next, and observers that are told of each. Test: tests/common/run/simulation_test.cpp
+/// A case in motion from t = 0, or from a checkpoint, to its end, or to what ends it before: steps
+/// from one output time to the next, and observers that are told of each. Test:
+/// tests/common/run/simulation_test.cpp
 
 #include "common/base/error.hpp"
 #include "common/run/observers/observer.hpp"
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -25,6 +27,15 @@ struct StepTotals {
 /// "done", "interrupted", "step limit", "breakdown": RunSummary::status
 const char* status_of(Ending ending);
 
+/// When a simulation is kept, so that it can go on after its program has ended.
+struct Checkpointing {
+  std::int64_t every = 0;       ///< steps; 0: not by steps
+  double seconds = 0;           ///< of the clock; 0: not by the clock
+  std::function<bool()> asked;  ///< whether one is asked for now; may be empty
+  std::function<void()> write;  ///< keeps the simulation as it stands; empty: never
+  bool is_regular() const { return every > 0 || seconds > 0; }
+};
+
 class Simulation {
  public:
   /// @param setup, solver  kept by reference; the solver is at t = 0
@@ -39,6 +50,15 @@ class Simulation {
   /// observers are thrown on, and what follows here tells of the steps until then.
   Ending run();
 
+  /// From now on it is kept: when that is due, after a step or, at an instant of output, after that
+  /// output; where it is interrupted; and where it ends, if it was to be kept now and then.
+  void keep(Checkpointing checkpoints) { checkpoints_ = std::move(checkpoints); }
+  /// Keeps all that the simulation needs to go on in the archive, with solver and observers, or
+  /// takes it from there: run() then goes on from that step, as if it had never ended. The end and
+  /// the number of instants of output may be others than they were.
+  /// @throws base::InputError where it is loading what does not fit
+  void archive(algebra::Archive& archive);
+
   /// Steps between what guards judge: an energy that grows is found within a hundred, and the
   /// energies of a body, which cost 2/3 of a step of leapfrog at most, 1.5 % (diptych cost).
   static constexpr std::int64_t check_period = 50;
@@ -50,12 +70,19 @@ class Simulation {
 
  private:
   Ending advance();
+  void begin();
+  double instant(int frame) const;
+  void checkpoint_where_due();
+  void checkpoint_at_the_end();
+  void checkpoint();
   void advance_to(double limit);
   void output();
   void check();
   void keep_last_state();
   bool is_interrupted() const { return interrupted_ && interrupted_(); }
   bool is_at_step_limit() const;
+
+  using Clock = std::chrono::steady_clock;
 
   const cases::Case& setup_;
   Solver& solver_;
@@ -67,6 +94,10 @@ class Simulation {
   std::int64_t n_outputs_ = 0;
   Snapshot state_;
   std::optional<base::BreakdownError> breakdown_;
+  Checkpointing checkpoints_;
+  std::int64_t kept_ = -1;  // step
+  Clock::time_point kept_at_ = Clock::now();
+  bool goes_on_ = false;  // from a checkpoint
 };
 
 }  // namespace diptych::run

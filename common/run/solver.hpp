@@ -2,6 +2,7 @@
 /// A body in motion: case and pair graph in, steps out. Type erasure stands here, once per step;
 /// the compiled models behind it are in the menu of model_menu.cpp.
 
+#include "common/algebra/archive.hpp"
 #include "common/cases/case.hpp"
 #include "common/scheme/body/snapshot.hpp"
 #include "common/scheme/budget/audit.hpp"
@@ -48,6 +49,11 @@ class Solver {
   virtual algebra::Vec3 reaction(const std::vector<std::int32_t>& nodes) = 0;
   /// XXH3 (128 bits) of the unknowns and the time; `order[a]` is the user's number of node a.
   virtual std::string state_hash(const std::vector<std::int32_t>& order) const = 0;
+  /// Keeps all that later steps read in the archive, or takes it from there: the steps that follow
+  /// then have the same bits.
+  /// @pre where it is loading: what is in the archive is of the same case on the same graph
+  /// @throws base::InputError where it is not
+  virtual void archive(algebra::Archive& archive) = 0;
   virtual int unknowns_per_node() const = 0;
   /// Of the sweeps: "runs" or "rows" (scheme/sweep_graph.hpp); they differ in the last bits.
   virtual std::string arrangement() const = 0;

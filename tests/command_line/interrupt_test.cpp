@@ -38,7 +38,7 @@ TEST(Interrupt, EndsTheStepWritesWhatThereIsAndSaysHowToGoOn) {
                                "run" + endless + " --method fvm");
     EXPECT_EQ(outcome.exit_code, 130) << outcome.text;
     EXPECT_THAT(outcome.text, AllOf(HasSubstr("interrupted; what had been computed is in out"),
-                                    HasSubstr("the same command begins the run again")));
+                                    HasSubstr("with --restart latest the same command goes on")));
     const auto directory = folder.path() / "out" / "fvm";
     const auto summary = io::summary_from_json(text_of(directory / "summary.json"), signal);
     EXPECT_EQ(summary.status, "interrupted");

@@ -189,7 +189,7 @@ inline const std::vector<Library>& libraries() {
       {R"(hdf5\.h)", "(tests/)?common/io/.*"},
       {R"(toml\+\+/.*)", "common/cases/.*"},
       {R"(muParser\.h)", "common/functions/.*"},
-      {R"(xxhash\.h)", "common/(run|cases)/.*"},
+      {R"(xxhash\.h)", "common/(run|cases|io)/.*"},
       {R"((omp|mpi)\.h)", "common/parallel/.*"},
       {R"((metis|gmsh)\.h)", "meshes/.*"},
       {R"(nlohmann/.*)", "(common/io|postprocess|tests|benchmarks)/.*"},

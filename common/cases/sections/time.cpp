@@ -35,7 +35,18 @@ SectionEntry time_section() {
                 "beginning with half the size, so many times in a row; then the run is stopped "
                 "(code 3) and the state before the step is kept. The steps after grow back by 1.2 "
                 "each. 0: no retry, and no state kept, which saves a copy (diptych cost).",
-                "0"});
+                "0"})
+          .key("checkpoint_every", &TimeCase::checkpoint_every,
+               {"-", at_least(0),
+                "diptych run keeps the whole state of a run on the disk after so many steps and at "
+                "its end: --restart latest goes on from there. The two latest stay. 0: only where "
+                "the run is interrupted.",
+                "10000"})
+          .key("checkpoint_seconds", &TimeCase::checkpoint_seconds,
+               {"s", at_least(0),
+                "The same after so many seconds of the clock since the last one, with the step "
+                "that ends then. 0: never.",
+                "1800"});
   return plain_section({"time", false, "How long and how."}, keys, &Case::time);
 }
 

@@ -140,6 +140,16 @@ scheme::Snapshot ManufacturedSolution<Dim>::snapshot(double t) {
   return s;
 }
 
+template <int Dim>
+void ManufacturedSolution<Dim>::archive(algebra::Archive& archive) {
+  double time = time_;
+  archive.real("known state/time", "s", time);
+  history_.archive(archive);
+  if (!archive.is_loading()) return;
+  time_ = std::numeric_limits<double>::quiet_NaN();
+  move_to(time);
+}
+
 template class ManufacturedSolution<2>;
 template class ManufacturedSolution<3>;
 

@@ -21,6 +21,9 @@ class KnownState : public scheme::KnownLoads {
  public:
   /// All fields at time t.
   virtual scheme::Snapshot snapshot(double t) = 0;
+  /// What depends on the times that it was moved to before; where it is loading it is then at the
+  /// last of these.
+  virtual void archive(algebra::Archive& archive) = 0;
 };
 
 template <int Dim>
@@ -47,6 +50,7 @@ class ManufacturedSolution : public KnownState {
   const Vec3& body_force(std::int64_t node) const override { return body_force_[node]; }
   const Mat3& stress(std::int64_t node) const override { return P_[node]; }
   scheme::Snapshot snapshot(double t) override;
+  void archive(algebra::Archive& archive) override;
 
  private:
   DIPTYCH_CLONES void evaluate(std::int64_t begin, std::int64_t end);

@@ -217,6 +217,34 @@ void ViscousHistory<Dim>::move_to(double t) {
   latest_time_ = t;
 }
 
+template <int Dim>
+void ViscousHistory<Dim>::archive(algebra::Archive& archive) {
+  archive.real("known state/time of base", "s", base_time_);
+  archive.real("known state/time of latest", "s", latest_time_);
+  for (std::vector<Branch>* branches : {&base_, &latest_}) {
+    // value and gradient of the components of A and of S, lane by lane
+    std::vector<double> values;
+    const auto for_each = [&](const auto& use) {
+      for (Branch& branch : *branches) {
+        for (auto* tensor : {&branch.A, &branch.S}) {
+          for (Scalar& component : tensor->s) {
+            for (int k = -1; k < Dim; ++k) {
+              Lanes& lanes = k < 0 ? component.v : component.d[k];
+              for (int lane = 0; lane < algebra::n_lanes; ++lane)
+                use(lanes, lane);
+            }
+          }
+        }
+      }
+    };
+    for_each([&](Lanes& lanes, int lane) { values.push_back(lanes[lane]); });
+    archive.reals(branches == &base_ ? "known state/base" : "known state/latest", "-", values, 1,
+                  static_cast<std::int64_t>(values.size()));
+    size_t k = 0;
+    for_each([&](Lanes& lanes, int lane) { lanes[lane] = values[k++]; });
+  }
+}
+
 template class ViscousHistory<2>;
 template class ViscousHistory<3>;
 

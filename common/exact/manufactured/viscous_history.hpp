@@ -5,6 +5,7 @@
 /// every dt/tau. Times are asked for in the order of a step (t, t + dt, t + dt/2, t + dt, ...):
 /// each costs one short interval. Test: tests/common/exact/manufactured_test.cpp.
 
+#include "common/algebra/archive.hpp"
 #include "common/exact/manufactured/exponential_gauss.hpp"
 #include "common/exact/manufactured/motion.hpp"
 #include "common/physics/maxwell_branch.hpp"
@@ -37,6 +38,8 @@ class ViscousHistory {
 
   /// Branches of a block at the last time.
   const Branch* at(std::int64_t block) const { return &latest_[block * n_branches()]; }
+  /// The last time and the one before with the branches of both: what move_to() goes on from.
+  void archive(algebra::Archive& archive);
   std::int64_t n_branches() const { return static_cast<std::int64_t>(branches_.size()); }
 
  private:

@@ -15,6 +15,19 @@ void Cells::at_output(const Output& output) {
   if (now_.n_inverted > 0 && !inverted_from_) inverted_from_ = output.state.time;
 }
 
+void Cells::archive(algebra::Archive& archive) {
+  archive.real("cells/J", "-", now_.J);
+  archive.integer("cells/inverted", now_.n_inverted);
+  archive.integer("cells/number", now_.n_cells);
+  archive.vector("cells/centre", "m", now_.centre);
+  archive.real("cells/least J", "-", least_J_);
+  archive.integer("cells/most inverted", most_inverted_);
+  std::vector<double> from;
+  if (inverted_from_) from.push_back(*inverted_from_);
+  archive.reals("cells/inverted from", "s", from);
+  inverted_from_ = from.empty() ? std::nullopt : std::optional(from.front());
+}
+
 void Cells::fill(io::RunSummary& summary) const {
   summary.least_cell_J = least_J_;
   summary.most_inverted_cells = most_inverted_;

@@ -26,6 +26,7 @@ class Cells : public Observer {
 
   void at_output(const Output& output) override;
   void at_breakdown(const Output& output) override { at_output(output); }
+  void archive(algebra::Archive& archive) override;
   /// At the last output time.
   const LeastCell& now() const { return now_; }
   /// Least of all output times, most inverted ones, the first time with such.

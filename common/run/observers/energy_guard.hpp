@@ -26,6 +26,11 @@ class EnergyGuard : public Observer {
     at_check({output.step, output.balance, output.audit});
   }
 
+  void archive(algebra::Archive& archive) override {
+    energy_.archive("energy guard", archive);
+    archive.integer("energy guard/judged from step", judged_from_);
+  }
+
   /// A load on a body at rest brings, in its first steps, less energy than a step errs by: shipped
   /// cases have residuals of 0.1 to 2e3 after five steps, and below 0.03 after twenty.
   static constexpr std::int64_t steps_of_start = 20;

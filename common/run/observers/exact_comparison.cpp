@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <utility>
 
 namespace diptych::run {
@@ -39,6 +40,25 @@ void ExactComparison::add_row(const Snapshot& exact) {
   }
   for (size_t k = 0; k < columns_.size(); ++k)
     columns_[k].values.push_back(now.at(k).values.front());
+}
+
+void ExactComparison::archive(algebra::Archive& archive) {
+  if (!errors_.available()) return;
+  errors_.archive(archive);
+  archive.real("exact/momentum scale", "kg m/s", momentum_scale_);
+  std::vector<std::string> names, units;
+  for (const io::HistoryColumn& column : columns_) {
+    names.push_back(column.name);
+    units.push_back(column.unit);
+  }
+  archive.texts("exact/names of columns", names);
+  archive.texts("exact/units of columns", units);
+  columns_.resize(names.size());
+  for (size_t k = 0; k < columns_.size(); ++k) {
+    columns_[k].name = names[k];
+    columns_[k].unit = units.at(k);
+    archive.reals(fmt::format("exact/column {}", k), units[k], columns_[k].values);
+  }
 }
 
 std::vector<io::HistoryColumn> ExactComparison::columns() const {

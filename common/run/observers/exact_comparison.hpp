@@ -24,6 +24,7 @@ class ExactComparison : public Observer {
 
   /// Does nothing where the case has no exact solution.
   void at_output(const Output& output) override;
+  void archive(algebra::Archive& archive) override;
 
   const ExactErrors& errors() const { return errors_; }
   /// Time first, the names and units of history.csv, without momenta that are zero throughout;

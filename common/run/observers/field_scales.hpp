@@ -19,6 +19,18 @@ class FieldScales : public Observer {
     for (const auto& [field, norm] : field_norms(graph_, output.state))
       largest_[field] = std::max(largest_[field], norm);
   }
+  void archive(algebra::Archive& archive) override {
+    std::vector<std::string> fields;
+    std::vector<double> norms;
+    for (const auto& [field, norm] : largest_) {
+      fields.push_back(field);
+      norms.push_back(norm);
+    }
+    archive.texts("scales/fields", fields);
+    archive.reals("scales/largest norms", "-", norms, 1, static_cast<std::int64_t>(fields.size()));
+    for (size_t k = 0; k < fields.size(); ++k)
+      largest_[fields[k]] = norms[k];
+  }
   const std::map<std::string, double>& largest() const { return largest_; }
 
  private:

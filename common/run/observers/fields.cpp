@@ -52,19 +52,20 @@ std::vector<io::NodeField> frame_fields(const Snapshot& state,
   return fields;
 }
 
-Fields::Fields(io::FieldWriter writer,
-               const std::vector<std::int32_t>& order,
+Fields::Fields(const std::vector<std::int32_t>& order,
                std::vector<std::string> columns,
                const History& history)
-    : writer_(std::move(writer)), order_(order), columns_(std::move(columns)), history_(history) {}
+    : order_(order), columns_(std::move(columns)), history_(history) {}
 
 void Fields::at_output(const Output& output) {
+  if (!writer_) return;
   std::vector<io::NamedValue> values;
   const std::vector<double>& probes = history_.rows().back().probes;
   for (size_t k = 0; k < probes.size(); ++k)
     values.push_back({columns_[k], probes[k]});
-  last_frame_ = {writer_.write(output.state.time, frame_fields(output.state, order_), values),
+  last_frame_ = {writer_->write(output.state.time, frame_fields(output.state, order_), values),
                  output.state.time};
+  times_.push_back(output.state.time);
 }
 
 }  // namespace diptych::run

@@ -14,6 +14,9 @@ History::History(Solver& solver, const Probes& probes, const Cells& cells)
 
 void History::write_to(const std::string& path, const std::vector<std::string>& columns) {
   file_ = std::make_unique<io::RowFile>(path, io::history_header(columns));
+  for (const io::HistoryRow& row : rows_)
+    file_->append(io::history_line(row));
+  file_->flush();
 }
 
 void History::at_output(const Output& output) {
@@ -41,6 +44,40 @@ void History::at_output(const Output& output) {
 
 void History::end(Ending) {
   if (file_) file_->finish();
+}
+
+/// One row after the other; all have as many probes.
+void History::archive(algebra::Archive& archive) {
+  std::vector<double> values;
+  std::vector<std::int64_t> steps;
+  for (io::HistoryRow& row : rows_) {
+    io::for_each_value(row, [&](double& value) { values.push_back(value); });
+    values.insert(values.end(), row.probes.begin(), row.probes.end());
+    steps.push_back(row.step);
+  }
+  io::HistoryRow blank;
+  blank.probes.resize(probes_.size());
+  int n_columns = 0;
+  io::for_each_value(blank, [&](double&) { ++n_columns; });
+  n_columns += static_cast<int>(blank.probes.size());
+  archive.integers("history/steps", steps);
+  archive.reals("history/rows", "as history.csv", values, n_columns,
+                static_cast<std::int64_t>(steps.size()));
+  rows_.assign(steps.size(), blank);
+  size_t k = 0;
+  for (io::HistoryRow& row : rows_) {
+    io::for_each_value(row, [&](double& value) { value = values[k++]; });
+    for (double& probe : row.probes)
+      probe = values[k++];
+    row.step = steps[static_cast<size_t>(&row - rows_.data())];
+  }
+  energy_.archive("history", archive);
+  archive.vector("history/initial linear momentum", "N s", initial_.linear_momentum);
+  archive.vector("history/initial angular momentum", "N m s", initial_.angular_momentum);
+  archive.real("history/momentum scale", "N s", momentum_scale_);
+  archive.real("history/angular scale", "N m s", angular_scale_);
+  archive.real("history/linear drift", "-", linear_drift_);
+  archive.real("history/angular drift", "-", angular_drift_);
 }
 
 double History::energy_residual() const {

@@ -20,7 +20,7 @@ class History : public Observer {
   /// @param solver, probes, cells  kept by reference; `cells` is told of an output before this one
   History(Solver& solver, const Probes& probes, const Cells& cells);
 
-  /// From now on rows go to this file too.
+  /// The rows so far, and those from now on, go to this file too.
   /// @param columns  headers of the probes, see probe_columns
   /// @throws base::EnvironmentError
   void write_to(const std::string& path, const std::vector<std::string>& columns);
@@ -29,6 +29,7 @@ class History : public Observer {
   void at_breakdown(const Output& output) override { at_output(output); }
   /// The file is on the disk.
   void end(Ending ending) override;
+  void archive(algebra::Archive& archive) override;
 
   const std::vector<io::HistoryRow>& rows() const { return rows_; }
   std::vector<io::HistoryRow> take_rows() { return std::move(rows_); }

@@ -3,6 +3,7 @@
 /// (or in benchmarks/run, where it needs the report or the terminal) and is told of every step and
 /// of every output time. Test: tests/common/run/simulation_test.cpp
 
+#include "common/algebra/archive.hpp"
 #include "common/run/solver.hpp"
 
 #include <cstdint>
@@ -38,6 +39,8 @@ class Observer {
 
   /// The body is at t = 0; its output comes next.
   virtual void begin() {}
+  /// In the place of begin(): the body is where a checkpoint has it, and archive() has been called.
+  virtual void resume() {}
   virtual void after_step(const StepReport& step) { (void)step; }
   /// After every Simulation::check_period steps without an output.
   virtual void at_check(const Check& check) { (void)check; }
@@ -49,6 +52,9 @@ class Observer {
   virtual void at_breakdown(const Output& output) { (void)output; }
   /// Nothing more will come. Not told where an error other than a breakdown ends the simulation.
   virtual void end(Ending ending) { (void)ending; }
+  /// Keeps what it has taken down so far in the archive, or takes it from there, so that it goes on
+  /// as if there had been no end.
+  virtual void archive(algebra::Archive& archive) { (void)archive; }
 };
 
 }  // namespace diptych::run

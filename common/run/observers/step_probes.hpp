@@ -20,7 +20,7 @@ class StepProbes : public Observer {
   /// @param solver, probes  kept by reference
   StepProbes(Solver& solver, const Probes& probes) : solver_(solver), probes_(probes) {}
 
-  /// From now on rows go to this file too.
+  /// The rows so far, and those from now on, go to this file too.
   /// @param columns  headers of these probes, see probe_columns
   /// @throws base::EnvironmentError
   void write_to(const std::string& path, const std::vector<std::string>& columns);
@@ -31,6 +31,7 @@ class StepProbes : public Observer {
   void at_output(const Output& output) override;
   /// The file is on the disk.
   void end(Ending ending) override;
+  void archive(algebra::Archive& archive) override;
 
   const std::vector<io::StepRow>& rows() const { return rows_; }
   std::vector<io::StepRow> take_rows() { return std::move(rows_); }

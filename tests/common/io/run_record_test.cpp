@@ -47,6 +47,7 @@ RunSummary full_summary() {
   s.involution_H = 9e-7, s.involution_J = 1e-6;
   s.least_cell_J = -0.25, s.most_inverted_cells = 12;
   s.rejected_steps = 3;
+  s.restarts = 2;
   s.state_hash = "a1b2";
   s.provenance = {"0.1.0", "c0ffee",     "GCC 12.2", "-O3",  "some cpu",
                   "avx2",  "2026-01-02", "d00d",     "beef", "f00d"};
@@ -154,6 +155,7 @@ TEST(RunRecord, HasTheKeysOfTheContract) {
                               "/involution/H",
                               "/involution/J",
                               "/rejected_steps",
+                              "/restarts",
                               "/min_jacobian",
                               "/cells/least_J",
                               "/cells/most_inverted",

@@ -1,8 +1,10 @@
 /// A step that fails is made again from its beginning with half its size, and what a run keeps of
 /// the state before it is that state to the last bit.
 
+#include "common/io/checkpoint_file.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/run/simulation.hpp"
+#include "tests/common/io/scratch.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
 #include <gmock/gmock.h>
@@ -139,6 +141,29 @@ INSTANTIATE_TEST_SUITE_P(All,
                            std::erase(name, '-');
                            return name;
                          });
+
+/// The steps behind a rejected one are kept small, also by who goes on from a checkpoint there.
+TEST_P(Rejection, IsRememberedByACheckpoint) {
+  const test::Scratch folder;
+  Scene whole = scene(), part = scene();
+  const double end = whole.setup.time.end;
+  int rejected = 0;
+  while (rejected == 0 && whole.solver->time() < end)
+    rejected += whole.solver->step(end).rejected;
+  ASSERT_GT(rejected, 0);
+  io::CheckpointWriter writer(folder / "checkpoint.hdf");
+  whole.solver->archive(writer);
+  writer.publish();
+  io::CheckpointReader reader(folder / "checkpoint.hdf");
+  part.solver->archive(reader);
+  for (int k = 0; k < 5; ++k) {
+    const StepReport wanted = whole.solver->step(end), found = part.solver->step(end);
+    EXPECT_EQ(found.dt, wanted.dt) << k;
+    EXPECT_EQ(found.rejected, wanted.rejected) << k;
+  }
+  const auto order = tests::natural_order(whole.graph);
+  EXPECT_EQ(part.solver->state_hash(order), whole.solver->state_hash(order));
+}
 
 TEST(Rejection, LetsStepsGrowBack) {
   Scene some = tests::scene_of("fvm", impact("ssp-rk3", 0, 300));

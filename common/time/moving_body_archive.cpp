@@ -1,0 +1,97 @@
+#include "common/time/moving_body_archive.hpp"
+
+#include "common/scheme/body/body_archive.hpp"
+
+#include <fmt/format.h>
+#include <string>
+
+namespace diptych::time {
+
+namespace {
+
+using algebra::Archive;
+
+template <int Dim>
+void archive_body(MovingBody<Dim>& moving, Archive& archive) {
+  using scheme::Role;
+  scheme::Body<Dim>& body = moving.body;
+  scheme::archive_fields(body, Role::unknown, archive);
+  scheme::archive_fields(body, Role::derived, archive);
+  // volumes of cells remember the forces that they added, to body.T too, which is loaded next
+  if (archive.is_loading() && !body.cells.empty())
+    body.cells.add_forces(body, moving.sweeps.material());
+  scheme::archive_fields(body, Role::accumulated, archive);
+}
+
+void archive_clock(Clock& clock, Archive& archive) {
+  archive.real("clock/time", "s", clock.time);
+  archive.integer("clock/step", clock.step);
+  archive.real("clock/first dt", "s", clock.first_dt);
+  archive.real("clock/largest dt", "s", clock.largest_dt);
+}
+
+void archive_audit(scheme::Audit& audit, Archive& archive) {
+  archive.real("audit/external work", "J", audit.external_work);
+  archive.real("audit/numerical dissipation", "J", audit.numerical_dissipation);
+  archive.real("audit/viscous dissipation", "J", audit.viscous_dissipation);
+  archive.real("audit/projection work", "J", audit.projection_work);
+  archive.vector("audit/linear impulse", "N s", audit.impulse.linear);
+  archive.vector("audit/angular impulse", "N m s", audit.impulse.angular);
+}
+
+void archive_loads(scheme::LoadRates& rates, Archive& archive) {
+  archive.real("loads/power", "W", rates.power);
+  archive.vector("loads/force", "N", rates.force);
+  archive.vector("loads/torque", "N m", rates.torque);
+}
+
+/// Vectors that are as many as those of a boundary that was just made, or none yet.
+void archive_boundary(scheme::AppliedBoundary& boundary, Archive& archive) {
+  scheme::BoundaryState state;
+  boundary.keep(state);
+  archive.real("boundary/step begin", "s", state.step_begin);
+  archive.real("boundary/step", "s", state.step);
+  for (size_t k = 0; k < state.in_step.size(); ++k)
+    archive.vectors(fmt::format("boundary/prescribed {} of 4", k), "m/s", state.in_step[k]);
+  const auto n_targets = static_cast<std::int64_t>(state.target.size());
+  archive.vectors("boundary/target", "m/s", state.target, n_targets);
+  const auto n_forces = static_cast<std::int64_t>(state.forces.size());
+  archive.vectors("boundary/forces", "N", state.forces, n_forces);
+  std::vector<std::int64_t> closed(state.closed.begin(), state.closed.end());
+  archive.integers("boundary/closed", closed, static_cast<std::int64_t>(closed.size()));
+  if (!archive.is_loading()) return;
+  state.closed.assign(closed.begin(), closed.end());
+  boundary.restore(state);
+}
+
+template <int Dim>
+void archive_results(scheme::Sweeps<Dim>& sweeps, Archive& archive) {
+  scheme::SweepResults results = sweeps.results();
+  const auto in_chunks = [&archive](const char* name, const char* unit, auto& values) {
+    archive.reals(name, unit, values, 1, static_cast<std::int64_t>(values.size()));
+  };
+  archive.real("sweeps/stable dt", "s", results.stable_dt);
+  in_chunks("sweeps/viscous dissipation", "J", results.viscous_dissipation);
+  in_chunks("sweeps/least J", "-", results.least_J);
+  in_chunks("sweeps/numerical power", "W", results.numerical_power);
+  in_chunks("sweeps/largest rate", "1/s", results.largest_rate);
+  if (archive.is_loading()) sweeps.set_results(results);
+}
+
+}  // namespace
+
+template <int Dim>
+void archive(MovingBody<Dim>& moving, Archive& archive) {
+  archive_body(moving, archive);
+  archive_clock(moving.clock, archive);
+  archive_audit(moving.audit, archive);
+  archive_loads(moving.load_rates, archive);
+  archive.vector("initial angular momentum", "N m s", moving.initial_angular_momentum);
+  archive_boundary(moving.boundary, archive);
+  archive_results(moving.sweeps, archive);
+}
+
+template void archive(MovingBody<2>&, Archive&);
+template void archive(MovingBody<3>&, Archive&);
+
+}  // namespace diptych::time
