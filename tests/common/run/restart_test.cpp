@@ -234,9 +234,10 @@ std::vector<Setting> settings() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Restart, testing::ValuesIn(settings()), [](const auto& info) {
-  std::string name = fmt::format("{}_{}_{}d_{}_branches", info.param.method, info.param.integrator,
-                                 info.param.dimension, info.param.n_branches);
+INSTANTIATE_TEST_SUITE_P(All, Restart, testing::ValuesIn(settings()), [](const auto& setting) {
+  std::string name =
+      fmt::format("{}_{}_{}d_{}_branches", setting.param.method, setting.param.integrator,
+                  setting.param.dimension, setting.param.n_branches);
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 });
