@@ -6,6 +6,7 @@
 #include "sph/lattice_operator.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace diptych::sph {
 
@@ -83,6 +84,28 @@ scheme::PairGraph sbp_graph(const meshes::Mesh& mesh, const Kernel& kernel, doub
   graph.cells = {std::move(cells.row), std::move(cells.corner), std::move(cells.share)};
   validate(graph);
   return graph;
+}
+
+std::string sbp_text(double kappa) {
+  return fmt::format("sbp: order 4 inside, 2 within {} nodes of the boundary, kappa {:.4g}",
+                     lattice_layers, kappa);
+}
+
+std::vector<std::string> sbp_notices(const meshes::Mesh& mesh) {
+  constexpr int enough = 2 * lattice_layers;
+  const StructuredBlock block = meshes::structured_block(mesh, use);
+  const algebra::Mat3 edges = meshes::cell_edges(mesh, block, use);
+  std::vector<std::string> notices;
+  for (int d = 0; d < block.dimension; ++d) {
+    if (block.n_nodes[d] >= enough) continue;
+    const Vec3 e = edges.col(d).normalized() + Vec3::Zero();  // no -0
+    notices.push_back(fmt::format(
+        "sbp: {} nodes along ({:.3g}, {:.3g}, {:.3g}): with fewer than {} the sign of the "
+        "numerical "
+        "dissipation is not known, and a nearly incompressible body may come apart (notes 4.4)",
+        block.n_nodes[d], e[0], e[1], e[2], enough));
+  }
+  return notices;
 }
 
 }  // namespace diptych::sph

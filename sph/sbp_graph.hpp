@@ -10,8 +10,16 @@
 
 namespace diptych::sph {
 
-/// @throws base::InputError where the mesh is no undistorted block, has lines of fewer than eight
-///         nodes, or where the support is too small
+/// @throws base::InputError where the mesh is no undistorted block, has lines of two nodes, or
+/// where
+///         the support is too small
 scheme::PairGraph sbp_graph(const meshes::Mesh& mesh, const Kernel& kernel, double kappa);
+
+/// "sbp: order 4 inside, 2 within 3 nodes of the boundary, kappa 1.2"
+std::string sbp_text(double kappa);
+
+/// Of short lines, on which the sign of D_ab is not known (notes 4.4).
+/// @pre sbp_graph takes the mesh
+std::vector<std::string> sbp_notices(const meshes::Mesh& mesh);
 
 }  // namespace diptych::sph

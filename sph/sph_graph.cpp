@@ -103,4 +103,9 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
   return graph;
 }
 
+Operators operators_of(const meshes::Mesh& mesh, const Options& options) {
+  if (gradients().at(options.gradient) != Gradient::sbp) return {};
+  return {sbp_text(options.kappa), sbp_notices(mesh)};
+}
+
 }  // namespace diptych::sph

@@ -26,4 +26,12 @@ const std::vector<std::string>& gradient_names();
 ///         (non-coplanar) neighbours: names it and its place
 scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options);
 
+/// What build_graph makes of a mesh, where that depends on more than the options.
+struct Operators {
+  std::string text;                  ///< for the record; empty but for sbp
+  std::vector<std::string> notices;  ///< where it promises less
+};
+
+Operators operators_of(const meshes::Mesh& mesh, const Options& options);
+
 }  // namespace diptych::sph

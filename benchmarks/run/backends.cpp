@@ -16,6 +16,10 @@ scheme::PairGraph in_precision(scheme::PairGraph graph, const std::string& preci
   return graph;
 }
 
+sph::Options sph_options(const cases::Case& setup) {
+  return {setup.sph.kernel, setup.sph.kappa, setup.sph.closure, setup.sph.gradient};
+}
+
 fvm::Options fvm_options(const cases::Case& setup) {
   return {setup.fvm.stencil, setup.fvm.order};
 }
@@ -58,10 +62,8 @@ const base::Registry<GraphMaker>& method_menu() {
           .add("sph",
                [](const meshes::Mesh& mesh, const cases::Case& setup) {
                  check_sph(setup);
-                 return in_precision(
-                     sph::build_graph(mesh, {setup.sph.kernel, setup.sph.kappa, setup.sph.closure,
-                                             setup.sph.gradient}),
-                     setup.scheme.precision);
+                 return in_precision(sph::build_graph(mesh, sph_options(setup)),
+                                     setup.scheme.precision);
                })
           .add("fvm", [](const meshes::Mesh& mesh, const cases::Case& setup) {
             check_fvm(setup);
@@ -73,7 +75,10 @@ const base::Registry<GraphMaker>& method_menu() {
 GraphDescription graph_description(const std::string& method,
                                    const meshes::Mesh& mesh,
                                    const cases::Case& setup) {
-  if (method != "fvm") return {};
+  if (method == "sph") {
+    const sph::Operators operators = sph::operators_of(mesh, sph_options(setup));
+    return {operators.text, operators.notices};
+  }
   const fvm::Operators operators = fvm::operators_of(mesh, fvm_options(setup));
   return {operators.text, operators.lost};
 }

@@ -55,6 +55,14 @@ TEST(Scene, RefusesTheFaceCorrectionWithOperatorsThatSumByParts) {
 TEST(Scene, DescribesOperatorsThatDependOnTheMesh) {
   EXPECT_EQ(graph_with("fvm", {}).description.operators, "");
   EXPECT_NE(graph_with("fvm", {"fvm.stencil=\"sbp\""}).description.operators, "");
+  EXPECT_EQ(graph_with("sph", {}).description.operators, "");
+  const GraphDescription fine = graph_with("sph", {"sph.gradient=\"sbp\""}).description;
+  EXPECT_THAT(fine.operators, testing::HasSubstr("kappa 1.2"));
+  EXPECT_TRUE(fine.notices.empty());
+  const GraphDescription coarse =
+      graph_with("sph", {"sph.gradient=\"sbp\"", "mesh.cells=[4, 9]"}).description;
+  ASSERT_EQ(coarse.notices.size(), 1U);
+  EXPECT_THAT(coarse.notices[0], testing::HasSubstr("5 nodes along (1, 0, 0)"));
 }
 
 TEST(Scene, TellsOfItsPartsInOrderAndIsOfItsLevel) {

@@ -26,8 +26,8 @@ SectionEntry sph_section() {
                   {"-", any,
                    "Pair areas from the kernel's gradient corrected to first order (corrected), or "
                    "by its least change to operators that sum by parts (sbp), exact for quadratics "
-                   "up to the boundary: on boxes of hexahedra or quadrilaterals with lines of 8 "
-                   "nodes or more, kappa in spacings of each line. Twice as many steps.",
+                   "up to the boundary: on boxes of hexahedra or quadrilaterals with three nodes a "
+                   "line or more, with kappa above 1, in spacings of each line.",
                    "\"sbp\""}));
   return {
       {"sph", false, "What only SPH needs."}, keys.keys(), [keys](Reading& reading, Case& setup) {
