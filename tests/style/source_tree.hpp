@@ -184,8 +184,9 @@ inline const std::vector<Library>& libraries() {
       {R"((sys/.*|fcntl|malloc|sched|spawn|unistd|signal|poll|dlfcn)\.h)", ".*"},
       {R"(linux/.*\.h)", R"(meshes/geo/jail\.cpp)"},
       {R"(fmt/.*)", ".*"},
-      {R"(Eigen/.*)", R"(common/algebra/vectors\.hpp|common/closure/(class|closure)_repair\.cpp|)"
-                      R"((sph|fvm|meshes|common/(run|exact|cases|functions))/.*\.cpp)"},
+      {R"(Eigen/.*)",
+       R"(common/algebra/vectors\.hpp|common/closure/(class|closure)_repair\.cpp|)"
+       R"((sph|fvm|meshes|tests/graphs|common/(run|exact|cases|functions))/.*\.cpp)"},
       {R"(hdf5\.h)", "(tests/)?common/io/.*"},
       {R"(toml\+\+/.*)", "common/cases/.*"},
       {R"(muParser\.h)", "common/functions/.*"},
