@@ -200,6 +200,7 @@ LatticeRows::LatticeRows(const Kernel& kernel,
                          const std::vector<Offset>& offsets,
                          const std::array<int, 3>& n)
     : offsets_(offsets), n_(n) {
+  number_offsets();
   set_inside(kernel, kappa);
   require_met(LatticeConditions(*this).meet(*this), kappa, n);
 }
@@ -248,6 +249,24 @@ size_t LatticeRows::first_of(const Offset& kind) const {
          offsets_.size();
 }
 
+/// A search among the offsets for every pair would take longer than all the rest of a graph.
+void LatticeRows::number_offsets() {
+  for (const Offset& o : offsets_) {
+    for (const int component : o)
+      reach_ = std::max(reach_, std::abs(component));
+  }
+  const auto side = static_cast<size_t>(2 * reach_ + 1);
+  numbers_.assign(side * side * side, static_cast<int>(offsets_.size()));
+  for (size_t k = 0; k < offsets_.size(); ++k)
+    numbers_[place_in_table(offsets_[k])] = static_cast<int>(k);
+}
+
+size_t LatticeRows::place_in_table(const Offset& offset) const {
+  const int side = 2 * reach_ + 1;
+  return static_cast<size_t>(((offset[2] + reach_) * side + offset[1] + reach_) * side + offset[0] +
+                             reach_);
+}
+
 LatticeRows::Slot LatticeRows::slot(const Offset& kind, const Offset& offset) const {
   Offset o = offset;
   double sign = 1;
@@ -256,8 +275,7 @@ LatticeRows::Slot LatticeRows::slot(const Offset& kind, const Offset& offset) co
     if (d == 0) sign = o[0] < 0 ? -1 : o[0] > 0 ? 1 : 0;
     o[d] = std::abs(o[d]);
   }
-  const auto k = std::find(offsets_.begin(), offsets_.end(), o) - offsets_.begin();
-  return {first_of(kind) + static_cast<size_t>(k), sign};
+  return {first_of(kind) + static_cast<size_t>(numbers_[place_in_table(o)]), sign};
 }
 
 /// The gradient of the kernel, changed least to be exact for cubics, times the volumes of both

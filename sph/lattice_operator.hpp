@@ -67,9 +67,13 @@ class LatticeRows {
   double weight_at(int d, int place) const;
   Slot slot(const LatticeOffset& kind, const LatticeOffset& offset) const;
   size_t first_of(const LatticeOffset& kind) const;
+  void number_offsets();
+  size_t place_in_table(const LatticeOffset& offset) const;
   void set_inside(const Kernel& kernel, double kappa);
 
   std::vector<LatticeOffset> offsets_;
+  int reach_ = 0;             ///< largest component of an offset
+  std::vector<int> numbers_;  ///< of the offsets in the cube of this reach; else how many there are
   std::array<int, 3> n_;
   std::vector<double> weight_;  ///< [kinds][offsets] of a change
   std::vector<double> C_;       ///< [kinds][offsets]

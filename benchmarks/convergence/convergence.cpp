@@ -50,8 +50,8 @@ std::vector<Quantity> errors_of(const std::vector<io::RunSummary>& levels) {
   std::vector<Quantity> errors;
   for (const std::string& field : report::fields_of(levels)) {
     const std::string title = report::field_title(field);
-    Quantity l1{title + " error L1", "-", true, {}}, l2{title + " error L2", "-", true, {}},
-        linf{title + " error Linf", "-", true, {}};
+    Quantity l1{title + " error L1", "-", true, {}, 0}, l2{title + " error L2", "-", true, {}, 0},
+        linf{title + " error Linf", "-", true, {}, 0};
     for (const io::RunSummary& run : levels) {
       const auto found = run.errors.find(field);
       const bool has = found != run.errors.end();
@@ -71,6 +71,21 @@ double final_value(const LevelRecord& record, const std::string& name) {
   return nothing;
 }
 
+/// Largest size of a column over the run; of an energy, of the sum of all.
+double scale_of(const LevelRecord& record, const io::HistoryColumn& column) {
+  static const std::set<std::string> energies{"kinetic energy", "strain energy",
+                                              "viscous dissipation", "numerical dissipation"};
+  std::vector<double> sizes(column.values.size());
+  for (const auto& other : record.history) {
+    const bool counts =
+        energies.count(column.name) > 0 ? energies.count(other.name) > 0 : &other == &column;
+    if (!counts) continue;
+    for (size_t k = 0; k < std::min(sizes.size(), other.values.size()); ++k)
+      sizes[k] += std::abs(other.values[k]);
+  }
+  return sizes.empty() ? 0 : *std::max_element(sizes.begin(), sizes.end());
+}
+
 MethodConvergence convergence_of_method(std::vector<LevelRecord> records,
                                         const std::vector<std::string>& wanted) {
   std::stable_sort(records.begin(), records.end(),
@@ -83,9 +98,14 @@ MethodConvergence convergence_of_method(std::vector<LevelRecord> records,
   study.errors = errors_of(study.levels);
   for (const auto& column : records.front().history) {
     if (!is_wanted(column.name, wanted)) continue;
-    Quantity quantity{column.name, column.unit, false, {}};
-    for (const LevelRecord& record : records)
+    Quantity quantity{column.name, column.unit, false, {}, 0};
+    for (const LevelRecord& record : records) {
       quantity.values.push_back(final_value(record, column.name));
+      for (const auto& own : record.history) {
+        if (own.name == column.name)
+          quantity.scale = std::max(quantity.scale, scale_of(record, own));
+      }
+    }
     const bool is_zero = std::all_of(quantity.values.begin(), quantity.values.end(),
                                      [](double value) { return value == 0; });
     if (is_zero) {
@@ -136,6 +156,10 @@ double error_bar(const MethodConvergence& study, const Quantity& quantity, size_
   if (!two) return nothing;
   return report::two_grid_error_bar({study.levels[1].spacing, study.levels[0].spacing},
                                     {quantity.values[1], quantity.values[0]});
+}
+
+double formal_order(const io::RunSummary& run) {
+  return run.graph_operators.empty() ? 2 : 3;
 }
 
 double order_of_error(const MethodConvergence& study, const Quantity& quantity, size_t level) {

@@ -23,6 +23,7 @@ struct Quantity {
   std::string name, unit;
   bool is_error = false;
   std::vector<double> values;  ///< coarse to fine; NaN where a level has none
+  double scale = 0;  ///< largest size over all runs; of an energy, that of all energies together
 };
 
 struct MethodConvergence {
@@ -54,7 +55,12 @@ double error_bar(const MethodConvergence& study, const Quantity& quantity, size_
 /// Scalars of one method for a terminal of 100 columns; empty where there are none.
 std::string quantity_table(const MethodConvergence& study);
 
-/// Two methods on the finest level: difference of each scalar against the sum of both error bars.
+/// The order that a method as it ran is said to have in v and u: 3 where it sums by parts with the
+/// pair (4, 2), else 2.
+double formal_order(const io::RunSummary& run);
+
+/// Two methods on the finest level: difference of each scalar against the sum of both error bars,
+/// where both methods resolve it (report::why_unresolved).
 /// Empty where there is nothing to compare.
 std::string agreement_table(const std::vector<MethodConvergence>& studies);
 

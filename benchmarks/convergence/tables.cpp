@@ -155,8 +155,19 @@ std::string agreement_table(const std::vector<MethodConvergence>& studies) {
       const double bars = error_bar(studies[0], one, one.values.size() - 1) +
                           error_bar(studies[1], other, other.values.size() - 1);
       if (!std::isfinite(difference + bars)) continue;
-      lines += fmt::format("{:<48} {:>10.2e} {:>10.2e}  {}\n", one.name + " [" + one.unit + "]",
-                           difference, bars, difference <= bars ? "agree" : "DIFFER");
+      const double scale = std::max(one.scale, other.scale);
+      std::string verdict = difference <= bars ? "agree" : "APART";
+      const auto look_at = [&](const MethodConvergence& study, const Quantity& quantity) {
+        const std::string why =
+            report::why_unresolved(estimate(study, quantity, quantity.values.size() - 1), scale,
+                                   formal_order(study.levels.back()));
+        if (!why.empty()) verdict = "unresolved: " + study.method + " " + why;
+      };
+      look_at(studies[1], other);
+      look_at(studies[0], one);
+      lines +=
+          fmt::format("{:<32} {:>10.2e} {:>10.2e}  {}\n",
+                      (one.name + " [" + one.unit + "]").substr(0, 32), difference, bars, verdict);
     }
   }
   if (lines.empty()) return "";

@@ -33,8 +33,7 @@ model = "neo-hookean"
 density = 1100
 youngs_modulus = 17e6
 poissons_ratio = 0.3
-[initial]
-velocity = ["sin(3*y)", "cos(2*x)"{third}]
+{motion}
 [time]
 end = 1
 integrator = "ssp-rk3"
@@ -43,6 +42,12 @@ unknowns = "F"
 reconstruction = "none"
 energy_budget = false
 )toml";
+
+/// A body that moves by itself, or one that follows a motion with its body force.
+constexpr char free_motion[] = "[initial]\nvelocity = [\"sin(3*y)\", \"cos(2*x)\"{third}]";
+constexpr char known_motion[] =
+    "[manufactured]\ndisplacement = [\"0.1*(1 - cos(20*t))*sin(2*x + 0.3)*cos(y)\", "
+    "\"0.1*sin(20*t)*sin(2*y)*cos(x)\"{third}]";
 
 enum class Work { stage, balance, snapshot };
 
@@ -54,6 +59,7 @@ struct Option {
   int n_branches = 0;
   Work work = Work::stage;
   int n = 4;  ///< steps, rows or sets of fields that are timed together
+  bool manufactured = false;
 };
 
 std::vector<Option> options() {
@@ -90,17 +96,23 @@ std::vector<Option> options() {
       {"leapfrog", "", leapfrog, 0, Work::stage, between_copies},
       {"no retries, leapfrog", "leapfrog", with(leapfrog, "time.max_retries=0"), 0, Work::stage,
        between_copies},
+      {"manufactured motion", "", {}, 0, Work::stage, 4, true},
+      {"manufactured motion, 1 branch", "1 branch, on Mooney-Rivlin", mooney, 1, Work::stage, 4,
+       true},
       {"history row (each)", "", {}, 0, Work::balance},
       {"fields for a frame (each)", "", {}, 0, Work::snapshot}};
 }
 
-std::string text_of(int dimension, int cells) {
+std::string text_of(int dimension, int cells, bool manufactured) {
   using fmt::arg;
   const bool solid = dimension == 3;
   const int n = solid ? cells : static_cast<int>(std::lround(std::pow(cells + 1, 1.5))) - 1;
-  return fmt::format(scene_text, arg("element", solid ? "hexahedron" : "quadrilateral"),
-                     arg("third", solid ? ", 0" : ""), arg("third_upper", solid ? ", 1" : ""),
-                     arg("third_cells", solid ? fmt::format(", {}", n) : ""), arg("n", n));
+  return fmt::format(
+      scene_text, arg("element", solid ? "hexahedron" : "quadrilateral"),
+      arg("motion", fmt::format(fmt::runtime(manufactured ? known_motion : free_motion),
+                                arg("third", solid ? ", 0" : ""))),
+      arg("third", solid ? ", 0" : ""), arg("third_upper", solid ? ", 1" : ""),
+      arg("third_cells", solid ? fmt::format(", {}", n) : ""), arg("n", n));
 }
 
 /// Seconds of one stage, history row or set of fields.
@@ -121,7 +133,8 @@ double measured(run::Solver& solver, Work work, int n) {
 
 /// One column: all options in turns. @return ns per node
 std::vector<double> column(const std::string& method,
-                           const std::string& text,
+                           int dimension,
+                           int cells,
                            int rounds,
                            const std::string& name,
                            StatusLine& status) {
@@ -129,7 +142,8 @@ std::vector<double> column(const std::string& method,
   const auto all = options();
   std::vector<std::unique_ptr<run::Solver>> solvers;
   for (const Option& option : all) {
-    cases::Case setup = cases::case_from_text(text, "costs", option.overrides);
+    cases::Case setup = cases::case_from_text(text_of(dimension, cells, option.manufactured),
+                                              "costs", option.overrides);
     for (int k = 0; k < option.n_branches; ++k)
       setup.material.branches.push_back({0.5, 1e-3 * (k + 1), 0.5, 2e-3 * (k + 1)});
     const std::string& precision = setup.scheme.precision;
@@ -167,7 +181,7 @@ CostTable measure_option_costs(int cells, int rounds, bool quiet) {
     for (const std::string method : {"sph", "fvm"}) {
       if (interrupt_requested()) return table;
       const std::string name = fmt::format("{} {}-D", method == "sph" ? "SPH" : "FVM", dimension);
-      const auto ns = column(method, text_of(dimension, cells), rounds, name, status);
+      const auto ns = column(method, dimension, cells, rounds, name, status);
       table.columns.push_back(name);
       for (size_t i = 0; i < ns.size(); ++i)
         table.rows[i].ns.push_back(ns[i]);

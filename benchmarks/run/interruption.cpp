@@ -1,6 +1,7 @@
 #include "benchmarks/run/interruption.hpp"
 
 #include "common/base/error.hpp"
+#include "common/parallel/ranks.hpp"
 
 #include <csignal>
 #include <cstdio>
@@ -25,6 +26,10 @@ double seconds() {
 
 volatile double asked_at = 0;  // s, 0: not yet
 
+void say(std::string_view text) {
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, text.data(), text.size());
+}
+
 void end_after_this_step(int signal) {
   if (asked_at > 0) {
     if (seconds() - asked_at < same_request) return;
@@ -36,7 +41,12 @@ void end_after_this_step(int signal) {
   request_interrupt();
   constexpr std::string_view text =
       "\ndiptych: ending after this step; once more stops at once, unwritten\n";
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, text.data(), text.size());
+  say(text);
+  if (const char* phase = parallel::phase(); phase != nullptr) {
+    say("diptych: rank 0 was in ");
+    say(phase);
+    say("\n");
+  }
 }
 
 void keep_after_this_step(int) {

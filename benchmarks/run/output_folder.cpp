@@ -4,6 +4,7 @@
 #include "benchmarks/run/resumption.hpp"
 #include "benchmarks/run/run_folder.hpp"
 #include "common/base/error.hpp"
+#include "common/base/text.hpp"
 #include "common/cases/copy.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/io/run_record.hpp"
@@ -110,6 +111,17 @@ bool is_finished(const fs::path& run) {
   return text.find("\"status\": \"done\"") != std::string::npos;
 }
 
+/// Nothing where the run did not finish.
+std::optional<int> finished_level(const fs::path& run) {
+  const std::string summary = (run / "summary.json").string();
+  try {
+    const io::RunSummary s = io::summary_from_json(io::read_file(summary), summary);
+    return s.status == "done" ? std::optional(s.level) : std::nullopt;
+  } catch (const base::InputError&) {
+    return std::nullopt;  // cut off, or of another version
+  }
+}
+
 }  // namespace
 
 OutputFolder::OutputFolder(std::string directory,
@@ -119,6 +131,8 @@ OutputFolder::OutputFolder(std::string directory,
                            const std::vector<std::string>& also)
     : directory_(std::move(directory)), setup_(setup), kind_(kind) {
   if (directory_.empty()) return;
+  std::error_code error;
+  if (fs::is_directory(directory_, error)) lock_.emplace(directory_);
   for (const fs::path& run : all_runs(directory_)) {
     const auto owner = owner_of(run);
     if (!owner) continue;
@@ -138,6 +152,7 @@ void OutputFolder::prepare() {
   if (prepared_ || directory_.empty()) return;
   prepared_ = true;
   io::make_directory(directory_);
+  if (!lock_) lock_.emplace(directory_);
   if (of_another_case_) remove_everything();
   if (is_output_folder(directory_)) remove_pages();
   const bool has_runs = kind_ == OutputKind::runs || kind_ == OutputKind::levels;
@@ -147,6 +162,25 @@ void OutputFolder::prepare() {
   }
   if (kind_ == OutputKind::atlas) return;  // of many cases
   write_case_copy((fs::path(directory_) / "case.toml").string(), setup_);
+}
+
+void OutputFolder::refuse_to_replace(bool force) const {
+  if (force || goes_on_ || directory_.empty()) return;
+  std::vector<std::string> finished;
+  const auto look_at = [&](const fs::path& run) {
+    if (is_run_folder(run.string()) && !contains(taken_over_, run) && is_finished(run))
+      finished.push_back(run.string());
+  };
+  if (kind_ == OutputKind::runs) {
+    for (const fs::path& run : runs_in(directory_))
+      look_at(run);
+  }
+  for (const std::string& run : asked_)
+    look_at(run);
+  if (finished.empty()) return;
+  throw base::InputError(fmt::format(
+      "{}: {} finished; give another --out, or --force to replace what is there",
+      base::joined(finished), finished.size() == 1 ? "is a run that" : "are runs that"));
 }
 
 void OutputFolder::remove_everything() const {
@@ -184,9 +218,17 @@ void OutputFolder::remove_pages() const {
   }
 }
 
+/// A study of levels sets aside what `run` or `compare` has finished, as one of its levels.
 void OutputFolder::remove_runs() const {
-  for (const fs::path& run : runs_in(directory_))
-    remove_run(run.string());
+  for (const fs::path& run : runs_in(directory_)) {
+    const auto level = kind_ == OutputKind::levels ? finished_level(run) : std::nullopt;
+    if (level) {
+      move_run(run,
+               fs::path(directory_) / "earlier" / fmt::format("level_{}", *level) / run.filename());
+    } else {
+      remove_run(run.string());
+    }
+  }
 }
 
 void OutputFolder::set_levels_aside() const {
@@ -224,6 +266,13 @@ void OutputFolder::ask_for(const std::vector<int>& levels,
     remove_if_empty(earlier / name);
   }
   remove_if_empty(earlier);
+}
+
+std::vector<std::string> runs_below(const std::string& directory) {
+  std::vector<std::string> runs;
+  for (const fs::path& run : all_runs(directory))
+    runs.push_back(run.string());
+  return runs;
 }
 
 }  // namespace diptych::harness

@@ -4,7 +4,9 @@
 /// diptych itself has made is touched. Test: tests/command_line/output_folder_test.cpp
 
 #include "common/cases/case.hpp"
+#include "common/io/folder_lock.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +25,8 @@ class OutputFolder {
  public:
   /// @param setup  kept by reference
   /// @param also   files of other cases whose runs belong to the command
-  /// @throws base::InputError where results of another case lie there and `force` is false
+  /// @throws base::InputError where results of another case lie there and `force` is false, or
+  /// another process writes there
   OutputFolder(std::string directory,
                const cases::Case& setup,
                OutputKind kind,
@@ -45,6 +48,10 @@ class OutputFolder {
   /// @throws base::EnvironmentError
   void prepare();
 
+  /// Of runs and levels. @throws base::InputError where a finished run would be replaced, and
+  /// `force` is false
+  void refuse_to_replace(bool force) const;
+
  private:
   void remove_everything() const;
   void remove_pages() const;
@@ -56,6 +63,10 @@ class OutputFolder {
   OutputKind kind_;
   std::vector<std::string> asked_, taken_over_;  ///< folders of runs
   bool of_another_case_ = false, goes_on_ = false, prepared_ = false;
+  std::optional<io::FolderLock> lock_;  ///< as soon as the folder is there, until the end
 };
+
+/// The folders of all runs in the output folder of a command; empty where it is none.
+std::vector<std::string> runs_below(const std::string& directory);
 
 }  // namespace diptych::harness

@@ -6,10 +6,10 @@
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/memory.hpp"
 #include "benchmarks/run/provenance.hpp"
+#include "benchmarks/run/ranked_runs.hpp"
 #include "benchmarks/run/resumption.hpp"
 #include "benchmarks/run/run_folder.hpp"
 #include "benchmarks/run/run_identity.hpp"
-#include "benchmarks/run/scene.hpp"
 #include "common/base/error.hpp"
 #include "common/io/checkpoint_file.hpp"
 #include "common/parallel/for_chunks.hpp"
@@ -88,7 +88,7 @@ class CaseRun {
   const RunOptions& options_;
   RunFolder folder_;
   RunResult result_;
-  std::optional<Scene> scene_;
+  std::unique_ptr<Scene> scene_;
   std::optional<CaseObservers> observers_;
   std::optional<run::Simulation> simulation_;
 };
@@ -96,7 +96,7 @@ class CaseRun {
 CaseRun::CaseRun(const cases::Case& setup, const RunOptions& options)
     : setup_(setup), options_(options), folder_(options.directory) {
   parallel::set_threads(options.threads);
-  scene_.emplace(setup, options.method, options.level);
+  scene_ = scene_of_run(setup, options);
   identify();
   describe_graph(*scene_, result_.summary);
   for (const std::string& notice : scene_->description.notices)
@@ -134,7 +134,7 @@ void CaseRun::keep_checkpoints() {
   if (!options_.checkpoint.empty())
     remove_later_checkpoints(folder_.path(), simulation_->totals().steps);
   simulation_->keep({setup_.time.checkpoint_every, setup_.time.checkpoint_seconds,
-                     base::take_checkpoint_request, [this] {
+                     setup_.time.checkpoint_interval, base::take_checkpoint_request, [this] {
                        write_checkpoint(folder_.path(), simulation_->totals().steps,
                                         [this](algebra::Archive& to) { archive(to); });
                      }});
@@ -239,6 +239,7 @@ void CaseRun::finish() {
   io::RunSummary& s = result_.summary;
   measure();
   s.state_hash = scene_->solver->state_hash(scene_->mesh.order);
+  note_ranks(*scene_, s);
   observers_->give(result_);
   result_.final_state = simulation_->take_state();
   result_.order = std::move(scene_->mesh.order);

@@ -19,12 +19,13 @@ namespace diptych::harness {
 struct RunOptions {
   std::string method = "fvm";
   int level = 0;
-  int threads = 0;           ///< 0: all processors
-  std::string directory;     ///< of this run; empty: nothing is written
-  bool fields = true;        ///< write field frames (besides output.fields of the case)
-  bool quiet = false;        ///< no progress
-  bool shapes = false;       ///< keep deformed surfaces for a report
-  bool scales = false;       ///< find the largest norms of the fields over the output times
+  int threads = 0;                  ///< 0: all processors
+  std::string partition = "metis";  ///< of the body among ranks: parallel::partitioners()
+  std::string directory;            ///< of this run; empty: nothing is written
+  bool fields = true;               ///< write field frames (besides output.fields of the case)
+  bool quiet = false;               ///< no progress
+  bool shapes = false;              ///< keep deformed surfaces for a report
+  bool scales = false;              ///< find the largest norms of the fields over the output times
   bool checkpoints = false;  ///< keep its state when the case says so, and where it is interrupted
   std::string checkpoint;    ///< file to go on from; empty: the run begins at t = 0
   std::vector<NodeMeasure> measures;     ///< of the final state, for summary.json

@@ -4,6 +4,7 @@
 #include "common/base/error.hpp"
 #include "common/cases/copy.hpp"
 #include "common/io/atomic_file.hpp"
+#include "common/io/checksums.hpp"
 
 #include <algorithm>
 #include <exception>
@@ -24,9 +25,9 @@ constexpr size_t room_for_a_message = 4096;
 
 /// Whether a run makes a file of this name in its folder.
 bool is_of_a_run(std::string name) {
-  static const std::set<std::string> names{"summary.json",  "history.csv", "steps.csv",
-                                           "exact.csv",     "case.toml",   "mesh.hdf",
-                                           "run.hdf.series"};
+  static const std::set<std::string> names{"summary.json",  "history.csv",   "steps.csv",
+                                           "exact.csv",     "case.toml",     "mesh.hdf",
+                                           "checksums.txt", "run.hdf.series"};
   if (name.ends_with(".tmp")) name.resize(name.size() - 4);
   if (names.count(name) > 0 || is_checkpoint_name(name)) return true;
   const bool is_frame = name.starts_with("frame_") && name.ends_with(".hdf") && name.size() >= 14;
@@ -86,7 +87,12 @@ std::string RunFolder::file(const char* name) const {
 void RunFolder::check() const {
   std::error_code error;
   const fs::path path = directory_;
-  if (!is_written() || !fs::exists(path, error)) return;
+  if (!is_written()) return;
+  if (fs::is_symlink(path, error)) {
+    throw base::InputError(directory_ +
+                           ": is a link: results would lie elsewhere; give another --out");
+  }
+  if (!fs::exists(path, error)) return;
   if (!fs::is_directory(path, error)) {
     throw base::InputError(directory_ + ": is not a folder; give another --out");
   }
@@ -103,6 +109,8 @@ void RunFolder::open(const cases::Case& setup, io::RunSummary summary, bool goes
   io::write_file_atomically(file("summary.json"),
                             io::to_json(summary) + std::string(room_for_a_message, ' ') + "\n");
   if (!goes_on) remove_files(directory_, "summary.json");
+  std::error_code ignored;  // of texts that change now
+  fs::remove(file(io::checksums_file), ignored);
   write_case_copy(file("case.toml"), setup);
 }
 
@@ -111,6 +119,10 @@ void RunFolder::close(const RunResult& result) const {
   if (!result.exact.empty())
     io::write_file_atomically(file("exact.csv"), io::columns_csv(result.exact));
   io::write_file_atomically(file("summary.json"), io::to_json(result.summary));
+  std::vector<std::string> texts{"summary.json", "history.csv", "steps.csv", "exact.csv",
+                                 "run.hdf.series"};
+  if (!is_case_of_the_user(file("case.toml"))) texts.emplace_back("case.toml");
+  io::write_checksums(directory_, texts);
 }
 
 void RunFolder::close_failed(const io::RunSummary& summary) const noexcept {

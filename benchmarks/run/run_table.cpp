@@ -39,10 +39,17 @@ std::string run_table(const io::RunSummary& s) {
       fmt::format("{} level {}: {} nodes, {} pairs ({:.3g} a node), {} unknowns a node\n", s.method,
                   s.level, s.nodes, s.pairs, s.mean_neighbours, s.unknowns_per_node);
   text += fmt::format(
-      "  {} steps of {}, dt {:.3g} to {:.3g} s; {:.3g} s in the loop, {:.3g} ns per node and stage "
-      "({} {})\n",
-      s.steps, s.integrator, s.dt_min, s.dt_max, s.loop_seconds, s.nanoseconds_per_node_stage,
+      "  {} steps of {}, dt {:.3g} to {:.3g} s; {:.3g} s in the loop of {:.3g} s with set-up and "
+      "output, {:.3g} ns per node and stage ({}{} {})\n",
+      s.steps, s.integrator, s.dt_min, s.dt_max, s.loop_seconds, s.wall_seconds,
+      s.nanoseconds_per_node_stage, s.ranks == 1 ? "" : fmt::format("{} ranks of ", s.ranks),
       s.threads, s.threads == 1 ? "thread" : "threads");
+  if (s.ranks > 1) {
+    text += fmt::format(
+        "  ranks: largest work {:.3g} of the mean, {:.3g} s in communication, {:.3g} MB from rank "
+        "to rank\n",
+        s.imbalance, s.communication_seconds, 1e-6 * static_cast<double>(s.exchanged_bytes));
+  }
   if (s.rejected_steps > 0) {
     text += fmt::format("  {} {} rejected and made again with half the size\n", s.rejected_steps,
                         s.rejected_steps == 1 ? "attempt at a step was" : "attempts at steps were");

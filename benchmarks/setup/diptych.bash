@@ -9,6 +9,7 @@ _diptych() {
   case $before in
     --out | --cases | --baselines) COMPREPLY=($(compgen -d -- "$word")) && return ;;
     --page | --junit | --json) COMPREPLY=($(compgen -f -- "$word")) && return ;;
+    --partition) COMPREPLY=($(compgen -W "metis slab bisection" -- "$word")) && return ;;
     --restart) COMPREPLY=($(compgen -W latest -- "$word") $(compgen -f -- "$word")) && return ;;
     --method) COMPREPLY=($(compgen -W "sph fvm both" -- "$word")) && return ;;
   esac

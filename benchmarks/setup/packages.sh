@@ -4,12 +4,14 @@ packages_build="g++ cmake ninja-build pkg-config libeigen3-dev libhdf5-dev libto
   libmuparser-dev libcli11-dev libfmt-dev nlohmann-json3-dev libxxhash-dev libpugixml-dev"
 packages_report="libjs-chart.js"
 packages_tests="libgtest-dev libgmock-dev libyaml-cpp-dev gmsh"
+packages_ranks="libopenmpi-dev openmpi-bin libmetis-dev" # mpirun; its tests too
 packages_pictures="libvtk9-dev libx11-dev xvfb xauth libgl1-mesa-dri"
 packages_python="python3-h5py python3-pandas python3-matplotlib"
 packages_browser="chromium"
 packages_micro="libbenchmark-dev"
 packages_instructions="valgrind"
 packages_format="clang-format-14"
+packages_fuzz="clang-14 libclang-rt-14-dev libomp-14-dev"
 packages_package="dpkg-dev file" # which CPack asks what is a program
 packages_bare="mmdebstrap ca-certificates"
 

@@ -41,6 +41,7 @@ RunOptions run_options(const StudyOptions& options, int level, const std::string
   run.method = method;
   run.level = level;
   run.threads = options.threads;
+  run.partition = options.partition;
   run.directory = run_directory(options, level, method);
   run.fields = options.fields;
   run.quiet = options.quiet;
@@ -76,6 +77,7 @@ Study run_study(const cases::Case& setup, const StudyOptions& options) {
                       options.force);
   if (has_levels) output.ask_for(options.levels, options.methods, !options.resume);
   if (options.goes_on) output.go_on();
+  if (options.resume || !has_levels) output.refuse_to_replace(options.force);
   Study study;
   std::vector<RunResult> finest;  // those that were run now
   const auto plan = plan_of(setup, options, output);
@@ -119,7 +121,7 @@ std::vector<std::string> material_lines(const cases::MaterialCase& m) {
 /// Scalars of one method with the error bars that each level and those before it give.
 void add_quantities(const MethodConvergence& method, report::StudyReport& report) {
   for (const Quantity& scalar : method.scalars) {
-    report::GridSeries series{method.method, {}, std::nullopt};
+    report::GridSeries series{method.method, {}, std::nullopt, formal_order(method.levels.back())};
     for (size_t i = 0; i < scalar.values.size(); ++i) {
       if (!std::isfinite(scalar.values[i])) continue;
       series.estimate = estimate(method, scalar, i);

@@ -15,6 +15,7 @@ struct StudyOptions {
   std::vector<std::string> methods{"sph", "fvm"};
   std::vector<int> levels{0};
   int threads = 0;
+  std::string partition = "metis";  ///< see RunOptions
   std::string directory;  ///< runs go to DIR/<method> (one level) or DIR/level_<L>/<method>
   bool fields = true;
   bool quiet = false;

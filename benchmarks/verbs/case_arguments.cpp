@@ -8,6 +8,7 @@
 #include "benchmarks/run/menus.hpp"
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
+#include "common/parallel/partition.hpp"
 #include "common/parallel/thread_count.hpp"
 
 #include <cstdio>
@@ -33,7 +34,12 @@ void CaseArguments::declare(CommandLine& line) {
 }
 
 void CaseArguments::declare_force(CommandLine& line) {
-  line.flag("--force", force, "replace results of another case in the output folder");
+  line.flag("--force", force, "replace finished results in the output folder, of another case too");
+}
+
+void CaseArguments::declare_partition(CommandLine& line) {
+  line.option("--partition", partition,
+              "how mpirun's ranks share a body: metis, slab or bisection");
 }
 
 void CaseArguments::declare_restart(CommandLine& line) {
@@ -79,6 +85,8 @@ harness::StudyOptions CaseArguments::study_options(const cases::Case& setup) con
   options.methods = methods();
   options.levels = {level};
   options.threads = threads;
+  parallel::partitioners().at(partition);
+  options.partition = partition;
   options.directory = output_folder(setup);
   options.fields = !no_fields;
   options.quiet = quiet;

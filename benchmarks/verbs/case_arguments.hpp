@@ -19,6 +19,7 @@ constexpr const char* cases_help =
 
 struct CaseArguments {
   std::string case_name, cases_folder, method = "both", directory, restart;
+  std::string partition = "metis";
   std::vector<std::string> overrides;
   int level = 0, threads = 0;
   bool quiet = false, no_fields = false, force = false;
@@ -29,6 +30,8 @@ struct CaseArguments {
   void declare(CommandLine& line);
   /// Adds --force, of verbs that write results of the case.
   void declare_force(CommandLine& line);
+  /// Adds --partition.
+  void declare_partition(CommandLine& line);
   /// Adds --restart.
   void declare_restart(CommandLine& line);
   /// Adds --method too.

@@ -1,10 +1,13 @@
-/// diptych check: reads a case, builds its graphs and makes one step.
+/// diptych check: reads a case, builds its graphs and makes one step; or reads what runs have left.
 
 #include "benchmarks/run/case_check.hpp"
 #include "benchmarks/run/memory_estimate.hpp"
+#include "benchmarks/run/record_check.hpp"
 #include "benchmarks/terminal/progress.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
+#include "common/base/error.hpp"
+#include "common/io/folder_lock.hpp"
 #include "common/parallel/for_chunks.hpp"
 
 #include <fmt/format.h>
@@ -44,12 +47,39 @@ int check(const CaseArguments& arguments) {
   return 0;
 }
 
+/// Of runs: what is there, what is wrong with it.
+int check_records(const std::string& directory, const std::vector<std::string>& runs) {
+  size_t n_faults = 0;
+  for (const std::string& run : runs) {
+    const harness::RecordCheck check = harness::check_record(run);
+    print(fmt::format("{}: {}, {} steps, {} rows, {} frames, {} checkpoints{}\n", run,
+                      check.status.empty() ? "no summary" : check.status, check.steps, check.rows,
+                      check.frames, check.checkpoints, check.is_whole() ? ": whole" : ""));
+    for (const std::string& note : check.notes)
+      print("  " + note + "\n");
+    for (const std::string& fault : check.faults)
+      print("  " + fault + "\n");
+    n_faults += check.faults.size();
+  }
+  if (const auto holder = io::lock_holder(directory))
+    print(fmt::format("{}: {} writes there\n", directory, *holder));
+  if (n_faults == 0) return 0;
+  throw base::InputError(fmt::format("{}: {} of what runs have left {} not whole, named above",
+                                     directory, n_faults, n_faults == 1 ? "is" : "are"));
+}
+
+int check_case_or_records(const CaseArguments& arguments) {
+  const std::string& name = arguments.case_name;
+  const std::vector<std::string> runs = harness::records_in(name);
+  return runs.empty() ? check(arguments) : check_records(name, runs);
+}
+
 }  // namespace
 
 Action declare_check(CommandLine& line) {
   const auto arguments = std::make_shared<CaseArguments>();
   arguments->declare_with_method(line);
-  return [arguments] { return check(*arguments); };
+  return [arguments] { return check_case_or_records(*arguments); };
 }
 
 }  // namespace diptych::verbs

@@ -52,10 +52,11 @@ void go_on_from_latest(const cases::Case& setup, harness::StudyOptions& options)
     }
   }
   if (!has_any) {
-    throw base::InputError(fmt::format(
-        "there is no checkpoint in {}; time.checkpoint_every and time.checkpoint_seconds have them "
-        "written, and Ctrl-C of a run does",
-        base::joined(folders)));
+    throw base::InputError(
+        fmt::format("there is no checkpoint in {}; time.checkpoint_every, time.checkpoint_seconds "
+                    "and time.checkpoint_interval have them "
+                    "written, and Ctrl-C of a run does",
+                    base::joined(folders)));
   }
   for (const std::string& folder : without)
     tell(fmt::format("there is no checkpoint in {}: this run begins at t = 0", folder));

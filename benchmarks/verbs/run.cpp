@@ -37,6 +37,7 @@ Action declare_run(CommandLine& line) {
   arguments->declare_with_method(line);
   arguments->declare_force(line);
   arguments->declare_restart(line);
+  arguments->declare_partition(line);
   return [arguments] { return run_methods(*arguments); };
 }
 

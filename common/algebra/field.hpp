@@ -5,6 +5,7 @@
 
 #include "common/algebra/lanes.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
@@ -120,6 +121,12 @@ class RealArray {
   bool is_single_ = false;
 };
 
+/// use(bytes, n) of n values.
+template <class Real, class Use>
+void use_bytes(Real* values, std::int64_t n, const Use& use) {
+  use(reinterpret_cast<std::byte*>(values), static_cast<size_t>(n) * sizeof(Real));
+}
+
 class BlockField {
  public:
   BlockField() = default;
@@ -161,6 +168,12 @@ class BlockField {
       for (int c = 0; c < n; ++c)
         store(p + c * n_lanes, give(c));
     });
+  }
+  /// use(bytes, n) of the memory of blocks [begin, end), for who sends it elsewhere.
+  template <class Use>
+  void for_pieces(std::int64_t begin, std::int64_t end, const Use& use) {
+    const std::int64_t length = n_components_ * n_lanes;
+    data_.visit([&](auto* data) { use_bytes(data + begin * length, (end - begin) * length, use); });
   }
 
  private:

@@ -116,6 +116,19 @@ class NodeTable {
       write_rows<n>(columns, node_stride_, p);
     });
   }
+  /// use(bytes, n) of the memory of nodes [begin, end): in rows of all their components, in runs of
+  /// n components from `first` on.
+  template <class Use>
+  void for_pieces(std::int64_t begin, std::int64_t end, int first, int n, const Use& use) {
+    data_.visit([&](auto* data) {
+      if (arrangement_ == Arrangement::rows) {
+        use_bytes(data + begin * node_stride_, (end - begin) * node_stride_, use);
+        return;
+      }
+      for (int c = first; c < first + n; ++c)
+        use_bytes(data + first_ + begin + c * component_stride_, end - begin, use);
+    });
+  }
 
  private:
   std::int64_t index(std::int64_t node, int component) const {

@@ -83,6 +83,7 @@ struct TimeCase {
   int max_retries = 5;                ///< of one step, each with half its size
   std::int64_t checkpoint_every = 0;  ///< steps; 0: not by steps
   double checkpoint_seconds = 0;      ///< of the clock; 0: not by the clock
+  double checkpoint_interval = 0;     ///< s, of the scene; 0: not by its time
 };
 
 /// [guards]

@@ -3,7 +3,6 @@
 #include "common/exact/laplace_inversion.hpp"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace diptych::exact {
@@ -76,10 +75,7 @@ struct Medium {
 }  // namespace
 
 ZenerBar::ZenerBar(std::string name, const ZenerBarParameters& parameters)
-    : name_(std::move(name)),
-      p_(parameters),
-      x_(std::numeric_limits<double>::quiet_NaN()),
-      t_(std::numeric_limits<double>::quiet_NaN()) {
+    : name_(std::move(name)), p_(parameters) {
   double glassy = p_.modulus;
   for (const double M : p_.branch_moduli)
     glassy += M;
@@ -171,18 +167,26 @@ std::vector<std::string> ZenerBar::names() const {
   return all;
 }
 
+/// Nodes one after the other are often at the same x.
+void ZenerBar::values_at_all(std::span<const Vec3> X, double t, double* values) const {
+  std::vector<double> here;
+  for (size_t a = 0; a < X.size(); ++a) {
+    if (a == 0 || X[a][0] != X[a - 1][0]) {
+      const BarMotion now = motion<double>(X[a][0], t, 24);
+      here = {now.u, now.v, now.strain, now.stress};
+      if (p_.signal != Signal::step) {
+        here.push_back(phase_speed());
+        here.push_back(attenuation());
+      }
+    }
+    values = std::copy(here.begin(), here.end(), values);
+  }
+}
+
 std::vector<double> ZenerBar::values_at(const Vec3& X, double t) const {
-  if (X[0] != x_ || t != t_) {
-    last_ = motion<double>(X[0], t, 24);
-    x_ = X[0];
-    t_ = t;
-  }
-  std::vector<double> all{last_.u, last_.v, last_.strain, last_.stress};
-  if (p_.signal != Signal::step) {
-    all.push_back(phase_speed());
-    all.push_back(attenuation());
-  }
-  return all;
+  std::vector<double> values(names().size());
+  values_at_all({&X, 1}, t, values.data());
+  return values;
 }
 
 }  // namespace diptych::exact

@@ -57,6 +57,7 @@ class ZenerBar : public functions::TimeFunction {
   std::vector<double> values(double t) const override { return values_at(Vec3::Zero(), t); }
   bool depends_on_position() const override { return true; }
   std::vector<double> values_at(const Vec3& X, double t) const override;
+  void values_at_all(std::span<const Vec3> X, double t, double* values) const override;
 
   /// @param Real      arithmetic of the inversion, double or long double
   /// @param n_points  of the contour, an even number; 24 suit double, 32 long double
@@ -75,9 +76,6 @@ class ZenerBar : public functions::TimeFunction {
     std::complex<double> amplitude, exponent;
   };
   std::vector<Term> signal_;  // sum of amplitude exp(exponent t)
-  // last answer: several expressions ask for the same place and time
-  mutable double x_, t_;
-  mutable BarMotion last_;
 };
 
 }  // namespace diptych::exact

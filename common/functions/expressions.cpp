@@ -1,6 +1,6 @@
-/// Expressions by muParser (the only file that includes it). Names are scanned here before muParser
-/// sees the text, so that a wrong one is reported at its own line and column, with the nearest
-/// known name; the scan also tells on what an expression depends. Test:
+/// Whether a text is an expression, by muParser (the only file that includes it). Names are scanned
+/// here before muParser sees the text, so that a wrong one is reported at its own line and column,
+/// with the nearest known name; the scan also tells on what an expression depends. Test:
 /// tests/common/functions/expressions_test.cpp.
 
 #include "common/functions/expressions.hpp"
@@ -8,6 +8,7 @@
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
 #include "common/functions/expression_function.hpp"
+#include "common/functions/placed_program.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@ namespace diptych::functions {
 namespace {
 
 constexpr size_t max_length = 4096;  // bounds muParser's stack for nested parentheses
-constexpr int max_depth = 1000;      // of functions that name one another: evaluation nests
+constexpr int max_depth = 1000;      // of functions that name one another
 constexpr double pi = 3.14159265358979323846;
 
 bool is_letter(char c) {
@@ -242,72 +243,64 @@ double constant_value(const std::string& text,
   return Expression(text, vocabulary_of(text, parameters, where), where)(Vec3::Zero(), 0);
 }
 
-struct Expression::Compiled {
-  struct BoundFunction {
-    std::shared_ptr<const TimeFunction> function;
-    std::vector<double> values;  // of its names at time t; the parser holds their addresses
-  };
+namespace {
 
+/// Evaluates at one place after the other.
+struct PointEvaluation {
+  PlacedProgram placed;
+  PlacedProgram::Workspace workspace;
+  PlacedProgram::Instant instant;
+  Vec3 X;
+  double t = std::numeric_limits<double>::quiet_NaN();
+};
+
+}  // namespace
+
+struct Expression::Compiled {
   std::string text;
   SourcePlace where;
   bool on_time = false;
   bool on_position = false;
-  double value = 0;  // of the constant, or the last one where position does not matter
-  double t = std::numeric_limits<double>::quiet_NaN();  // of the last evaluation: none yet
-  double X[3] = {0, 0, 0};
-  bool is_known = false;                 // whether value is that at X and t
-  bool may_remember = true;              // no function reads more than place and time
-  int depth = 0;                         // of functions that stand on one another below this text
-  std::vector<BoundFunction> functions;  // those the text uses
-  mu::Parser parser;
+  double value = 0;       // of the constant
+  int depth = 0;          // of functions that stand on one another below this text
+  Vocabulary vocabulary;  // what the text uses
+  std::unique_ptr<PointEvaluation> points;
 
-  void bind(const std::vector<Name>& names, const Vocabulary& vocabulary);
-  bool bind_time_function(const std::string& name, const Vocabulary& vocabulary);
+  void bind(const std::vector<Name>& names, const Vocabulary& known, mu::Parser& parser);
+  bool bind_time_function(const std::string& name, const Vocabulary& known);
   int depth_of(const ExpressionFunction& function) const {
     const auto& below = function.expression().compiled_;
     return below ? below->depth : 0;
   }
-  /// What depends on the place and is no expression may depend on more: fields at a node do.
-  static bool is_of_place_and_time(const TimeFunction& function, const ExpressionFunction* named) {
-    if (named == nullptr) return !function.depends_on_position();
-    const auto& below = named->expression().compiled_;
-    return !below || below->may_remember;
-  }
-  void compile();
+  void check(mu::Parser& parser);
   double evaluate(const Vec3& place, double time);
+  [[noreturn]] void refuse_value(double result, const Vec3& X, double t) const;
 };
 
-bool Expression::Compiled::bind_time_function(const std::string& name,
-                                              const Vocabulary& vocabulary) {
-  for (const auto& function : vocabulary.time_functions) {
+bool Expression::Compiled::bind_time_function(const std::string& name, const Vocabulary& known) {
+  for (const auto& function : known.time_functions) {
     const auto* const named = dynamic_cast<const ExpressionFunction*>(function.get());
     if (named != nullptr && named->name() != name) continue;  // of most cases all of them
     const std::vector<std::string> names = function->names();
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) continue;
+    if (!contains(names, name)) continue;
     if (named != nullptr) depth = std::max(depth, 1 + depth_of(*named));
-    may_remember = may_remember && is_of_place_and_time(*function, named);
-    auto bound = std::find_if(functions.begin(), functions.end(),
-                              [&](const BoundFunction& b) { return b.function == function; });
-    if (bound == functions.end()) {
-      functions.push_back({function, std::vector<double>(names.size(), 0.0)});
-      on_position = on_position || function->depends_on_position();
-      bound = functions.end() - 1;
-    }
-    // The values stay where they are on the heap when `functions` grows.
-    parser.DefineVar(name, &bound->values[static_cast<size_t>(found - names.begin())]);
+    on_position = on_position || function->depends_on_position();
+    auto& used = vocabulary.time_functions;
+    if (std::find(used.begin(), used.end(), function) == used.end()) used.push_back(function);
     return true;
   }
   return false;
 }
 
 /// Gives the parser the names that the text uses and no others.
-void Expression::Compiled::bind(const std::vector<Name>& names, const Vocabulary& vocabulary) {
-  parser.ClearConst();  // its own _pi and _e
+void Expression::Compiled::bind(const std::vector<Name>& names,
+                                const Vocabulary& known,
+                                mu::Parser& parser) {
+  static double unknown = 0;  // the parser evaluates constants only
+  parser.ClearConst();        // its own _pi and _e
   parser.DefineConst("pi", pi);
-  parser.DefineVar("t", &t);
-  for (int i = 0; i < 3; ++i)
-    parser.DefineVar(std::string(1, "xyz"[i]), &X[i]);
+  for (const char* variable : {"x", "y", "z", "t"})
+    parser.DefineVar(variable, &unknown);
   for (const Name& name : names) {
     if (name.is_call) {
       if (!contains(function_names(), name.text)) {
@@ -319,23 +312,26 @@ void Expression::Compiled::bind(const std::vector<Name>& names, const Vocabulary
       on_position = true;
     } else if (name.text == "t") {
       on_time = true;
-    } else if (const auto parameter = vocabulary.parameters.find(name.text);
-               parameter != vocabulary.parameters.end()) {
+    } else if (const auto parameter = known.parameters.find(name.text);
+               parameter != known.parameters.end()) {
       parser.DefineConst(name.text, parameter->second);
-    } else if (bind_time_function(name.text, vocabulary)) {
+      vocabulary.parameters.insert(*parameter);
+    } else if (bind_time_function(name.text, known)) {
+      parser.DefineVar(name.text, &unknown);
       on_time = true;
     } else if (contains(function_names(), name.text)) {
       refuse(where, text, name.offset,
              fmt::format("the function '{}' needs its argument in parentheses", name.text));
     } else if (name.text != "pi") {
-      refuse(where, text, name.offset,
-             "unknown name '" + name.text + "'" +
-                 base::suggestion(name.text, variable_names(vocabulary)));
+      refuse(
+          where, text, name.offset,
+          "unknown name '" + name.text + "'" + base::suggestion(name.text, variable_names(known)));
     }
   }
 }
 
-void Expression::Compiled::compile() {
+/// Whether it is an expression; a constant gets its value.
+void Expression::Compiled::check(mu::Parser& parser) {
   int n_results = 0;
   try {
     parser.SetExpr(text);
@@ -350,29 +346,35 @@ void Expression::Compiled::compile() {
     refuse(where, text, 0, fmt::format("its value is {}, not a finite number", value));
 }
 
+void Expression::Compiled::refuse_value(double result, const Vec3& X, double t) const {
+  refuse(where, text, 0,
+         fmt::format("its value is {} at {}; it must be finite at every node and time", result,
+                     place_in_body(X, t)));
+}
+
 double Expression::Compiled::evaluate(const Vec3& place, double time) {
   if (!on_time && !on_position) return value;
-  const bool later = on_time && time != t;
-  if (!later && !on_position) return value;
-  // Functions that name one another ask for the same value many times over.
-  const bool is_same_place = place[0] == X[0] && place[1] == X[1] && place[2] == X[2];
-  if (is_known && may_remember && !later && is_same_place) return value;
-  for (BoundFunction& bound : functions) {
-    if (!later && !bound.function->depends_on_position()) continue;
-    const std::vector<double> values = bound.function->values_at(place, time);
-    std::copy(values.begin(), values.end(), bound.values.begin());
+  if (!points) {
+    const auto program = std::make_shared<Program>();
+    const int result = program->append(text, vocabulary, where, Program::Accepts::all);
+    const std::vector<int> results{result};
+    points = std::make_unique<PointEvaluation>(
+        PointEvaluation{PlacedProgram(program, results, {&place, 1}), {}, {}, place});
+    points->workspace = points->placed.workspace();
   }
-  std::copy(place.data(), place.data() + 3, X);
-  t = time;
-  value = parser.Eval();
-  is_known = std::isfinite(value);
-  if (!is_known) {
-    t = std::numeric_limits<double>::quiet_NaN();  // nothing to remember
-    refuse(where, text, 0,
-           fmt::format("its value is {} at {}; it must be finite at every node and time", value,
-                       place_in_body(place, time)));
+  PointEvaluation& at = *points;
+  if (at.X != place) {
+    at.placed.move_to({&place, 1});
+    at.X = place;
   }
-  return value;
+  if (at.t != time) {
+    at.instant = at.placed.at(time);
+    at.t = time;
+  }
+  at.placed.evaluate(0, time, at.instant, at.workspace);
+  const double result = at.placed.result(0, 0, at.instant, at.workspace)[0][0];
+  if (!std::isfinite(result)) refuse_value(result, place, time);
+  return result;
 }
 
 Expression::Expression(double constant) : compiled_(std::make_shared<Compiled>()) {
@@ -389,14 +391,15 @@ Expression::Expression(const std::string& text,
   compiled_->text = text;
   compiled_->where = where;
   check_characters(text, where);
-  compiled_->bind(names_in(text, where), vocabulary);
+  mu::Parser parser;
+  compiled_->bind(names_in(text, where), vocabulary, parser);
   if (compiled_->depth > max_depth) {
     refuse(where, text, 0,
            fmt::format("it stands on more than {} functions, one below the other; write some of "
                        "them out",
                        max_depth));
   }
-  compiled_->compile();
+  compiled_->check(parser);
 }
 
 double Expression::operator()(const Vec3& X, double t) const {
@@ -417,6 +420,28 @@ bool Expression::is_zero() const {
 
 std::string Expression::text() const {
   return compiled_ ? compiled_->text : "0";
+}
+
+const Vocabulary& Expression::vocabulary() const {
+  static const Vocabulary none;
+  return compiled_ ? compiled_->vocabulary : none;
+}
+
+const SourcePlace& Expression::where() const {
+  static const SourcePlace nowhere;
+  return compiled_ ? compiled_->where : nowhere;
+}
+
+void Expression::refuse_value(double value, const Vec3& X, double t) const {
+  if (compiled_) compiled_->refuse_value(value, X, t);
+  refuse({}, "0", 0, fmt::format("its value is {} at {}", value, place_in_body(X, t)));
+}
+
+void TimeFunction::values_at_all(std::span<const Vec3> X, double t, double* values) const {
+  for (const Vec3& place : X) {
+    const std::vector<double> here = values_at(place, t);
+    values = std::copy(here.begin(), here.end(), values);
+  }
 }
 
 }  // namespace diptych::functions

@@ -1,14 +1,16 @@
 #pragma once
 /// Expressions of the case language: functions of x, y, z (reference position, m) and t (s), named
-/// parameters, `pi`, and named functions of time (see TimeFunction). Parsed by muParser; a wrong
-/// name or syntax is an InputError with file, line, column and the nearest known name. A result
-/// that is not finite is an InputError too (muParser gives nan and inf silently).
+/// parameters, `pi`, and named functions of time (see TimeFunction). muParser says what is an
+/// expression and what a constant is worth; a wrong name or syntax is an InputError with file,
+/// line, column and the nearest known name. Values are those of a Program, of many places at once
+/// those of PlacedExpressions. A result that is not finite is an InputError too.
 
 #include "common/algebra/vectors.hpp"
 
 #include <array>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,10 @@ class TimeFunction {
   virtual bool depends_on_position() const { return false; }
   /// values of names() at reference position X  [m]
   virtual std::vector<double> values_at(const Vec3& /*X*/, double t) const { return values(t); }
+  /// The same of many places; several threads may ask at a time, where several places are
+  /// evaluated.
+  /// @param values  [X][names()]
+  virtual void values_at_all(std::span<const Vec3> X, double t, double* values) const;
 };
 
 /// Names that expressions may use.
@@ -60,7 +66,7 @@ const std::vector<std::string>& reserved_names();
 /// A letter or '_', then letters, digits or '_', all ASCII.
 bool is_name(const std::string& text);
 
-/// One scalar expression. Copies share the compiled parser; not for concurrent use.
+/// One scalar expression. Copies share what is compiled; not for concurrent use.
 class Expression {
  public:
   Expression() = default;  ///< the constant 0
@@ -73,6 +79,11 @@ class Expression {
   bool depends_on_position() const;
   bool is_zero() const;  ///< the constant 0
   std::string text() const;
+  /// The names of the vocabulary that the text uses.
+  const Vocabulary& vocabulary() const;
+  const SourcePlace& where() const;
+  /// @throws base::InputError: this value at X and t is not finite
+  [[noreturn]] void refuse_value(double value, const Vec3& X, double t) const;
 
  private:
   struct Compiled;

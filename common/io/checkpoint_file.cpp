@@ -69,7 +69,7 @@ void CheckpointWriter::text(const std::string& name, std::string& value) {
 
 void CheckpointWriter::publish() {
   file_.write(index_name, bytes_of(index_));
-  write_sealed_file(path_, file_.take_image());
+  file_.publish();
 }
 
 CheckpointReader::CheckpointReader(const std::string& path)

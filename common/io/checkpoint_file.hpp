@@ -1,7 +1,9 @@
 #pragma once
 /// Checkpoints as HDF5 files: each table of an archive is a data set under its name, with its unit
 /// as an attribute; "index" lists them all, "format" is the number of the format. The file is
-/// sealed (sealed_file.hpp), and there whole or not at all. h5dump and h5py read it. Test:
+/// sealed (sealed_file.hpp), and there whole or not at all. h5dump and h5py read it. The seal is
+/// against damage, not against malice: HDF5 1.10 crashes on some contents that nobody but an
+/// attacker seals, so a checkpoint is to be trusted like the program that wrote it. Test:
 /// tests/common/io/checkpoint_file_test.cpp
 
 #include "common/algebra/archive.hpp"

@@ -1,7 +1,7 @@
 #include "common/io/hdf5_file.hpp"
 
 #include "common/base/error.hpp"
-#include "common/io/run_record.hpp"
+#include "common/io/sealed_file.hpp"
 
 #include <hdf5.h>
 
@@ -229,7 +229,7 @@ std::string Hdf5File::take_image() {
 }
 
 void Hdf5File::publish() {
-  write_file_atomically(path_, take_image());
+  write_sealed_file(path_, take_image());
 }
 
 bool Hdf5File::contains(const std::string& name) const {

@@ -5,7 +5,7 @@
 /// and HDF5's own reason. HDF5's printing to stderr is switched off in each thread that opens a
 /// file here. HDF5 itself is included in hdf5_file.cpp and in no header.
 ///
-/// A file is made in memory and written by write_file_atomically: HDF5 1.10 that cannot flush to a
+/// A file is made in memory and written by write_sealed_file: HDF5 1.10 that cannot flush to a
 /// full disk leaves the file half open and crashes when the program exits, while our own write
 /// says errno and removes what it began. The price is twice the size of the file in memory.
 /// Test: tests/common/io/field_writer_test.cpp

@@ -200,6 +200,10 @@ void read_size_and_cost(const Section& file, RunSummary& summary) {
   summary.restarts = file.large_count("restarts");
   summary.threads = file.small_count("threads");
   summary.ranks = file.small_count("ranks");
+  const Section communication = file.section("communication");
+  summary.imbalance = communication.number("imbalance");
+  summary.exchanged_bytes = communication.large_count("exchanged_bytes");
+  summary.communication_seconds = communication.number("seconds");
   summary.setup_seconds = file.number("setup_seconds");
   summary.wall_seconds = file.number("wall_seconds");
   summary.loop_seconds = file.number("loop_seconds");
@@ -299,6 +303,10 @@ std::string to_json(const RunSummary& summary) {
       {"restarts", summary.restarts},
       {"threads", summary.threads},
       {"ranks", summary.ranks},
+      {"communication",
+       {{"imbalance", summary.imbalance},
+        {"exchanged_bytes", summary.exchanged_bytes},
+        {"seconds", summary.communication_seconds}}},
       {"precision", summary.precision},
       {"arrangement", summary.arrangement},
       {"integrator", summary.integrator},

@@ -69,6 +69,10 @@ struct RunSummary {
   double setup_seconds = 0, wall_seconds = 0, loop_seconds = 0, nanoseconds_per_node_stage = 0;
   /// per node for the time that a pressure wave of the undeformed body takes over one spacing
   double nanoseconds_per_node_crossing = 0;
+  // of several ranks
+  double imbalance = 1;              ///< largest work of a rank over the mean
+  std::int64_t exchanged_bytes = 0;  ///< from rank to rank in steps
+  double communication_seconds = 0;  ///< mean of the ranks, waiting included
   std::int64_t peak_rss_bytes = 0;
   std::int64_t solver_bytes = 0;        ///< arrays of the solver: state and geometry of the sweeps
   std::int64_t running_rss_bytes = 0;   ///< resident set of the program before the first step

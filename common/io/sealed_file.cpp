@@ -7,6 +7,7 @@
 #include <charconv>
 #include <fmt/format.h>
 #include <string_view>
+#include <utility>
 #include <xxhash.h>
 
 namespace diptych::io {
@@ -51,14 +52,18 @@ size_t promised_size(std::string_view line) {
 
 }  // namespace
 
-void write_sealed_file(const std::string& path, std::string content) {
+std::string sealed(std::string content) {
   const size_t size = content.size();
   std::string list;
   for (size_t k = 0; k < n_pieces_of(size); ++k)
     list += piece_hash(std::string_view(content).substr(k * sealed_piece, sealed_piece));
   content += list;
   content += last_line_of(size, list);
-  write_file_atomically(path, content);
+  return content;
+}
+
+void write_sealed_file(const std::string& path, std::string content) {
+  write_file_atomically(path, sealed(std::move(content)));
 }
 
 std::string read_sealed_file(const std::string& path) {

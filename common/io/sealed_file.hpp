@@ -11,6 +11,9 @@ namespace diptych::io {
 /// Bytes that a hash of its own stands for: what a message can say of the place of a damage.
 constexpr size_t sealed_piece = size_t{1} << 16;
 
+/// The content with its seal behind it.
+std::string sealed(std::string content);
+
 /// Puts the content with its seal at the path, whole or not at all (write_file_atomically).
 /// @throws base::EnvironmentError with path and errno
 void write_sealed_file(const std::string& path, std::string content);

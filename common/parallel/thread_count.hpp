@@ -9,7 +9,7 @@ namespace diptych::parallel {
 inline constexpr int most_threads = 1024;
 
 /// The count to use: `asked`, or where that is 0 the least of OMP_NUM_THREADS, OMP_THREAD_LIMIT and
-/// the processors that the process may keep busy.
+/// the processors that the process may keep busy, of which ranks on one machine have a share each.
 /// @throws base::InputError where `asked` is negative, more than most_threads or more than
 ///         OMP_THREAD_LIMIT
 int thread_count(int asked);

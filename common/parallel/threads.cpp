@@ -1,6 +1,7 @@
 #include "common/base/error.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/parallel/processors.hpp"
+#include "common/parallel/ranks.hpp"
 #include "common/parallel/thread_count.hpp"
 
 #include <omp.h>
@@ -31,7 +32,8 @@ int thread_count(int asked) {
                            " threads are more than OMP_THREAD_LIMIT allows; give at most " +
                            std::to_string(limit) + ", or 0");
   }
-  return asked > 0 ? asked : std::min({initial, limit, available_processors(), most_threads});
+  const int available = std::max(1, available_processors() / ranks_that_share_processors());
+  return asked > 0 ? asked : std::min({initial, limit, available, most_threads});
 }
 
 void set_threads(int n) {

@@ -5,6 +5,8 @@
 #include "common/run/state_hash.hpp"
 #include "common/scheme/body/health.hpp"
 #include "common/scheme/budget/balance.hpp"
+#include "common/scheme/ranks/division.hpp"
+#include "common/scheme/ranks/exchange.hpp"
 #include "common/time/moving_body_archive.hpp"
 
 #include <fmt/format.h>
@@ -50,6 +52,7 @@ StepReport BodySolver<Dim>::step(double t_limit) {
     const double dt = time::attempt_step(moving_, t_limit);
     if (time::is_sound(moving_))
       return {clock.step, clock.time, dt, moving_.sweeps.least_J(), rejected};
+    scheme::gather_state(moving_.body);
     const base::BreakdownError error = scheme::breakdown_error(
         moving_.body, clock.step + 1, clock.time + dt, dt, remark_on(rejected));
     if (max_retries_ > 0) begin_.restore(moving_);
@@ -59,17 +62,37 @@ StepReport BodySolver<Dim>::step(double t_limit) {
 }
 
 template <int Dim>
+void BodySolver<Dim>::divide(parallel::Communicator& ranks, const std::string& partition) {
+  scheme::divide(moving_.body, ranks, partition);
+}
+
+template <int Dim>
+void BodySolver<Dim>::gather() {
+  scheme::gather_state(moving_.body);
+  moving_.boundary.complete(moving_.body.part());
+}
+
+template <int Dim>
+double BodySolver<Dim>::imbalance() const {
+  return moving_.body.division ? moving_.body.division->imbalance : 1;
+}
+
+template <int Dim>
 scheme::Balance BodySolver<Dim>::balance() const {
   return scheme::balance(material(), moving_.body);
 }
 
 template <int Dim>
 Snapshot BodySolver<Dim>::snapshot() const {
+  scheme::gather(moving_.body, scheme::Role::unknown);
+  if (moving_.body.part().rank() != 0) return {};
+  const scheme::Undivided<Dim> gathered(moving_.body);
   return scheme::snapshot_of(material(), moving_.body, time());
 }
 
 template <int Dim>
 Snapshot BodySolver<Dim>::snapshot(std::span<const std::int32_t> nodes) const {
+  scheme::gather_unknowns(moving_.body, nodes);
   return scheme::snapshot_of(material(), moving_.body, time(), nodes);
 }
 
@@ -89,6 +112,7 @@ std::string BodySolver<Dim>::state_hash(const std::vector<std::int32_t>& order) 
 
 template <int Dim>
 void BodySolver<Dim>::archive(algebra::Archive& archive) {
+  const scheme::Undivided<Dim> gathered(moving_.body);  // and what is loaded is loaded by all
   time::archive(moving_, archive);
   if (known_) known_->archive(archive);
   if (!archive.is_loading()) return;

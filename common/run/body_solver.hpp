@@ -19,6 +19,9 @@ class BodySolver : public Solver {
              int max_retries);
 
   StepReport step(double t_limit) override;
+  void divide(parallel::Communicator& ranks, const std::string& partition) override;
+  void gather() override;
+  double imbalance() const override;
   double time() const override { return moving_.clock.time; }
   bool is_sound() const override { return time::is_sound(moving_); }
   scheme::Balance balance() const override;
@@ -34,6 +37,8 @@ class BodySolver : public Solver {
   int evaluations_per_step() const override { return moving_.integrator.evaluations_per_step(); }
   Mat3 equilibrium_stress(const Mat3& F) const override;
   std::optional<Snapshot> exact_state(double t) const override;
+  /// What moves, for tests: they put faults into it.
+  time::MovingBody<Dim>& moving() { return moving_; }
   std::int64_t bytes() const override {
     return moving_.body.bytes() + moving_.body.graph.bytes() + begin_.bytes();
   }
@@ -41,7 +46,7 @@ class BodySolver : public Solver {
  private:
   const scheme::MaterialModel& material() const { return moving_.sweeps.material(); }
 
-  time::MovingBody<Dim> moving_;
+  mutable time::MovingBody<Dim> moving_;  ///< what other ranks have comes where it is looked at
   std::shared_ptr<exact::KnownState> known_;
   time::StepBegin<Dim> begin_;
   int max_retries_;

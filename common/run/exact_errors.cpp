@@ -1,5 +1,7 @@
 #include "common/run/exact_errors.hpp"
 
+#include "common/functions/placed_values.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -13,19 +15,43 @@ ExactErrors::ExactErrors(const cases::Case& setup,
                          const Solver& solver)
     : setup_(setup), graph_(graph), solver_(solver) {}
 
-/// F of the exact solution: as given, or I + grad u by an eighth-order central difference whose
+/// F = I + grad u of the exact solution at all nodes.
+std::vector<Mat3> ExactErrors::exact_deformation_gradients(double t) {
+  if (!is_placed_) {
+    gradients_ = functions::gradients_of(*setup_.exact.displacement, graph_.dimension, graph_.X);
+    is_placed_ = true;
+  }
+  if (!gradients_) return differences_of_displacement(t);
+  const int d = graph_.dimension;
+  const auto n_values = static_cast<size_t>(d * d);
+  std::vector<double> values(n_values * graph_.X.size());
+  gradients_->at(t, values);
+  std::vector<Mat3> F(graph_.X.size(), Mat3::Identity());
+  for (size_t a = 0; a < F.size(); ++a) {
+    for (int k = 0; k < d * d; ++k)
+      F[a](k / d, k % d) += values[a * n_values + static_cast<size_t>(k)];
+  }
+  return F;
+}
+
+/// Where it has no derivative somewhere: I + grad u by an eighth-order central difference whose
 /// step balances truncation against rounding (relative error about 1e-12 for smooth fields).
-Mat3 ExactErrors::exact_deformation_gradient(const Vec3& X, double t) const {
-  if (setup_.exact.deformation_gradient) return (*setup_.exact.deformation_gradient)(X, t);
+std::vector<Mat3> ExactErrors::differences_of_displacement(double t) const {
   constexpr double weight[4] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
   const double step = 1e-2 * std::pow(graph_.Omega[0], 1.0 / graph_.dimension) + 1e-3;
-  Mat3 F = Mat3::Identity();
+  const auto shifted = [&](const Vec3& shift) {
+    std::vector<Vec3> X = graph_.X;
+    for (Vec3& place : X)
+      place += shift;
+    return functions::vectors_at(*setup_.exact.displacement, X, t);
+  };
+  std::vector<Mat3> F(graph_.X.size(), Mat3::Identity());
   for (int j = 0; j < graph_.dimension; ++j) {
     for (int k = 1; k <= 4; ++k) {
       const Vec3 shift = k * step * Vec3::Unit(j);
-      const Vec3 difference =
-          (*setup_.exact.displacement)(X + shift, t) - (*setup_.exact.displacement)(X - shift, t);
-      F.col(j) += weight[k - 1] / step * difference;
+      const std::vector<Vec3> above = shifted(shift), below = shifted(-shift);
+      for (size_t a = 0; a < F.size(); ++a)
+        F[a].col(j) += weight[k - 1] / step * (above[a] - below[a]);
     }
   }
   return F;
@@ -78,25 +104,51 @@ void ExactErrors::measure_field(const std::string& name,
   norms.scale.linf = std::max(norms.scale.linf, f.linf);
 }
 
-/// What [exact] gives or what follows from it; the other fields stay empty.
-Snapshot ExactErrors::exact_snapshot(double t) const {
+/// What [exact] gives or what follows from it; the other fields stay empty. All expressions
+/// together: the functions that they share are evaluated once.
+Snapshot ExactErrors::exact_snapshot(double t) {
   const auto& exact = setup_.exact;
+  std::vector<functions::Expression> all;
+  const auto place_of = [&](const auto& field) {
+    const size_t first = all.size();
+    if (field) all.insert(all.end(), field->component.begin(), field->component.end());
+    return first;
+  };
+  const size_t of_v = place_of(exact.velocity), of_u = place_of(exact.displacement);
+  const size_t of_F = exact.displacement ? place_of(exact.deformation_gradient) : all.size();
+  const size_t of_P = exact.displacement ? place_of(exact.stress) : all.size();
+  const size_t n_values = all.size();
+  if (!placed_) placed_.emplace(std::move(all), graph_.X);
+  const std::vector<double> values = placed_->at(t);
   const size_t n = graph_.X.size();
+  const auto vectors = [&](size_t first) {
+    std::vector<Vec3> field(n);
+    for (size_t a = 0; a < n; ++a)
+      field[a] = Vec3(values.data() + a * n_values + first);
+    return field;
+  };
+  const auto tensors = [&](size_t first) {
+    std::vector<Mat3> field(n);
+    for (size_t a = 0; a < n; ++a)
+      field[a] = Mat3(values.data() + a * n_values + first).transpose();  // which stands row by row
+    return field;
+  };
   Snapshot s;
-  for (size_t a = 0; exact.velocity && a < n; ++a)
-    s.v.push_back((*exact.velocity)(graph_.X[a], t));
+  if (exact.velocity) s.v = vectors(of_v);
   if (!exact.displacement) return s;
-  for (size_t a = 0; a < n; ++a) {
-    s.u.push_back((*exact.displacement)(graph_.X[a], t));
-    s.F.push_back(exact_deformation_gradient(graph_.X[a], t));
-    const auto X = physics::deformation_of(algebra::to_tensor(s.F[a]));
+  s.u = vectors(of_u);
+  s.F = exact.deformation_gradient ? tensors(of_F) : exact_deformation_gradients(t);
+  for (const Mat3& F : s.F) {
+    const auto X = physics::deformation_of(algebra::to_tensor(F));
     s.H.push_back(algebra::to_eigen(X.H));
     s.J.push_back(X.J);
   }
-  if (!exact.stress && !setup_.material.branches.empty()) return s;
-  for (size_t a = 0; a < n; ++a)
-    s.P.push_back(exact.stress ? (*exact.stress)(graph_.X[a], t)
-                               : solver_.equilibrium_stress(s.F[a]));
+  if (exact.stress) {
+    s.P = tensors(of_P);
+  } else if (setup_.material.branches.empty()) {
+    for (const Mat3& F : s.F)
+      s.P.push_back(solver_.equilibrium_stress(F));
+  }
   return s;
 }
 

@@ -6,10 +6,12 @@
 /// F, H, A and S are measured against their difference from I, J against J - 1.
 
 #include "common/cases/case.hpp"
+#include "common/functions/placed_values.hpp"
 #include "common/io/run_record.hpp"
 #include "common/run/solver.hpp"
 
 #include <map>
+#include <optional>
 #include <string>
 
 namespace diptych::run {
@@ -47,12 +49,16 @@ class ExactErrors {
                      const std::vector<std::vector<Field>>& fields,
                      const std::vector<std::vector<Field>>& exact,
                      const Field& rest);
-  Snapshot exact_snapshot(double t) const;
-  Mat3 exact_deformation_gradient(const algebra::Vec3& X, double t) const;
+  Snapshot exact_snapshot(double t);
+  std::vector<Mat3> exact_deformation_gradients(double t);
+  std::vector<Mat3> differences_of_displacement(double t) const;
 
   const cases::Case& setup_;
   const scheme::PairGraph& graph_;
   const Solver& solver_;
+  std::optional<functions::PlacedExpressions> placed_;  ///< of [exact] at the nodes
+  std::optional<functions::PlacedValues> gradients_;    ///< of its displacement, where it has any
+  bool is_placed_ = false;                              ///< whether gradients_ was looked for
   Snapshot exact_;
   std::map<std::string, Norms> norms_;
   std::map<std::string, std::vector<double>> nodal_;

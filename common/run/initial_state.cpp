@@ -1,6 +1,7 @@
 #include "common/run/initial_state.hpp"
 
 #include "common/base/error.hpp"
+#include "common/functions/placed_values.hpp"
 #include "common/scheme/sweeps/strain_rates.hpp"
 
 #include <fmt/format.h>
@@ -75,8 +76,7 @@ std::vector<Mat3> discrete_deformation(scheme::Body<Dim>& body,
 
 /// As given by the case, in plane strain without a third direction.
 template <int Dim>
-Mat3 given_deformation(const functions::TensorExpression& F_of, const Vec3& X) {
-  Mat3 F = F_of(X, 0);
+Mat3 of_dimension(Mat3 F) {
   if (Dim == 2) {
     F.row(2) = Vec3::UnitZ().transpose();
     F.col(2) = Vec3::UnitZ();
@@ -90,21 +90,27 @@ template <int Dim>
 void set_initial_state(const cases::InitialCase& initial, double kappa_f, scheme::Body<Dim>& body) {
   const std::int64_t n = body.n_owned;
   const exact::Motion* motion = initial.motion.get();
-  std::vector<Vec3> u(n);
-  for (std::int64_t a = 0; a < n; ++a)
-    u[a] = motion ? motion->displacement(body.X[a], 0) : initial.displacement(body.X[a], 0);
+  const std::span<const Vec3> places(body.X.data(), static_cast<size_t>(n));
+  const auto given = [&](const functions::VectorExpression& field) {
+    return functions::vectors_at(field, places, 0);
+  };
+  const std::vector<Vec3> u =
+      motion ? motion->displacements(places, 0) : given(initial.displacement);
+  const std::vector<Vec3> velocity =
+      motion ? motion->velocities(places, 0) : given(initial.velocity);
+  std::vector<Mat3> given_F;
+  if (initial.deformation_gradient)
+    given_F = functions::tensors_at(*initial.deformation_gradient, places, 0);
   const std::vector<Mat3> discrete = discrete_deformation(body, u, kappa_f);
   for (std::int64_t a = 0; a < n; ++a) {
     const Vec3& X = body.X[a];
-    const Vec3 v = motion ? motion->velocity(X, 0) : initial.velocity(X, 0);
+    const Vec3& v = velocity[a];
     for (int i = 0; i < Dim; ++i) {
       body.u.set(a, i, u[a][i]);
       const double noise = initial.velocity_noise;
       body.v.set(a, i, noise == 0 ? v[i] : v[i] + noise * random_number(Dim * a + i));
     }
-    const Mat3 F = initial.deformation_gradient
-                       ? given_deformation<Dim>(*initial.deformation_gradient, X)
-                       : discrete[a];
+    const Mat3 F = given_F.empty() ? discrete[a] : of_dimension<Dim>(given_F[a]);
     if (!(F.determinant() > 0)) {
       throw base::InputError(
           fmt::format("initial displacement gives J = {:g} at the node at ({:g}, {:g}, {:g}); J "

@@ -1,5 +1,6 @@
 /// A case resolved for the solver: every name of a menu becomes what it stands for.
 
+#include "common/functions/placed_values.hpp"
 #include "common/run/body_solver.hpp"
 #include "common/run/boundary_group.hpp"
 #include "common/run/default_cfl.hpp"
@@ -11,32 +12,96 @@ namespace diptych::run {
 
 namespace {
 
+/// Expressions at the nodes of a patch.
+template <class Value>
+class PlacedLoad : public scheme::PlacedField<Value> {
+ public:
+  PlacedLoad(std::vector<functions::Expression> components, std::span<const algebra::Vec3> X)
+      : placed_(std::move(components), X) {}
+  std::vector<Value> at(double t) const override {
+    std::vector<double> components = placed_.at(t);
+    if constexpr (std::is_same_v<Value, double>) {
+      return components;
+    } else {
+      std::vector<Value> values(components.size() / 3);
+      for (size_t a = 0; a < values.size(); ++a)
+        values[a] = {components[3 * a], components[3 * a + 1], components[3 * a + 2]};
+      return values;
+    }
+  }
+
+ private:
+  functions::PlacedExpressions placed_;
+};
+
+scheme::VectorFunction field_of(const functions::VectorExpression& vector) {
+  return {vector, [vector](std::span<const algebra::Vec3> X) {
+            const auto& c = vector.component;
+            return std::make_unique<PlacedLoad<algebra::Vec3>>(
+                std::vector<functions::Expression>(c.begin(), c.end()), X);
+          }};
+}
+
+scheme::ScalarFunction field_of(const functions::Expression& scalar) {
+  return {scalar, [scalar](std::span<const algebra::Vec3> X) {
+            return std::make_unique<PlacedLoad<double>>(std::vector<functions::Expression>{scalar},
+                                                        X);
+          }};
+}
+
+/// Velocity of a motion at the nodes of a patch.
+class PlacedVelocity : public scheme::PlacedField<algebra::Vec3> {
+ public:
+  PlacedVelocity(const exact::Motion& motion, std::span<const algebra::Vec3> X)
+      : dimension_(static_cast<size_t>(motion.dimension())),
+        placed_(motion.program(), motion.rates(1), X) {}
+  std::vector<algebra::Vec3> at(double t) const override {
+    const auto n = static_cast<size_t>(placed_.n_places());
+    std::vector<double> components(n * dimension_);
+    placed_.at(t, components);
+    std::vector<algebra::Vec3> values(n, algebra::Vec3::Zero());
+    for (size_t k = 0; k < components.size(); ++k)
+      values[k / dimension_][static_cast<int>(k % dimension_)] = components[k];
+    return values;
+  }
+
+ private:
+  size_t dimension_;
+  functions::PlacedValues placed_;
+};
+
 /// Velocity of a motion; its traction comes from the known state.
-void follow_motion(const std::shared_ptr<const exact::Motion>& motion,
-                   scheme::BoundaryValues& values) {
-  values.vector = [motion](const algebra::Vec3& X, double t) { return motion->velocity(X, t); };
+void follow_motion(const scheme::VectorFunction& velocity, scheme::BoundaryValues& values) {
+  values.vector = velocity;
   values.known = true;
   values.depends_on_time = true;
 }
 
 scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::PairGraph& graph) {
   std::vector<scheme::PlacedCondition> conditions;
+  scheme::VectorFunction velocity;  // of the motion, one for all
+  if (const auto motion = setup.motion) {
+    velocity = {[motion](const algebra::Vec3& X, double t) { return motion->velocity(X, t); },
+                [motion](std::span<const algebra::Vec3> X) {
+                  return std::make_unique<PlacedVelocity>(*motion, X);
+                }};
+  }
   for (const cases::BoundaryCase& boundary : setup.boundaries) {
     const auto make = scheme::boundary_menu().at(boundary.type).make;
     scheme::BoundaryValues values;
-    values.vector = boundary.value;
-    values.scalar = boundary.pressure;
+    values.vector = field_of(boundary.value);
+    values.scalar = field_of(boundary.pressure);
     values.point = boundary.point;
     values.normal = boundary.normal;
     values.depends_on_time =
         boundary.value.depends_on_time() || boundary.pressure.depends_on_time();
-    if (boundary.manufactured) follow_motion(setup.motion, values);
+    if (boundary.manufactured) follow_motion(velocity, values);
     for (const std::string& group : boundary.groups) {
       conditions.push_back({make(values), &boundary_group(graph, group, boundary.where)});
     }
   }
   scheme::VectorFunction body_force;
-  if (!setup.body_force.is_zero()) body_force = setup.body_force;
+  if (!setup.body_force.is_zero()) body_force = field_of(setup.body_force);
   return {graph, std::move(conditions), body_force, setup.body_force.depends_on_time()};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fmt/format.h>
 #include <utility>
 
@@ -89,6 +90,8 @@ void Simulation::checkpoint_where_due() {
       (every > 0 && totals_.steps % every == 0) ||
       (checkpoints_.seconds > 0 &&
        std::chrono::duration<double>(Clock::now() - kept_at_).count() >= checkpoints_.seconds) ||
+      (checkpoints_.interval > 0 && std::floor(solver_.time() / checkpoints_.interval) >
+                                        std::floor(kept_time_ / checkpoints_.interval)) ||
       (checkpoints_.asked && checkpoints_.asked());
   if (is_due) checkpoint();
 }
@@ -101,6 +104,7 @@ void Simulation::checkpoint() {
   if (kept_ == totals_.steps) return;  // as it stands
   checkpoints_.write();
   kept_ = totals_.steps;
+  kept_time_ = solver_.time();
   kept_at_ = Clock::now();
 }
 
@@ -132,6 +136,7 @@ void Simulation::archive(algebra::Archive& archive) {
   }
   goes_on_ = true;
   kept_ = totals_.steps;
+  kept_time_ = solver_.time();
 }
 
 void Simulation::advance_to(double limit) {

@@ -31,9 +31,10 @@ const char* status_of(Ending ending);
 struct Checkpointing {
   std::int64_t every = 0;       ///< steps; 0: not by steps
   double seconds = 0;           ///< of the clock; 0: not by the clock
+  double interval = 0;          ///< s, of the scene; 0: not by its time
   std::function<bool()> asked;  ///< whether one is asked for now; may be empty
   std::function<void()> write;  ///< keeps the simulation as it stands; empty: never
-  bool is_regular() const { return every > 0 || seconds > 0; }
+  bool is_regular() const { return every > 0 || seconds > 0 || interval > 0; }
 };
 
 class Simulation {
@@ -96,6 +97,7 @@ class Simulation {
   std::optional<base::BreakdownError> breakdown_;
   Checkpointing checkpoints_;
   std::int64_t kept_ = -1;  // step
+  double kept_time_ = 0;    // s
   Clock::time_point kept_at_ = Clock::now();
   bool goes_on_ = false;  // from a checkpoint
 };

@@ -4,6 +4,7 @@
 
 #include "common/algebra/archive.hpp"
 #include "common/cases/case.hpp"
+#include "common/parallel/communicator.hpp"
 #include "common/scheme/body/snapshot.hpp"
 #include "common/scheme/budget/audit.hpp"
 #include "common/scheme/graph/pair_graph.hpp"
@@ -38,7 +39,17 @@ class Solver {
   /// with no retries as it has ended up
   virtual StepReport step(double t_limit) = 0;
   virtual double time() const = 0;
-  /// Whether all nodes have J > 0 and finite rates.
+  /// Shares the body with other ranks, which have the same solver, at the same state: each works
+  /// its part from now on. All ranks then make the same calls of what is not const, of balance(),
+  /// snapshot() and exact_state(); rank 0 alone has their whole results.
+  /// @param partition  of parallel::partitioners()
+  /// @throws base::InputError where there are too many ranks, on all of them
+  virtual void divide(parallel::Communicator& ranks, const std::string& partition) = 0;
+  /// Brings all that state_hash() and archive() read to rank 0.
+  virtual void gather() = 0;
+  /// Largest work of a rank over the mean.
+  virtual double imbalance() const = 0;
+  /// Whether all nodes have J > 0, internal variables that are positive definite and finite values.
   virtual bool is_sound() const = 0;
   virtual scheme::Balance balance() const = 0;
   virtual const scheme::Audit& audit() const = 0;

@@ -1,6 +1,5 @@
 /// A step of leapfrog in its kick-drift-kick form (schemes/leapfrog.hpp): one evaluation a step.
 
-#include "common/parallel/for_chunks.hpp"
 #include "common/scheme/sweeps/update.hpp"
 #include "common/time/step_begin.hpp"
 
@@ -10,9 +9,10 @@ namespace {
 
 template <int Dim>
 void kick(scheme::Body<Dim>& body, double dt, bool keep_F) {
-  parallel::for_chunks(body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-    scheme::kick(body, dt, keep_F, begin, end);
-  });
+  parallel::for_chunks(body.part(), body.n_blocks,
+                       [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+                         scheme::kick(body, dt, keep_F, begin, end);
+                       });
 }
 
 }  // namespace
@@ -36,13 +36,11 @@ double leapfrog_step(MovingBody<Dim>& moving, double t_limit) {
   const double old_loads = boundary.power_of_loads(body);
   rate.external_work = 0.5 * old_loads;
   rate.external_work += 0.5 * boundary.power_of_constraints(body, 0.5);
-  exchange(body);
   const Rule rule = moving.has_branches() ? Rule::linear : Rule::frozen;
   sweeps.strain_rates(body, {rule, true, dt, sweeps.material().branches()}, nullptr, dt);
   if (!is_sound(moving)) return dt;
   // D_ab kicks twice, after it is summed and before: of one kick alone the budget is off by its lag
   rate.numerical_dissipation = 0.5 * sweeps.old_numerical_power(body, old_loads);
-  exchange(body);
   sweeps.sum_forces(body, true);
   load_rates = boundary.add_loads(body, t + dt);
   rate.external_work += 0.5 * load_rates.power;

@@ -3,6 +3,7 @@
 #include "common/base/error.hpp"
 #include "common/scheme/body/health.hpp"
 #include "common/scheme/budget/angular_momentum.hpp"
+#include "common/scheme/ranks/exchange.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,7 @@ double choose_dt(MovingBody<Dim>& moving, double t_limit) {
   const double dt = left / std::max(n, 1.0);
   if (clock.step == 0) clock.first_dt = dt;
   if (!(dt > clock.least_share * clock.first_dt) || clock.time + dt == clock.time) {
+    scheme::gather_state(moving.body);
     throw scheme::collapse_error(moving.body, clock.step + 1, clock.time, dt, clock.first_dt,
                                  clock.least_share);
   }

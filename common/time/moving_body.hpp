@@ -72,8 +72,4 @@ void book(MovingBody<Dim>& moving, const scheme::ConstraintAction& action);
 template <int Dim>
 void keep_angular_momentum(MovingBody<Dim>& moving);
 
-/// Where ranks will exchange what neighbours read; one rank has all of it.
-template <int Dim>
-void exchange(scheme::Body<Dim>&) {}
-
 }  // namespace diptych::time

@@ -57,6 +57,7 @@ void archive_boundary(scheme::AppliedBoundary& boundary, Archive& archive) {
   archive.vectors("boundary/target", "m/s", state.target, n_targets);
   const auto n_forces = static_cast<std::int64_t>(state.forces.size());
   archive.vectors("boundary/forces", "N", state.forces, n_forces);
+  archive.real("boundary/time of body loads", "s", state.body_loads);
   std::vector<std::int64_t> closed(state.closed.begin(), state.closed.end());
   archive.integers("boundary/closed", closed, static_cast<std::int64_t>(closed.size()));
   if (!archive.is_loading()) return;

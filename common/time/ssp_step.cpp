@@ -1,7 +1,6 @@
 /// A step of the strong-stability-preserving Runge-Kutta schemes in the form of Shu and Osher
 /// (J. Comput. Phys. 77, 1988): coefficients in schemes/, each with its source.
 
-#include "common/parallel/for_chunks.hpp"
 #include "common/scheme/sweeps/update.hpp"
 #include "common/time/step_begin.hpp"
 
@@ -11,9 +10,10 @@ namespace {
 
 template <int Dim>
 void combine_motion(scheme::Body<Dim>& body, const scheme::StageCombination& stage) {
-  parallel::for_chunks(body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-    scheme::update_motion(body, stage, begin, end);
-  });
+  parallel::for_chunks(body.part(), body.n_blocks,
+                       [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+                         scheme::update_motion(body, stage, begin, end);
+                       });
 }
 
 /// How the internal variables follow at the end of a stage (notes 5.2, 5.3).
@@ -41,7 +41,6 @@ double ssp_step(MovingBody<Dim>& moving, double t_limit) {
   for (size_t i = 0; i < n_stages; ++i) {
     const SspStage& now = integrator.stages[i];
     const bool first = i == 0, last = i + 1 == n_stages;
-    exchange(body);
     sweeps.sum_forces(body, first);  // (18a) + D_ab, step bound
     if (first) {
       dt = choose_dt(moving, t_limit);
@@ -56,7 +55,6 @@ double ssp_step(MovingBody<Dim>& moving, double t_limit) {
     if (last) keep_angular_momentum(moving);
     book(moving, last ? boundary.constrain(body, clock.time + now.time * dt)
                       : boundary.constrain_stage(body, stage, combination(i + 1), fraction));
-    exchange(body);
     sweeps.strain_rates(body, relaxation_of(moving, now.time * dt, last), &stage, 0);  // (18b-d)
     if (!is_sound(moving)) break;
     fraction = now.time;

@@ -1,7 +1,5 @@
 #include "common/time/step_begin.hpp"
 
-#include "common/parallel/for_chunks.hpp"
-
 #include <string>
 
 namespace diptych::time {
@@ -75,25 +73,27 @@ void StepBegin<Dim>::list_places(const MovingBody<Dim>& moving) {
 
 template <int Dim>
 void StepBegin<Dim>::copy(scheme::Body<Dim>& body) {
-  parallel::for_chunks(body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-    for (const Place& place : places_) {
-      if (place.own < 0 && !is_leapfrog_) continue;
-      for_both(place, body, [&](const auto& from, BlockField& to) {
-        copy_components(from, place.first, to, place.first_kept, place.n, begin, end);
+  parallel::for_chunks(
+      body.part(), body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+        for (const Place& place : places_) {
+          if (place.own < 0 && !is_leapfrog_) continue;
+          for_both(place, body, [&](const auto& from, BlockField& to) {
+            copy_components(from, place.first, to, place.first_kept, place.n, begin, end);
+          });
+        }
       });
-    }
-  });
 }
 
 template <int Dim>
 void StepBegin<Dim>::put_back(scheme::Body<Dim>& body) {
-  parallel::for_chunks(body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-    for (const Place& place : places_) {
-      for_both(place, body, [&](auto& to, const BlockField& from) {
-        copy_components(from, place.first_kept, to, place.first, place.n, begin, end);
+  parallel::for_chunks(
+      body.part(), body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+        for (const Place& place : places_) {
+          for_both(place, body, [&](auto& to, const BlockField& from) {
+            copy_components(from, place.first_kept, to, place.first, place.n, begin, end);
+          });
+        }
       });
-    }
-  });
 }
 
 template <int Dim>

@@ -72,7 +72,8 @@ inline constexpr double growth_after_rejection = 1.2;
 template <int Dim>
 double attempt_step(MovingBody<Dim>& moving, double t_limit);
 
-/// Whether all nodes have J > 0 and finite rates after the last stage or step.
+/// Whether all nodes are sound after the last stage or step: J > 0, internal variables positive
+/// definite, values finite.
 template <int Dim>
 bool is_sound(const MovingBody<Dim>& moving) {
   return moving.sweeps.least_J() > 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 
 namespace diptych::report {
@@ -69,6 +70,19 @@ std::optional<GridConvergence> finest_convergence(const std::vector<double>& spa
 
 double two_grid_error_bar(const double (&h)[2], const double (&f)[2], double formal_order) {
   return 3 * std::abs(f[1] - f[0]) / (std::pow(h[1] / h[0], formal_order) - 1);
+}
+
+std::string why_unresolved(const std::optional<GridConvergence>& estimate,
+                           double scale,
+                           double formal_order) {
+  if (!estimate) return "has fewer than three levels";
+  if (estimate->kind == Convergence::same) return "";
+  if (estimate->kind != Convergence::monotone) return convergence_name(estimate->kind);
+  if (!(std::abs(estimate->order - formal_order) <= order_tolerance))
+    return fmt::format("shows order {:.2g} (its own is {:g})", estimate->order, formal_order);
+  const double index = estimate->error_bar / scale;
+  if (!(index <= largest_index)) return fmt::format("has an error bar of {:.2g} %", 100 * index);
+  return "";
 }
 
 std::string convergence_name(Convergence kind) {

@@ -32,6 +32,7 @@ struct GridSeries {
   std::string method;
   std::vector<GridPoint> points;
   std::optional<GridConvergence> estimate;  ///< of the finest level: three grids or more
+  double formal_order = 2;                  ///< of the method as it ran
 };
 
 /// Values of a probe from elsewhere.

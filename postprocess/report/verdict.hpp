@@ -1,7 +1,8 @@
 #pragma once
 /// What a study says, in a few sentences of plain words for the top of its page: what broke down,
-/// which method errs less and at what cost, whether the methods agree. Where they are further apart
-/// than half of the scale the study is too coarse to say.
+/// which method errs less and at what cost, whether the methods agree, of the quantities that both
+/// resolve (grid_convergence.hpp). Where they are further apart than half of the scale the study is
+/// too coarse to say.
 /// Test: tests/report/verdict_test.cpp
 
 #include "postprocess/report/study_report.hpp"
@@ -42,6 +43,10 @@ struct Pair {
   const io::RunSummary& b() const { return second.back(); }
   std::vector<std::string> fields() const;  ///< with an error of both at that level
 };
+
+/// Why the levels of two methods allow no verdict on a quantity ("SPH oscillates; finite volume
+/// shows order 1.1 (its own is 2)"); empty where they do.
+std::string why_unresolved(const std::vector<GridSeries>& series, double scale);
 
 /// Largest size that a quantity has over the run, so that one that ends near zero is not judged by
 /// its last value; of an energy or a dissipation the largest energy that there is.

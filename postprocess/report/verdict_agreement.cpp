@@ -41,11 +41,23 @@ bool agree(const GridPoint& a, const GridPoint& b) {
          apart <= shown * std::max(std::abs(a.value), std::abs(b.value));
 }
 
+std::string why_unresolved(const std::vector<GridSeries>& series, double scale) {
+  std::string all;
+  for (const GridSeries& one : series) {
+    const std::string why = why_unresolved(one.estimate, scale, one.formal_order);
+    if (why.empty()) continue;
+    if (!all.empty()) all += "; ";
+    all += method_in_sentence(one.method) + " " + why;
+  }
+  return all;
+}
+
 namespace {
 
 /// Quantities by what refinement says of them.
 struct Agreement {
-  std::vector<std::string> within, beyond, too_coarse;  ///< names
+  std::vector<std::string> within, beyond;  ///< names
+  std::vector<std::string> unresolved;      ///< names with the reason, HTML
   size_t n_first = 0, n_second = 0;  ///< of those judged: where that method has the narrower bar
   size_t n_judged() const { return within.size() + beyond.size(); }
 };
@@ -57,11 +69,11 @@ Agreement agreement_of(const StudyReport& study, const Pair& pair) {
     const bool same_order = series[0].method == pair.a().method;
     const GridPoint& a = series[same_order ? 0 : 1].points.back();
     const GridPoint& b = series[same_order ? 1 : 0].points.back();
-    if (a.level != b.level || a.error_bar == 0 || b.error_bar == 0) continue;
+    if (a.level != b.level || a.level == 0) continue;
     const double scale = scale_of(study, quantity.first, quantity.second, series);
-    const double apart = std::abs(a.value - b.value), bars = a.error_bar + b.error_bar;
-    if (apart > too_far_apart * scale || bars > too_far_apart * scale) {
-      agreement.too_coarse.push_back(quantity.first);
+    const std::string why = why_unresolved(series, scale);
+    if (!why.empty()) {
+      agreement.unresolved.push_back(escaped(quantity.first + " (" + why + ")"));
       continue;
     }
     (agree(a, b) ? agreement.within : agreement.beyond).push_back(quantity.first);
@@ -108,11 +120,11 @@ std::vector<std::string> agreement_sentences(const StudyReport& study,
                     n_within, n, names_html(agreement.beyond)));
   }
   if (n > 0 && !has_errors) sentences.insert(sentences.begin(), nearer_sentence(agreement, pair));
-  if (!agreement.too_coarse.empty()) {
+  if (!agreement.unresolved.empty()) {
     const std::string sentence = fmt::format(
-        "Too coarse to say of {}: the values are further apart, or their error bars wider, than "
-        "half of the scale.",
-        names_html(agreement.too_coarse));
+        "{} of {} quantities {} unresolved: {}.", agreement.unresolved.size(),
+        n + agreement.unresolved.size(), agreement.unresolved.size() == 1 ? "is" : "are",
+        fmt::join(agreement.unresolved, ", "));
     sentences.insert(n > 0 ? sentences.end() : sentences.begin(), sentence);
   }
   return sentences;

@@ -33,8 +33,9 @@ TEST(CopyOfTheCase, RunsToTheSameState) {
                                     "--set time.end=5e-4 --set title='a \"pair\"' --out out");
   ASSERT_EQ(first.exit_code, 0) << first.text;
   for (const char* copy : {"out/case.toml", "out/fvm/case.toml"}) {
-    const auto second = tests::diptych(
-        folder, std::string("run ") + copy + " --method fvm --threads 1 --quiet --out again");
+    const auto second =
+        tests::diptych(folder, std::string("run ") + copy +
+                                   " --method fvm --threads 1 --quiet --force --out again");
     ASSERT_EQ(second.exit_code, 0) << second.text;
     const auto a = summary_in(folder.path() / "out" / "fvm"),
                b = summary_in(folder.path() / "again" / "fvm");

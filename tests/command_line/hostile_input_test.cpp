@@ -92,7 +92,7 @@ TEST(CommandLine, OutputThatDoesNotArriveIsAnError) {
       "--version",
       "material " + cube + " --end 1 --path shear-step --amplitude 0.1 --out out",
       "check " + cube + " --method fvm",
-      "run " + cube + " --quiet --threads 1 --method fvm --out out"};
+      "run " + cube + " --quiet --threads 1 --method fvm --force --out out"};
   for (const std::string& words : all) {
     for (const char* output : {" >/dev/full", " >&-"}) {
       const auto outcome =

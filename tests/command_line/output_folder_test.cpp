@@ -35,7 +35,10 @@ TEST_F(OutputFolder, HoldsNothingOfAnEarlierRun) {
   ASSERT_TRUE(has("fvm/frame_0002.hdf") && has("report.html") && has("sph/summary.json"));
   folder.write("out/notes.txt", "mine");
   folder.write("out/fvm/view.pvsm", "mine");
-  diptych("run --method sph --no-fields" + cube);
+  EXPECT_THAT(
+      diptych("run --method sph" + cube, 2).text,
+      HasSubstr("out/sph, out/fvm: are runs that finished; give another --out, or --force"));
+  diptych("run --method sph --no-fields --force" + cube);
   EXPECT_TRUE(has("sph/summary.json"));
   EXPECT_FALSE(has("report.html") || has("fvm/summary.json") || has("fvm/history.csv") ||
                has("fvm/frame_0002.hdf") || has("fvm/mesh.hdf") || has("fvm/case.toml"));
@@ -54,7 +57,7 @@ TEST_F(OutputFolder, HoldsNoStepsOfAnEarlierCase) {
   diptych("run case.toml");
   ASSERT_TRUE(has("fvm/steps.csv"));
   folder.write("case.toml", body + probe);
-  diptych("run case.toml");
+  diptych("run case.toml --force");
   EXPECT_FALSE(has("fvm/steps.csv"));
 }
 
@@ -74,7 +77,9 @@ TEST_F(OutputFolder, SetsFinishedLevelsAsideAndTakesThemOverLater) {
   EXPECT_FALSE(has("earlier"));
   // other overrides make other runs: nothing of those before is left where it could be taken for
   // one of them
-  diptych("converge" + cube + "--levels 2 --set scheme.dissipation=0.9");
+  const std::string changed = "converge" + cube + "--levels 2 --set scheme.dissipation=0.9";
+  EXPECT_THAT(diptych(changed, 2).text, HasSubstr("out/level_1/fvm: are runs that finished"));
+  diptych(changed + " --force");
   EXPECT_FALSE(has("level_2"));
   EXPECT_THAT(text_of(folder.path() / "out" / "case.toml"), HasSubstr("scheme.dissipation=0.9"));
 }
@@ -94,7 +99,8 @@ TEST_F(OutputFolder, OfAnotherCaseIsNotOverwrittenWithoutForce) {
   EXPECT_TRUE(has("fvm/summary.json"));
   EXPECT_FALSE(has("level_0") || has("level_1") || has("convergence.csv") || has("report.html"));
   EXPECT_EQ(text_of(folder.path() / "out" / "notes.txt"), "mine");
-  diptych("run" + other + "--method fvm --set time.cfl=0.5");  // the same case: other overrides
+  diptych("run" + other +
+          "--method fvm --force --set time.cfl=0.5");  // the same case: other overrides
   const auto refused = diptych("study --levels 1 --repeats 1" + cube, 2);
   EXPECT_THAT(refused.text, HasSubstr("swinging-cube-elastic-hex"));
 }
@@ -109,8 +115,10 @@ TEST_F(OutputFolder, TellsCasesOfOneNameApartByTheirFiles) {
   }
   diptych("run a/cube/case.toml --method fvm");
   EXPECT_THAT(diptych("run b/cube/case.toml --method fvm", 2).text, HasSubstr("a/cube/case.toml"));
-  diptych("run ./b/../a/cube --method fvm");  // the same file
-  diptych("run out/case.toml --method fvm");  // its copy
+  EXPECT_THAT(diptych("run ./b/../a/cube --method fvm", 2).text,
+              HasSubstr("is a run that finished"))
+      << "the same file";
+  diptych("run out/case.toml --method fvm --force");  // its copy
   diptych("run b/cube/case.toml --method fvm --force");
 }
 

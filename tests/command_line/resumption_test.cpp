@@ -70,13 +70,14 @@ TEST_F(Resumption, RunsAgainWhatWasKilledAndWhatIsCutOff) {
 
 TEST_F(Resumption, TakesOverNothingOfAnotherCaseProgramOrOnDemand) {
   EXPECT_EQ(n_taken_over(diptych(folder, study + "--fresh").text), 0);
-  EXPECT_EQ(n_taken_over(diptych(folder, study + "--set scheme.dissipation=0.9").text), 0);
-  EXPECT_EQ(n_taken_over(diptych(folder, study).text), 0) << "the folder holds the other case now";
+  EXPECT_EQ(n_taken_over(diptych(folder, study + "--force --set scheme.dissipation=0.9").text), 0);
+  EXPECT_EQ(n_taken_over(diptych(folder, study + "--force").text), 0)
+      << "the folder holds the other case now";
   const std::string text = text_of(summary(0, "sph"));
   const size_t at = text.find("\"program\": \"");
   ASSERT_NE(at, std::string::npos);
   replace(summary(0, "sph"), text.substr(at, 16), "\"program\": \"????");
-  EXPECT_EQ(n_taken_over(diptych(folder, study).text), 3);
+  EXPECT_EQ(n_taken_over(diptych(folder, study + "--force").text), 3);
 }
 
 TEST_F(Resumption, AsksForQuantitiesByNameAndKnowsThem) {

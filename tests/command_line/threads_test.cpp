@@ -20,8 +20,9 @@ TEST(Threads, AreThoseOfTheEnvironmentAndOfTheRange) {
   const Folder folder;
   folder.write("case.toml", cube + "[time]\nend = 1e-3\n[output]\nfields = false\n");
   const auto threads_with = [&](const std::string& before, const std::string& arguments) {
-    const auto outcome = shell(folder, before + " $diptych run case.toml --method fvm --quiet " +
-                                           arguments + " --out out");
+    const auto outcome =
+        shell(folder, before + " $diptych run case.toml --method fvm --quiet --force " + arguments +
+                          " --out out");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
     return summary_in(folder.path() / "out" / "fvm").threads;
   };
@@ -36,7 +37,7 @@ TEST(Threads, AreThoseOfTheEnvironmentAndOfTheRange) {
     EXPECT_THAT(outcome.text, AllOf(HasSubstr("--threads"), HasSubstr("0"), HasSubstr("1024")));
   }
   const auto limited =
-      shell(folder, "OMP_THREAD_LIMIT=2 $diptych run case.toml --threads 3 --out out");
+      shell(folder, "OMP_THREAD_LIMIT=2 $diptych run case.toml --threads 3 --force --out out");
   EXPECT_EQ(limited.exit_code, 2) << limited.text;
   EXPECT_THAT(limited.text, HasSubstr("OMP_THREAD_LIMIT"));
 }

@@ -59,6 +59,23 @@ TEST(DeformedCells, AnAffineMotionGivesEveryCellItsDeterminant) {
   }
 }
 
+TEST(DeformedCells, EightTogetherHaveTheBitsOfOne) {
+  for (const CellType type : all_types) {
+    SCOPED_TRACE(name_of(type));
+    const Mesh mesh = moved_box(type);
+    std::vector<Vec3> u;
+    for (const Vec3& X : mesh.nodes)
+      u.emplace_back(0.1 * X[1] * X[0], -0.2 * X[0] * X[0], mesh.dimension == 3 ? 0.1 * X[1] : 0);
+    std::vector<Vec3> x(mesh.nodes);
+    for (size_t a = 0; a < x.size(); ++a)
+      x[a] += u[a];
+    double least = 1e300;
+    for (std::int64_t c = 0; c < mesh.n_cells(); ++c)
+      least = std::min(least, signed_volume(mesh, c, x) / signed_volume(mesh, c, mesh.nodes));
+    EXPECT_EQ(DeformedCells(mesh).least(u).J, least);
+  }
+}
+
 TEST(DeformedCells, OneNodeThatPassesThroughALayerIsSeen) {
   for (const CellType type : all_types) {
     SCOPED_TRACE(name_of(type));

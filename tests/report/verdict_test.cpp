@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -110,12 +111,32 @@ TEST(Verdict, ComparesErrorBarsWhereThereIsNoExactSolution) {
                       "strain energy.")));
 }
 
-TEST(Verdict, IsTooCoarseToSayOfAQuantityWithABarOfMoreThanHalf) {
+TEST(Verdict, IsGivenOfWhatBothMethodsResolveOnly) {
   StudyReport study = without_errors(test::full_study());
   study.histories.clear();  // the scale is then that of the values, 1.17
-  study.quantities.begin()->second[0].points.back().error_bar = 0.7;
-  EXPECT_THAT(verdict_text(study), AllOf(StartsWith("Too coarse to say of strain energy"),
-                                         Not(HasSubstr("agree within"))));
+  auto& series = study.quantities.begin()->second;
+  const GridConvergence good = *series[0].estimate;
+  const auto verdict_with = [&](const std::optional<GridConvergence>& estimate) {
+    series[0].estimate = estimate;
+    return verdict_text(study);
+  };
+  EXPECT_THAT(verdict_with(good), HasSubstr("On strain energy they agree within"));
+  for (const auto& [estimate, why] :
+       std::vector<std::pair<std::optional<GridConvergence>, std::string>>{
+           {std::nullopt, "SPH has fewer than three levels"},
+           {GridConvergence{Convergence::oscillating, NAN, NAN, 0.01, 0.01}, "SPH oscillates"},
+           {GridConvergence{Convergence::monotone, 1.4, 1, 0.01, 0.01},
+            "SPH shows order 1.4 (its own is 2)"},
+           {GridConvergence{Convergence::monotone, 2.6, 1, 0.01, 0.01}, "SPH shows order 2.6"},
+           {GridConvergence{Convergence::monotone, 2, 1, 0.07, 0.07},
+            "SPH has an error bar of 6 %"}}) {
+    EXPECT_THAT(verdict_with(estimate),
+                AllOf(StartsWith("1 of 1 quantities is unresolved: strain energy (" + why),
+                      Not(HasSubstr("agree within"))));
+  }
+  series[0].formal_order = 3;  // of a method that sums by parts
+  EXPECT_THAT(verdict_with(GridConvergence{Convergence::monotone, 2.6, 1, 0.01, 0.01}),
+              HasSubstr("agree within"));
 }
 
 TEST(Verdict, NamesWhatBrokeDownFirst) {

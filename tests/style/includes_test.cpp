@@ -152,6 +152,9 @@ TEST(ThirdParty, StandsInOneRoom) {
   EXPECT_EQ(with("common/run/a.cpp", "nlohmann/json.hpp").size(), 1U);
   EXPECT_EQ(with("postprocess/report/a.cpp", "vtkActor.h").size(), 1U);
   EXPECT_EQ(with("common/scheme/a.cpp", "omp.h").size(), 1U);
+  EXPECT_THAT(with("common/mpi/module.cpp", "mpi.h"), IsEmpty());
+  EXPECT_EQ(with("common/parallel/a.cpp", "mpi.h").size(), 1U);
+  EXPECT_EQ(with("meshes/a.cpp", "metis.h").size(), 1U);
   EXPECT_THAT(with("sph/a.cpp", "boost/any.hpp"), ElementsAre(HasSubstr("unknown library")));
 }
 

@@ -46,7 +46,12 @@ SectionEntry time_section() {
                {"s", at_least(0),
                 "The same after so many seconds of the clock since the last one, with the step "
                 "that ends then. 0: never.",
-                "1800"});
+                "1800"})
+          .key("checkpoint_interval", &TimeCase::checkpoint_interval,
+               {"s", at_least(0),
+                "The same with the first step that ends at or after each multiple of this time of "
+                "the scene. 0: never.",
+                "0.1"});
   return plain_section({"time", false, "How long and how."}, keys, &Case::time);
 }
 

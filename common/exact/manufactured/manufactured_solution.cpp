@@ -1,8 +1,10 @@
 #include "common/exact/manufactured/manufactured_solution.hpp"
 
 #include "common/base/error.hpp"
-#include "common/parallel/for_chunks.hpp"
+#include "common/functions/placed_values.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 
@@ -12,23 +14,9 @@ using algebra::n_lanes;
 
 namespace {
 
-/// Nodes in blocks of eight; the last one is filled up with its last node.
-std::vector<LanePlace> lane_places(const std::vector<Vec3>& X) {
-  std::vector<LanePlace> places((X.size() + n_lanes - 1) / n_lanes);
-  for (size_t a = 0; a < places.size() * n_lanes; ++a) {
-    const Vec3& from = X[std::min(a, X.size() - 1)];
-    for (int i = 0; i < 3; ++i)
-      places[a / n_lanes].X[i][a % n_lanes] = from[i];
-  }
-  return places;
-}
-
-template <int Dim>
-Mat3 value_at(const algebra::Tensor<algebra::Dual<Lanes, Dim>>& A, int lane) {
-  Mat3 M;
-  for (int k = 0; k < 9; ++k)
-    M(k / 3, k % 3) = A(k / 3, k % 3).v[lane];
-  return M;
+std::vector<int> joined(std::vector<int> first, const std::vector<int>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
 }
 
 template <int Dim>
@@ -51,14 +39,13 @@ ManufacturedSolution<Dim>::ManufacturedSolution(std::shared_ptr<const Motion> mo
                                                 Stress stress)
     : motion_(std::move(motion)),
       X_(X),
-      places_(lane_places(X)),
       rho_R_(rho_R),
       stress_of_(std::move(stress)),
-      history_(*motion_, places_, std::move(branches), relaxed, end),
+      history_(*motion_, X_, std::move(branches), relaxed, end),
+      placed_(motion_->program(), joined(motion_->gradients(), motion_->rates(2)), X_),
       time_(std::numeric_limits<double>::quiet_NaN()),
-      body_force_(X.size()),
-      F_(X.size()),
-      P_(X.size()) {
+      body_forces_(static_cast<std::int64_t>(X.size()), Dim),
+      P_(static_cast<std::int64_t>(X.size()), 9) {
   move_to(0);
 }
 
@@ -66,50 +53,97 @@ template <int Dim>
 void ManufacturedSolution<Dim>::move_to(double t) {
   if (t == time_) return;
   history_.move_to(t);
-  at_time_ = motion_->tape().at_time(t);
-  parallel::for_chunks(static_cast<std::int64_t>(places_.size()),
-                       [&](auto begin, auto end, auto) { evaluate(begin, end); });
+  const Program::Instant instant = placed_.at(t);
+  std::vector<char> is_sound(static_cast<size_t>(placed_.n_strips()));
+  placed_.for_strips([&](std::int64_t strip, Program::Workspace& workspace) {
+    is_sound[static_cast<size_t>(strip)] = evaluate(strip, t, instant, workspace);
+  });
   time_ = t;
-  check();
+  const auto unsound = std::find(is_sound.begin(), is_sound.end(), 0);
+  if (unsound != is_sound.end()) refuse_strip(unsound - is_sound.begin(), t);
 }
 
-/// f_i = rho_R a_i - sum_I dP_iI/dX_I of blocks [begin, end).
+/// f_i = rho_R a_i - sum_I dP_iI/dX_I of a strip. @return whether J > 0 and all is finite
 template <int Dim>
-void ManufacturedSolution<Dim>::evaluate(std::int64_t begin, std::int64_t end) {
-  TapeEvaluation<Lanes, Dim, true> evaluated(motion_->tape());
-  for (std::int64_t b = begin; b < end; ++b) {
-    evaluated.place(places_[b].X);
-    evaluated.time(at_time_);
-    const auto F = deformation_gradient<Dim>(*motion_, evaluated);
-    algebra::Tensor<Scalar> P;
-    stress_of_(F, history_.at(b), P);
-    Lanes force[3] = {Lanes{}, Lanes{}, Lanes{}};
-    for (int i = 0; i < Dim; ++i) {
-      const auto& u = evaluated[motion_->component(i)];
-      force[i] = rho_R_ * u.dd[u.index(Dim, Dim)];
-      for (int I = 0; I < Dim; ++I)
-        force[i] = force[i] - P(i, I).d[I];
-    }
-    const std::int64_t first = b * n_lanes;
-    const auto n_nodes = static_cast<std::int64_t>(X_.size());
-    for (int lane = 0; lane < n_lanes && first + lane < n_nodes; ++lane) {
-      body_force_[first + lane] = {force[0][lane], force[1][lane], force[2][lane]};
-      F_[first + lane] = value_at<Dim>(F, lane);
-      P_[first + lane] = value_at<Dim>(P, lane);
-    }
+bool ManufacturedSolution<Dim>::evaluate(std::int64_t strip,
+                                         double t,
+                                         const Program::Instant& instant,
+                                         Program::Workspace& workspace) {
+  placed_.evaluate(strip, t, instant, workspace);
+  const DeformationGradient<Dim> gradient(placed_, strip, instant, workspace);
+  Program::Blocks acceleration[Dim];
+  for (int i = 0; i < Dim; ++i) {
+    acceleration[i] =
+        placed_.result(DeformationGradient<Dim>::n_rows + i, strip, instant, workspace);
   }
+  const std::int64_t n_blocks = algebra::n_blocks_of(static_cast<std::int64_t>(X_.size()));
+  bool is_sound = true;
+  for (int w = 0; w < placed_.width(); ++w) {
+    const std::int64_t b = strip * placed_.width() + w;
+    if (b >= n_blocks) break;
+    BlockStress<Dim> stress;
+    stress_of_(gradient.at(w), history_.at(b), stress);
+    Lanes all = Lanes{};  // times zero: zero, or no number
+    for (int i = 0; i < Dim; ++i) {
+      const Lanes force = rho_R_ * acceleration[i][w] - stress.divergence[i];
+      body_forces_.put(b, i, force);
+      all = all + 0.0 * force;
+    }
+    for (int k = 0; k < 9; ++k) {
+      P_.put(b, k, stress.P(k / 3, k % 3));
+      all = all + 0.0 * stress.P(k / 3, k % 3);
+    }
+    is_sound = is_sound && algebra::all_below(all - stress.J, 0);
+  }
+  return is_sound;
 }
 
 template <int Dim>
-void ManufacturedSolution<Dim>::check() const {
-  for (size_t a = 0; a < X_.size(); ++a) {
-    const double J = F_[a].determinant();
-    if (J > 0 && body_force_[a].allFinite() && P_[a].allFinite()) continue;
+void ManufacturedSolution<Dim>::refuse_strip(std::int64_t strip, double t) const {
+  const std::int64_t per_strip = placed_.width() * n_lanes, first = strip * per_strip;
+  const auto n = static_cast<std::int64_t>(X_.size());
+  scheme::Snapshot s;
+  put_deformations(s);
+  for (std::int64_t a = first; a < std::min(n, first + per_strip); ++a) {
+    bool is_finite = stress(a).allFinite();
+    for (int i = 0; i < Dim; ++i)
+      is_finite = is_finite && std::isfinite(body_forces_.at(a, i));
+    const auto at = static_cast<size_t>(a);
+    const double J = s.J[at];
+    if (J > 0 && is_finite) continue;
     throw base::InputError(fmt::format(
         "manufactured.displacement gives {} at the node at ({:g}, {:g}, {:g}), t = {:g}; write a "
         "motion that is smooth and keeps J > 0 in the whole body up to time.end",
-        J <= 0 ? fmt::format("J = {:g}", J) : "a value that is not finite", X_[a][0], X_[a][1],
-        X_[a][2], time_));
+        J <= 0 ? fmt::format("J = {:g}", J) : "a value that is not finite", X_[at][0], X_[at][1],
+        X_[at][2], t));
+  }
+  throw base::InputError("manufactured.displacement gives a value that is not finite");
+}
+
+template <int Dim>
+Mat3 ManufacturedSolution<Dim>::stress(std::int64_t node) const {
+  Mat3 P;
+  for (int k = 0; k < 9; ++k)
+    P(k / 3, k % 3) = P_.at(node, k);
+  return P;
+}
+
+/// F, H, J at the last time.
+template <int Dim>
+void ManufacturedSolution<Dim>::put_deformations(scheme::Snapshot& s) const {
+  const std::vector<int>& gradients = motion_->gradients();
+  const std::vector<int> first(gradients.begin(), gradients.begin() + Dim * Dim);
+  const functions::PlacedValues values(motion_->program(), first, X_);
+  std::vector<double> of_all(X_.size() * first.size());
+  values.at(time_, of_all);
+  for (size_t a = 0; a < X_.size(); ++a) {
+    Mat3 F = Mat3::Identity();
+    for (int k = 0; k < Dim * Dim; ++k)
+      F(k / Dim, k % Dim) += of_all[a * first.size() + static_cast<size_t>(k)];
+    const auto X = physics::deformation_of(algebra::to_tensor(F));
+    s.F.push_back(F);
+    s.H.push_back(algebra::to_eigen(X.H));
+    s.J.push_back(X.J);
   }
 }
 
@@ -119,15 +153,11 @@ scheme::Snapshot ManufacturedSolution<Dim>::snapshot(double t) {
   const size_t n = X_.size();
   scheme::Snapshot s;
   s.time = t;
-  s.F = F_;
-  s.P = P_;
-  for (size_t a = 0; a < n; ++a) {
-    s.u.push_back(motion_->displacement(X_[a], t));
-    s.v.push_back(motion_->velocity(X_[a], t));
-    const auto X = physics::deformation_of(algebra::to_tensor(F_[a]));
-    s.H.push_back(algebra::to_eigen(X.H));
-    s.J.push_back(X.J);
-  }
+  s.u = motion_->displacements(X_, t);
+  s.v = motion_->velocities(X_, t);
+  put_deformations(s);
+  for (size_t a = 0; a < n; ++a)
+    s.P.push_back(stress(static_cast<std::int64_t>(a)));
   for (std::int64_t k = 0; k < history_.n_branches(); ++k) {
     auto& A = s.A.emplace_back(n);
     auto& S = s.S.emplace_back(n);

@@ -26,14 +26,22 @@ class KnownState : public scheme::KnownLoads {
   virtual void archive(algebra::Archive& archive) = 0;
 };
 
+/// What the stress of a block comes to.
+template <int Dim>
+struct BlockStress {
+  Lanes divergence[Dim];     ///< DIV P  [Pa/m]
+  algebra::Tensor<Lanes> P;  ///< Pa
+  Lanes J;                   ///< -
+};
+
 template <int Dim>
 class ManufacturedSolution : public KnownState {
  public:
   using Scalar = algebra::Dual<Lanes, Dim>;
   using Branch = physics::BranchState<Scalar>;
-  /// P of eight nodes with its gradient, from F and the branches.
+  /// Stress of eight nodes from F and the branches with their gradients.
   using Stress = std::function<void(
-      const algebra::Tensor<Scalar>& F, const Branch* branches, algebra::Tensor<Scalar>& P)>;
+      const algebra::Tensor<Scalar>& F, const Branch* branches, BlockStress<Dim>& stress)>;
 
   /// @param X    [n_nodes] m, reference positions
   /// @param end  s, end of the run
@@ -47,42 +55,88 @@ class ManufacturedSolution : public KnownState {
 
   /// @throws base::InputError where J <= 0 or a value is not finite
   void move_to(double t) override;
-  const Vec3& body_force(std::int64_t node) const override { return body_force_[node]; }
-  const Mat3& stress(std::int64_t node) const override { return P_[node]; }
+  const algebra::BlockField& body_forces() const override { return body_forces_; }
+  Mat3 stress(std::int64_t node) const override;
   scheme::Snapshot snapshot(double t) override;
   void archive(algebra::Archive& archive) override;
 
  private:
-  DIPTYCH_CLONES void evaluate(std::int64_t begin, std::int64_t end);
-  void check() const;
+  using Program = functions::PlacedProgram;
+
+  DIPTYCH_CLONES bool evaluate(std::int64_t strip,
+                               double t,
+                               const Program::Instant& instant,
+                               Program::Workspace& workspace);
+  void put_deformations(scheme::Snapshot& s) const;
+  [[noreturn]] void refuse_strip(std::int64_t strip, double t) const;
 
   std::shared_ptr<const Motion> motion_;
   std::vector<Vec3> X_;
-  std::vector<LanePlace> places_;
   double rho_R_;
   Stress stress_of_;
   ViscousHistory<Dim> history_;
+  Program placed_;  ///< gradients of the motion, then its acceleration
   double time_;
-  std::vector<Jet<double, 1>> at_time_;
-  std::vector<Vec3> body_force_;
-  std::vector<Mat3> F_, P_;
+  algebra::BlockField body_forces_, P_;  ///< N/m^3, Pa (nine components)
 };
 
 extern template class ManufacturedSolution<2>;
 extern template class ManufacturedSolution<3>;
 
-/// P of a model with all its branches.
+/// F with its derivative by X_I; in plane strain the rest is known to be that of the identity.
+template <int I, int Dim>
+DIPTYCH_INLINE algebra::Tensor<algebra::Dual<Lanes, 1>> along(
+    const algebra::Tensor<algebra::Dual<Lanes, Dim>>& F) {
+  auto G = algebra::identity<algebra::Dual<Lanes, 1>>();
+  for (int i = 0; i < Dim; ++i) {
+    for (int j = 0; j < Dim; ++j)
+      G(i, j) = {F(i, j).v, {F(i, j).d[I]}};
+  }
+  return G;
+}
+template <int I, int Dim>
+DIPTYCH_INLINE algebra::SymmetricTensor<algebra::Dual<Lanes, 1>> along(
+    const algebra::SymmetricTensor<algebra::Dual<Lanes, Dim>>& A) {
+  algebra::SymmetricTensor<algebra::Dual<Lanes, 1>> B;
+  for (int s = 0; s < 6; ++s)
+    B.s[s] = {A.s[s].v, {A.s[s].d[I]}};
+  return B;
+}
+
+/// dP_iI/dX_I of one I, and with the first of them P and J. One direction at a time: all three with
+/// the values once are as many operations, of which the registers do not hold the half.
+template <int I, int Dim, class Material>
+DIPTYCH_INLINE void add_divergence(const scheme::Model<Material>& model,
+                                   const algebra::Tensor<algebra::Dual<Lanes, Dim>>& F,
+                                   const physics::BranchState<algebra::Dual<Lanes, Dim>>* branches,
+                                   BlockStress<Dim>& stress) {
+  constexpr bool has_H = Material::has_H;
+  const auto X = physics::deformation_of(along<I>(F));
+  auto response = model.material.response(X);
+  for (size_t k = 0; k < model.branches.size(); ++k) {
+    const physics::BranchState<algebra::Dual<Lanes, 1>> state{along<I>(branches[k].A),
+                                                              along<I>(branches[k].S)};
+    physics::add_branch_response<has_H>(model.branches[k], state, X, response);
+  }
+  const auto P = physics::piola_stress<has_H>(response, X);
+  for (int i = 0; i < Dim; ++i)
+    stress.divergence[i] = I == 0 ? P(i, I).d[0] : stress.divergence[i] + P(i, I).d[0];
+  if constexpr (I == 0) {
+    for (int k = 0; k < 9; ++k)
+      stress.P(k / 3, k % 3) = P(k / 3, k % 3).v;
+    stress.J = X.J.v;
+  }
+}
+
+/// Stress of a model with all its branches.
 template <int Dim, class Material>
 DIPTYCH_CLONES void stress_of_block(const scheme::Model<Material>& model,
                                     const algebra::Tensor<algebra::Dual<Lanes, Dim>>& F,
                                     const physics::BranchState<algebra::Dual<Lanes, Dim>>* branches,
-                                    algebra::Tensor<algebra::Dual<Lanes, Dim>>& P) {
-  constexpr bool has_H = Material::has_H;
-  const auto X = physics::deformation_of(F);
-  auto response = model.material.response(X);
-  for (size_t k = 0; k < model.branches.size(); ++k)
-    physics::add_branch_response<has_H>(model.branches[k], branches[k], X, response);
-  P = physics::piola_stress<has_H>(response, X);
+                                    BlockStress<Dim>& stress) {
+  add_divergence<0>(model, F, branches, stress);
+  add_divergence<1>(model, F, branches, stress);
+  if constexpr (Dim == 3) add_divergence<2>(model, F, branches, stress);
 }
 
 /// The solution for a model.
@@ -92,8 +146,8 @@ std::shared_ptr<KnownState> manufactured_solution(std::shared_ptr<const Motion> 
                                                   const std::vector<Vec3>& X,
                                                   bool relaxed,
                                                   double end) {
-  const auto stress = [model](const auto& F, const auto* branches, auto& P) {
-    stress_of_block<Dim>(model, F, branches, P);
+  const auto stress = [model](const auto& F, const auto* branches, auto& result) {
+    stress_of_block<Dim>(model, F, branches, result);
   };
   return std::make_shared<ManufacturedSolution<Dim>>(std::move(motion), X, model.branches,
                                                      model.rho_R, relaxed, end, stress);

@@ -1,6 +1,7 @@
 #include "common/scheme/body/body.hpp"
 
 #include "common/scheme/graph/centroid.hpp"
+#include "common/scheme/ranks/division.hpp"
 
 #include <algorithm>
 
@@ -102,6 +103,12 @@ void Body<Dim>::allocate() {
     }
     this->*field.table = NodeTable(n_stored, n, field.stride, graph.shape);
   }
+}
+
+template <int Dim>
+const parallel::Part& Body<Dim>::part() const {
+  static const parallel::Part whole;
+  return division ? division->part : whole;
 }
 
 template <int Dim>

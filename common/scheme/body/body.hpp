@@ -10,9 +10,11 @@
 #include "common/algebra/field.hpp"
 #include "common/algebra/flush_to_zero.hpp"
 #include "common/algebra/layout.hpp"
+#include "common/parallel/part.hpp"
 #include "common/scheme/graph/sweep_graph.hpp"
 #include "common/scheme/volumes/cell_volumes.hpp"
 
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -77,6 +79,9 @@ struct BodyOptions {
   bool cell_volumes = false;  ///< those of the graph carry the pressure
 };
 
+/// What of a body is worked where it is divided among ranks (ranks/division.hpp).
+struct Division;
+
 template <int Dim>
 struct Body;
 
@@ -98,14 +103,21 @@ struct Field {
     return table != nullptr ? (body.*table).at(node, first + component)
                             : (body.*block).at(node, first + component);
   }
+  void set(Body<Dim>& body, std::int64_t node, int component, double value) const {
+    if (table != nullptr) {
+      (body.*table).set(node, first + component, value);
+    } else {
+      (body.*block).set(node, first + component, value);
+    }
+  }
 };
 
 template <int Dim>
 struct Body {
   SweepGraph<Dim> graph;
   BodyOptions options;
-  std::int64_t n_owned = 0;   ///< nodes that this body moves
-  std::int64_t n_stored = 0;  ///< and those of others that it reads, behind them; none today
+  std::int64_t n_owned = 0;   ///< nodes
+  std::int64_t n_stored = 0;  ///< nodes that arrays have room for: on every rank all of them
   std::int64_t n_blocks = 0;
   std::vector<Vec3> X;  ///< [n_stored] m, reference positions
   Vec3 centroid;        ///< m, of the undeformed body: moments are about it
@@ -128,6 +140,8 @@ struct Body {
   NodeTable stresses;   ///< P
   /// Where volumes of cells carry the pressure (notes 3.9): P of the records is without it.
   CellVolumes<Dim> cells;
+  /// Among ranks; null: this one works all of it.
+  std::shared_ptr<Division> division;
 
   /// At rest: u = v = 0, F = H = I, J = 1, A = S = I.
   Body(const PairGraph& whole, const BodyOptions& what);
@@ -140,6 +154,8 @@ struct Body {
   /// Unknowns per node, as reported: v, u, F, H, J, A, S as stored.
   int unknowns_per_node() const;
 
+  /// Chunks of blocks that this rank works.
+  const parallel::Part& part() const;
   bool is_single() const { return graph.shape.single; }
   bool in_runs() const { return graph.shape.arrangement == Arrangement::runs; }
   /// Reference position about the centroid  [m]

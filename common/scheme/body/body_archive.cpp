@@ -20,15 +20,6 @@ const char* name_of(Role role) {
   return "accumulated";
 }
 
-template <int Dim>
-void set(Body<Dim>& body, const Field<Dim>& field, std::int64_t node, int c, double value) {
-  if (field.table != nullptr) {
-    (body.*field.table).set(node, field.first + c, value);
-  } else {
-    (body.*field.block).set(node, field.first + c, value);
-  }
-}
-
 /// The rows of the table of fields that are one field, in two places or in one.
 template <int Dim>
 using Places = std::vector<const Field<Dim>*>;
@@ -55,7 +46,7 @@ void archive_field(Body<Dim>& body,
   for (std::int64_t a = 0; a < body.n_stored; ++a) {
     for (const Field<Dim>* place : places) {
       for (int c = 0; c < place->n_components; ++c)
-        set(body, *place, a, c, values[k++]);
+        place->set(body, a, c, values[k++]);
     }
   }
 }

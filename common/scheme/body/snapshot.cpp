@@ -1,11 +1,32 @@
 #include "common/scheme/body/snapshot.hpp"
 
+#include "common/parallel/for_chunks.hpp"
 #include "common/scheme/body/material_model.hpp"
 #include "common/scheme/body/point_access.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace diptych::scheme {
+
+namespace {
+
+/// J of nodes by the volumes of cells, on all ranks; empty where these do not carry the pressure.
+template <int Dim>
+std::vector<double> cell_ratios(const Body<Dim>& body, std::span<const std::int32_t> nodes) {
+  if (body.cells.empty()) return {};
+  const std::vector<double> all = body.cells.ratios(body);
+  std::vector<double> J;
+  std::vector<std::int32_t> chunk_of;
+  for (const std::int32_t a : nodes) {
+    J.push_back(all[a]);
+    chunk_of.push_back(static_cast<std::int32_t>(a / (parallel::chunk_size * algebra::n_lanes)));
+  }
+  body.part().complete(J, chunk_of);
+  return J;
+}
+
+}  // namespace
 
 template <int Dim>
 Snapshot snapshot_of(const MaterialModel& material,
@@ -22,9 +43,8 @@ Snapshot snapshot_of(const MaterialModel& material,
   s.J.resize(n);
   s.A.assign(n_branches, std::vector<Mat3>(n));
   s.S.assign(body.S.empty() ? 0 : n_branches, std::vector<Mat3>(n));
-  const std::vector<double> cell_J =
-      body.cells.empty() ? std::vector<double>{} : body.cells.ratios(body);
-  for (size_t k = 0; k < n; ++k) {
+  const std::vector<double> cell_J = cell_ratios(body, nodes);
+  const auto take = [&](size_t k) {
     const std::int32_t a = nodes[k];
     for (int i = 0; i < Dim; ++i) {
       s.u[k][i] = body.u.at(a, i);
@@ -37,14 +57,21 @@ Snapshot snapshot_of(const MaterialModel& material,
     s.J[k] = X.J;
     s.P[k] = algebra::to_eigen(material.stress(X, branches));
     if (!cell_J.empty()) {  // the pressure of the cells in place of that of the node
-      s.P[k] += (material.volumetric_stress(cell_J[a]) - material.volumetric_stress(X.J)) * s.H[k];
-      s.J[k] = cell_J[a];
+      s.P[k] += (material.volumetric_stress(cell_J[k]) - material.volumetric_stress(X.J)) * s.H[k];
+      s.J[k] = cell_J[k];
     }
     for (size_t r = 0; r < n_branches; ++r) {
       s.A[r][k] = algebra::to_eigen(branches[r].A);
       if (!s.S.empty()) s.S[r][k] = algebra::to_eigen(branches[r].S);
     }
-  }
+  };
+  constexpr size_t together = 64;
+  parallel::for_shares(static_cast<std::int64_t>((n + together - 1) / together),
+                       [&](std::int64_t share) {
+                         const size_t begin = static_cast<size_t>(share) * together;
+                         for (size_t k = begin; k < std::min(n, begin + together); ++k)
+                           take(k);
+                       });
   return s;
 }
 

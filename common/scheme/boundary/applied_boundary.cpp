@@ -1,7 +1,7 @@
 #include "common/scheme/boundary/applied_boundary.hpp"
 
 #include "common/algebra/face_areas.hpp"
-#include "common/parallel/for_chunks.hpp"
+#include "common/parallel/agreement.hpp"
 #include "common/scheme/boundary/node_vector.hpp"
 #include "common/scheme/graph/centroid.hpp"
 
@@ -63,8 +63,7 @@ AppliedBoundary::AppliedBoundary(const PairGraph& graph,
                                  VectorFunction body_force,
                                  bool body_force_depends_on_time)
     : conditions_(std::move(conditions)),
-      body_force_(std::move(body_force)),
-      loads_depend_on_time_(body_force_ && body_force_depends_on_time),
+      loads_depend_on_time_(body_force && body_force_depends_on_time),
       X_(graph.X),
       Omega_(graph.Omega),
       X_user_(graph.X) {
@@ -86,6 +85,13 @@ AppliedBoundary::AppliedBoundary(const PairGraph& graph,
         {node, graph.Omega[node], graph.X[node], projector.keep(), projector.velocity()});
     has_velocities_ |= static_cast<bool>(projector.velocity());
   }
+  if (body_force) body_force_ = body_force.placed(X_user_);
+  place_velocities();
+  place_loads();
+  std::vector<std::int64_t> chunks;
+  for (const ConstrainedNode& c : constrained_)
+    chunks.push_back(chunk_of_node(c.node));
+  chunks_of_constrained_ = parallel::ChunksOfList(chunks);
   place_walls(graph);
   std::vector<char> loaded(graph.X.size(), body_force_ ? 1 : 0);
   for (const PlacedCondition& placed : conditions_) {
@@ -95,6 +101,37 @@ AppliedBoundary::AppliedBoundary(const PairGraph& graph,
       loaded[node] = 1;
   }
   mark_loaded(loaded);
+}
+
+void AppliedBoundary::place_velocities() {
+  for (size_t k = 0; k < constrained_.size(); ++k) {
+    const VectorFunction& velocity = constrained_[k].velocity;
+    if (!velocity) continue;
+    auto found = std::find_if(velocities_.begin(), velocities_.end(),
+                              [&](const auto& known) { return known.velocity.is_same(velocity); });
+    if (found == velocities_.end())
+      found = velocities_.insert(velocities_.end(), PrescribedVelocities{velocity, {}, nullptr});
+    found->nodes.push_back(k);
+  }
+  for (PrescribedVelocities& prescribed : velocities_) {
+    std::vector<Vec3> X;
+    for (const size_t k : prescribed.nodes)
+      X.push_back(constrained_[k].X);
+    prescribed.placed = prescribed.velocity.placed(X);
+  }
+}
+
+void AppliedBoundary::place_loads() {
+  for (const PlacedCondition& placed : conditions_) {
+    GivenLoads& given = given_.emplace_back();
+    const BoundaryValues* const values = placed.condition->given();
+    if (values == nullptr) continue;
+    std::vector<Vec3> X;
+    for (const std::int32_t node : placed.patch->nodes)
+      X.push_back(X_user_[static_cast<size_t>(node)]);
+    if (values->vector) given.vector = values->vector.placed(X);
+    if (values->scalar) given.scalar = values->scalar.placed(X);
+  }
 }
 
 /// Walls push nodes only along the directions that the other conditions leave free.
@@ -109,6 +146,7 @@ void AppliedBoundary::place_walls(const PairGraph& graph) {
       walls_.add(*wall, {node, graph.Omega[node], graph.X[node], X_[node], keep});
     }
   }
+  walls_.list_chunks();
 }
 
 void AppliedBoundary::mark_loaded(const std::vector<char>& loaded) {
@@ -120,24 +158,36 @@ void AppliedBoundary::mark_loaded(const std::vector<char>& loaded) {
     loaded_nodes_.push_back(static_cast<std::int32_t>(a));
   }
   forces_.assign(loaded_nodes_.size(), Vec3::Zero());
+  std::vector<std::int64_t> chunks;
+  for (const std::int32_t a : loaded_nodes_)
+    chunks.push_back(chunk_of_node(a));
+  chunks_of_loaded_ = parallel::ChunksOfList(chunks);
 }
 
 void AppliedBoundary::follow(std::shared_ptr<KnownLoads> known) {
-  known_ = std::move(known);
+  body_loads_ = BodyLoads(std::move(known), X_, Omega_);
   loads_depend_on_time_ = true;
-  mark_loaded(std::vector<char>(X_.size(), 1));
 }
 
-/// Prescribed parts of the velocities of the constrained nodes at time t; expressions are evaluated
-/// by one thread.
+/// Prescribed parts of the velocities of the constrained nodes at time t.
 std::vector<Vec3> AppliedBoundary::prescribed(double t) const {
   std::vector<Vec3> values(constrained_.size(), Vec3::Zero());
-  for (size_t k = 0; k < constrained_.size(); ++k) {
-    if (!constrained_[k].velocity) continue;
-    const Vec3 v = constrained_[k].velocity(constrained_[k].X, t);
-    values[k] = v - constrained_[k].keep * v;
+  for (const PrescribedVelocities& prescribed : velocities_) {
+    const std::vector<Vec3> v = prescribed.placed->at(t);
+    for (size_t i = 0; i < v.size(); ++i) {
+      const size_t k = prescribed.nodes[i];
+      values[k] = v[i] - constrained_[k].keep * v[i];
+    }
   }
   return values;
+}
+
+void AppliedBoundary::complete(const parallel::Part& part) {
+  walls_.complete(part);
+  std::vector<std::int32_t> chunk_of;
+  for (const std::int32_t a : loaded_nodes_)
+    chunk_of.push_back(static_cast<std::int32_t>(chunk_of_node(a)));
+  part.complete(forces_, chunk_of);
 }
 
 void AppliedBoundary::keep(BoundaryState& state) const {
@@ -146,6 +196,7 @@ void AppliedBoundary::keep(BoundaryState& state) const {
   state.in_step = in_step_;
   state.target = target_;
   if (loads_depend_on_time_) state.forces = forces_;  // others never change
+  state.body_loads = body_loads_.time();
   walls_.keep(state.closed);
 }
 
@@ -155,6 +206,7 @@ void AppliedBoundary::restore(const BoundaryState& state) {
   in_step_ = state.in_step;
   target_ = state.target;
   if (loads_depend_on_time_) forces_ = state.forces;
+  body_loads_.move_to(state.body_loads);
   walls_.restore(state.closed);
 }
 
@@ -215,41 +267,32 @@ ConstraintAction AppliedBoundary::constrain_stage(Body<Dim>& body,
 
 template <int Dim>
 double AppliedBoundary::withheld(const Body<Dim>& body, const Projection& made) const {
-  double energy = 0;
-  for (const ConstrainedNode& c : constrained_) {
-    const Vec3 x = X_[c.node] + vector_at<Dim>(body.u, c.node);
-    const Vec3 change = made.spin.cross(x - made.centre);
-    const Vec3 mean = vector_at<Dim>(body.v, c.node) - 0.5 * change;
-    energy += body.options.rho_R * c.Omega * mean.dot(change - c.keep * change);
-  }
-  return energy;
+  return parallel::sum_over<double>(
+      body.part(), chunks_of_constrained_, [&](std::int64_t k, double& energy) {
+        const ConstrainedNode& c = constrained_[k];
+        const Vec3 x = X_[c.node] + vector_at<Dim>(body.u, c.node);
+        const Vec3 change = made.spin.cross(x - made.centre);
+        const Vec3 mean = vector_at<Dim>(body.v, c.node) - 0.5 * change;
+        energy += body.options.rho_R * c.Omega * mean.dot(change - c.keep * change);
+      });
 }
 
 template <int Dim>
 Impulse AppliedBoundary::overwrite(Body<Dim>& body) const {
-  const auto n = static_cast<std::int64_t>(constrained_.size());
-  std::vector<Impulse> parts(parallel::n_chunks_of(n));
-  parallel::for_chunks(n, [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
-    for (std::int64_t k = begin; k < end; ++k) {
-      const ConstrainedNode& c = constrained_[k];
-      const Vec3 before = vector_at<Dim>(body.v, c.node);
-      Vec3 after = c.keep * before;
-      if (has_velocities_) after += target_[k];
-      for (int i = 0; i < Dim; ++i)
-        body.v.set(c.node, i, after[i]);
-      after = vector_at<Dim>(body.v, c.node);  // as the state has it
-      const Vec3 impulse = body.options.rho_R * c.Omega * (after - before);
-      const Vec3 x = X_[c.node] + vector_at<Dim>(body.u, c.node);
-      parts[chunk].linear += impulse;
-      parts[chunk].angular += x.cross(impulse);
-    }
-  });
-  Impulse sum;
-  for (const Impulse& part : parts) {
-    sum.linear += part.linear;
-    sum.angular += part.angular;
-  }
-  return sum;
+  return parallel::sum_over<Impulse>(
+      body.part(), chunks_of_constrained_, [&](std::int64_t k, Impulse& sum) {
+        const ConstrainedNode& c = constrained_[k];
+        const Vec3 before = vector_at<Dim>(body.v, c.node);
+        Vec3 after = c.keep * before;
+        if (has_velocities_) after += target_[k];
+        for (int i = 0; i < Dim; ++i)
+          body.v.set(c.node, i, after[i]);
+        after = vector_at<Dim>(body.v, c.node);  // as the state has it
+        const Vec3 impulse = body.options.rho_R * c.Omega * (after - before);
+        const Vec3 x = X_[c.node] + vector_at<Dim>(body.u, c.node);
+        sum.linear += impulse;
+        sum.angular += x.cross(impulse);
+      });
 }
 
 /// Shares of the patch's nodes in its deformed area: of the deformed faces where volumes of cells
@@ -268,100 +311,127 @@ std::vector<Vec3> AppliedBoundary::deformed_areas(const Body<Dim>& body,
     }
     return area;
   }
+  std::vector<Vec3> x_of;  // of all nodes: faces have nodes of several ranks
+  std::vector<std::int32_t> chunk_of;
+  for (const std::int32_t a : patch.nodes) {
+    x_of.push_back(X_[a] + vector_at<Dim>(body.u, a));
+    chunk_of.push_back(static_cast<std::int32_t>(chunk_of_node(a)));
+  }
+  body.part().complete(x_of, chunk_of);
   for (const auto& face : patch.faces) {
     std::array<Vec3, 4> x;
+    std::array<std::ptrdiff_t, 4> at;
     int n = 0;
-    for (; n < 4 && face[n] >= 0; ++n)
-      x[n] = X_[face[n]] + vector_at<Dim>(body.u, face[n]);
-    const auto shares = algebra::face_area_shares(x, n);
-    for (int i = 0; i < n; ++i) {
-      const auto at = std::lower_bound(patch.nodes.begin(), patch.nodes.end(), face[i]);
-      area[at - patch.nodes.begin()] += shares[i];
+    for (; n < 4 && face[n] >= 0; ++n) {
+      at[n] =
+          std::lower_bound(patch.nodes.begin(), patch.nodes.end(), face[n]) - patch.nodes.begin();
+      x[n] = x_of[at[n]];
     }
+    const auto shares = algebra::face_area_shares(x, n);
+    for (int i = 0; i < n; ++i)
+      area[at[i]] += shares[i];
   }
   return area;
 }
 
 template <int Dim>
 void AppliedBoundary::evaluate_loads(const Body<Dim>& body, double t) {
+  std::vector<std::vector<Vec3>> areas(conditions_.size());
+  for (size_t c = 0; c < areas.size(); ++c) {
+    const PlacedCondition& placed = conditions_[c];
+    if (placed.condition->loads() && placed.condition->follows_surface())
+      areas[c] = deformed_areas(body, *placed.patch);
+  }
+  const parallel::Part& part = body.part();
+  if (part.is_whole()) {
+    evaluate_own_loads(part, areas, t);
+  } else {
+    parallel::agree_on(part.ranks(), [&] { evaluate_own_loads(part, areas, t); });
+  }
+  loads_are_current_ = !loads_depend_on_time_;
+}
+
+/// An expression may have no value at a node of this rank alone.
+void AppliedBoundary::evaluate_own_loads(const parallel::Part& part,
+                                         const std::vector<std::vector<Vec3>>& areas,
+                                         double t) {
   std::fill(forces_.begin(), forces_.end(), Vec3::Zero());
   if (body_force_) {
+    const std::vector<Vec3> f = body_force_->at(t);  // then all nodes are loaded
     for (size_t k = 0; k < loaded_nodes_.size(); ++k) {
-      const std::int32_t a = loaded_nodes_[k];
-      forces_[k] += Omega_[a] * body_force_(X_user_[a], t);
+      if (part.owns(chunk_of_node(loaded_nodes_[k]))) forces_[k] += Omega_[k] * f[k];
     }
   }
-  if (known_) {
-    known_->move_to(t);
-    for (size_t k = 0; k < loaded_nodes_.size(); ++k)
-      forces_[k] += Omega_[loaded_nodes_[k]] * known_->body_force(loaded_nodes_[k]);
-  }
-  for (const PlacedCondition& placed : conditions_) {
+  if (body_loads_.is_there()) body_loads_.move_to(t);
+  for (size_t c = 0; c < areas.size(); ++c) {
+    const PlacedCondition& placed = conditions_[c];
     if (!placed.condition->loads()) continue;
-    std::vector<Vec3> deformed_area;
-    if (placed.condition->follows_surface()) deformed_area = deformed_areas(body, *placed.patch);
+    const auto vector = given_[c].vector ? given_[c].vector->at(t) : std::vector<Vec3>{};
+    const auto scalar = given_[c].scalar ? given_[c].scalar->at(t) : std::vector<double>{};
     for (size_t k = 0; k < placed.patch->nodes.size(); ++k) {
       const std::int32_t a = placed.patch->nodes[k];
+      if (!part.owns(chunk_of_node(a))) continue;
       LoadedNode node{X_user_[a], placed.patch->area[k], Vec3::Zero(), Mat3::Zero()};
-      if (placed.condition->needs_P()) node.P = known_->stress(a);
-      if (!deformed_area.empty()) node.deformed_area = deformed_area[k];
+      if (placed.condition->needs_P()) node.P = body_loads_.known().stress(a);
+      if (!areas[c].empty()) node.deformed_area = areas[c][k];
+      if (!vector.empty()) node.vector = vector[k];
+      if (!scalar.empty()) node.scalar = scalar[k];
       forces_[slot_of_node_[a]] += placed.condition->force(node, t);
     }
   }
-  loads_are_current_ = !loads_depend_on_time_;
 }
 
 template <int Dim>
 LoadRates AppliedBoundary::add_loads(Body<Dim>& body, double t) {
   if (!loads_are_current_) evaluate_loads(body, t);
-  LoadRates rates;
-  for (size_t k = 0; k < loaded_nodes_.size(); ++k) {
-    const std::int32_t a = loaded_nodes_[k];
-    for (int i = 0; i < Dim; ++i)
-      body.T.add(a, i, forces_[k][i]);
-    rates.power += forces_[k].dot(vector_at<Dim>(body.v, a));
-    rates.force += forces_[k];
-    rates.torque += (X_[a] + vector_at<Dim>(body.u, a)).cross(forces_[k]);
-  }
+  LoadRates rates = body_loads_.is_there() ? body_loads_.add_to(body) : LoadRates{};
+  rates += parallel::sum_over<LoadRates>(
+      body.part(), chunks_of_loaded_, [&](std::int64_t k, LoadRates& sum) {
+        const std::int32_t a = loaded_nodes_[k];
+        for (int i = 0; i < Dim; ++i)
+          body.T.add(a, i, forces_[k][i]);
+        sum.power += forces_[k].dot(vector_at<Dim>(body.v, a));
+        sum.force += forces_[k];
+        sum.torque += (X_[a] + vector_at<Dim>(body.u, a)).cross(forces_[k]);
+      });
   return rates;
 }
 
 template <int Dim>
 double AppliedBoundary::power_of_loads(const Body<Dim>& body) const {
-  double power = 0;
-  for (size_t k = 0; k < loaded_nodes_.size(); ++k) {
-    power += forces_[k].dot(vector_at<Dim>(body.v, loaded_nodes_[k]));
-  }
-  return power;
+  const double known = body_loads_.is_there() ? body_loads_.power(body) : 0;
+  return known + parallel::sum_over<double>(
+                     body.part(), chunks_of_loaded_, [&](std::int64_t k, double& power) {
+                       power += forces_[k].dot(vector_at<Dim>(body.v, loaded_nodes_[k]));
+                     });
 }
 
 template <int Dim>
 double AppliedBoundary::power_of_constraints(const Body<Dim>& body, double fraction) const {
   if (!has_velocities_) return 0;
-  double power = 0;
-  for (size_t i = 0; i < constrained_.size(); ++i) {
-    const ConstrainedNode& c = constrained_[i];
-    if (!c.velocity) continue;
-    const Vec3 v = vector_at<Dim>(body.v, c.node);
-    const Vec3 reaction =
-        body.options.rho_R * c.Omega * rate(i, fraction) - vector_at<Dim>(body.T, c.node);
-    power += reaction.dot(v - c.keep * v);
-  }
-  return power;
+  return parallel::sum_over<double>(
+      body.part(), chunks_of_constrained_, [&](std::int64_t i, double& power) {
+        const ConstrainedNode& c = constrained_[i];
+        if (!c.velocity) return;
+        const Vec3 v = vector_at<Dim>(body.v, c.node);
+        const Vec3 reaction =
+            body.options.rho_R * c.Omega * rate(i, fraction) - vector_at<Dim>(body.T, c.node);
+        power += reaction.dot(v - c.keep * v);
+      });
 }
 
 template <int Dim>
 Vec3 AppliedBoundary::reaction(const Body<Dim>& body,
                                const std::vector<std::int32_t>& nodes) const {
-  Vec3 sum = walls_.force(body, nodes);
-  for (size_t k = 0; k < constrained_.size(); ++k) {
-    const ConstrainedNode& c = constrained_[k];
-    if (!std::binary_search(nodes.begin(), nodes.end(), c.node)) continue;
-    Vec3 force = -vector_at<Dim>(body.T, c.node);
-    if (c.velocity && step_ > 0) force += body.options.rho_R * c.Omega * rate(k, 1);
-    sum += force - c.keep * force;
-  }
-  return sum;
+  const auto held = parallel::sum_over<VectorSum>(
+      body.part(), chunks_of_constrained_, [&](std::int64_t k, VectorSum& sum) {
+        const ConstrainedNode& c = constrained_[k];
+        if (!std::binary_search(nodes.begin(), nodes.end(), c.node)) return;
+        Vec3 force = -vector_at<Dim>(body.T, c.node);
+        if (c.velocity && step_ > 0) force += body.options.rho_R * c.Omega * rate(k, 1);
+        sum.value += force - c.keep * force;
+      });
+  return walls_.force(body, nodes) + held.value;
 }
 
 #define DIPTYCH_INSTANTIATE(Dim)                                                                  \

@@ -5,8 +5,8 @@
 
 #include "common/scheme/body/body.hpp"
 #include "common/scheme/body/stage_combination.hpp"
+#include "common/scheme/boundary/body_loads.hpp"
 #include "common/scheme/boundary/boundary_condition.hpp"
-#include "common/scheme/boundary/known_loads.hpp"
 #include "common/scheme/boundary/rigid_wall.hpp"
 #include "common/scheme/budget/angular_momentum.hpp"
 #include "common/scheme/budget/audit.hpp"
@@ -28,6 +28,7 @@ struct BoundaryState {
   std::array<std::vector<Vec3>, 5> in_step;  ///< m/s, prescribed
   std::vector<Vec3> target;                  ///< m/s, prescribed, as last applied
   std::vector<Vec3> forces;                  ///< N, loads, as last applied
+  double body_loads = 0;                     ///< s, time of those of a known motion
   std::vector<char> closed;                  ///< [nodes at walls]
 };
 
@@ -45,11 +46,14 @@ class AppliedBoundary {
   void follow(std::shared_ptr<KnownLoads> known);
 
   bool has_walls() const { return !walls_.empty(); }
-  bool has_loads() const { return !loaded_nodes_.empty(); }
+  bool has_loads() const { return !loaded_nodes_.empty() || body_loads_.is_there(); }
 
   /// Copies what the boundary knows into `state`, and back.
   void keep(BoundaryState& state) const;
   void restore(const BoundaryState& state);
+
+  /// Among ranks: takes what the owners of nodes know of them, so that keep() has it all.
+  void complete(const parallel::Part& part);
 
   /// Prescribed velocities of the step from t to t + dt: five instants, a quarter of it apart.
   /// Rates are those of the polynomial through them.
@@ -105,24 +109,41 @@ class AppliedBoundary {
     Mat3 keep;                ///< projector on the free directions
     VectorFunction velocity;  ///< empty: zero
   };
+  /// One velocity at all constrained nodes that follow it.
+  struct PrescribedVelocities {
+    VectorFunction velocity;
+    std::vector<size_t> nodes;  ///< into constrained_
+    std::unique_ptr<PlacedField<Vec3>> placed;
+  };
+  /// What a condition gives at the nodes of its patch; null: nothing.
+  struct GivenLoads {
+    std::unique_ptr<PlacedField<Vec3>> vector;
+    std::unique_ptr<PlacedField<double>> scalar;
+  };
   std::vector<ConstrainedNode> constrained_;
+  std::vector<PrescribedVelocities> velocities_;
+  parallel::ChunksOfList chunks_of_constrained_;
   bool has_velocities_ = false;               ///< whether any of them is prescribed other than zero
   double step_begin_ = 0, step_ = 0;          ///< s
   std::array<std::vector<Vec3>, 5> in_step_;  ///< [constrained_] m/s, at quarters of the step
   std::vector<Vec3> target_;                  ///< [constrained_] m/s, as last applied
   WallContacts walls_;
   std::vector<PlacedCondition> conditions_;
-  VectorFunction body_force_;
-  std::shared_ptr<KnownLoads> known_;  ///< or null
+  std::vector<GivenLoads> given_;                  ///< [conditions_]
+  std::unique_ptr<PlacedField<Vec3>> body_force_;  ///< at all nodes, or null
+  BodyLoads body_loads_;                           ///< of a known motion
   bool loads_depend_on_time_ = false;
   bool loads_are_current_ = false;
   std::vector<std::int32_t> loaded_nodes_;  ///< ascending
-  std::vector<Vec3> forces_;                ///< [loaded_nodes_] N
-  std::vector<Vec3> X_;  ///< [n_nodes] m, centred: moments are about the centroid
+  parallel::ChunksOfList chunks_of_loaded_;
+  std::vector<Vec3> forces_;  ///< [loaded_nodes_] N
+  std::vector<Vec3> X_;       ///< [n_nodes] m, centred: moments are about the centroid
   std::vector<double> Omega_;
-  std::vector<Vec3> X_user_;                ///< [n_nodes] m, as the expressions see them
+  std::vector<Vec3> X_user_;                ///< [n_nodes] m, as functions see them
   std::vector<std::int32_t> slot_of_node_;  ///< [n_nodes] into loaded_nodes_, -1
 
+  void place_velocities();
+  void place_loads();
   void place_walls(const PairGraph& graph);
   void mark_loaded(const std::vector<char>& loaded);
   std::vector<Vec3> prescribed(double t) const;
@@ -133,6 +154,10 @@ class AppliedBoundary {
   std::vector<Vec3> deformed_areas(const Body<Dim>& body, const BoundaryPatch& patch) const;
   template <int Dim>
   void evaluate_loads(const Body<Dim>& body, double t);
+  /// @param areas  [conditions_] deformed ones of those that follow the surface
+  void evaluate_own_loads(const parallel::Part& part,
+                          const std::vector<std::vector<Vec3>>& areas,
+                          double t);
 };
 
 }  // namespace diptych::scheme

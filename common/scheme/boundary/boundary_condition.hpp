@@ -4,9 +4,9 @@
 /// Adding one: a file here and a line in conditions.def.
 
 #include "common/base/registry.hpp"
+#include "common/scheme/boundary/field_function.hpp"
 #include "common/scheme/graph/pair_graph.hpp"
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,9 +14,8 @@
 
 namespace diptych::scheme {
 
-/// A vector (or scalar) of reference position and time.
-using VectorFunction = std::function<Vec3(const Vec3& X, double t)>;
-using ScalarFunction = std::function<double(const Vec3& X, double t)>;
+using VectorFunction = FieldFunction<Vec3>;
+using ScalarFunction = FieldFunction<double>;
 
 /// What the user gave for a condition; unused members are empty.
 struct BoundaryValues {
@@ -41,7 +40,7 @@ struct RigidWall {
   Vec3 normal;  ///< unit vector
 };
 
-/// Deformation of a loaded node.
+/// A loaded node at one instant.
 struct LoadedNode {
   Vec3 X;     ///< m, reference position
   Vec3 area;  ///< m^2, its share of the patch, A_a N_a
@@ -49,6 +48,9 @@ struct LoadedNode {
   /// its share of the deformed faces. Follower loads only.
   Vec3 deformed_area;
   Mat3 P;  ///< Pa, stress of a known motion, its tractions only
+  // the functions of BoundaryCondition::given() here and now
+  Vec3 vector = Vec3::Zero();  ///< Pa
+  double scalar = 0;           ///< Pa
 };
 
 class BoundaryCondition {
@@ -64,6 +66,8 @@ class BoundaryCondition {
   virtual bool follows_surface() const { return false; }
   virtual bool needs_P() const { return false; }
   virtual bool depends_on_time() const { return false; }
+  /// What force() reads as values of the node; null: nothing.
+  virtual const BoundaryValues* given() const { return nullptr; }
   /// Force on a node of the patch  [N]
   virtual Vec3 force(const LoadedNode& node, double t) const;
 };

@@ -13,8 +13,9 @@ class Traction : public BoundaryCondition {
   explicit Traction(const BoundaryValues& values) : values_(values) {}
   bool loads() const override { return true; }
   bool depends_on_time() const override { return values_.depends_on_time; }
-  Vec3 force(const LoadedNode& node, double t) const override {
-    return node.area.norm() * values_.vector(node.X, t);
+  const BoundaryValues* given() const override { return &values_; }
+  Vec3 force(const LoadedNode& node, double) const override {
+    return node.area.norm() * node.vector;
   }
 
  private:
@@ -37,8 +38,9 @@ class Pressure : public BoundaryCondition {
   bool loads() const override { return true; }
   bool follows_surface() const override { return true; }
   bool depends_on_time() const override { return true; }
-  Vec3 force(const LoadedNode& node, double t) const override {
-    return -values_.scalar(node.X, t) * node.deformed_area;
+  const BoundaryValues* given() const override { return &values_; }
+  Vec3 force(const LoadedNode& node, double) const override {
+    return -node.scalar * node.deformed_area;
   }
 
  private:

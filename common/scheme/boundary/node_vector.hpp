@@ -3,6 +3,7 @@
 
 #include "common/algebra/field.hpp"
 #include "common/algebra/vectors.hpp"
+#include "common/parallel/for_chunks.hpp"
 
 namespace diptych::scheme {
 
@@ -15,5 +16,19 @@ algebra::Vec3 vector_at(const Field& field, std::int64_t node) {
     r[i] = field.at(node, i);
   return r;
 }
+
+/// Chunk of parallel::for_chunks that a node is in.
+inline std::int64_t chunk_of_node(std::int64_t node) {
+  return node / (parallel::chunk_size * algebra::n_lanes);
+}
+
+/// A vector that begins with zero.
+struct VectorSum {
+  algebra::Vec3 value = algebra::Vec3::Zero();
+  VectorSum& operator+=(const VectorSum& other) {
+    value += other.value;
+    return *this;
+  }
+};
 
 }  // namespace diptych::scheme

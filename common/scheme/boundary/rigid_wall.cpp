@@ -89,6 +89,30 @@ void WallContacts::add_work_of_force(WallNode& w,
   w.work_of_force = stage.beta * (w.work_of_force + stage.dt * T * begin);
 }
 
+void WallContacts::list_chunks() {
+  std::vector<std::int64_t> chunks;
+  for (const WallNode& w : nodes_)
+    chunks.push_back(chunk_of_node(w.body.node));
+  chunks_ = parallel::ChunksOfList(chunks);
+}
+
+void WallContacts::complete(const parallel::Part& part) {
+  std::vector<char> closed;
+  keep(closed);
+  std::vector<std::int32_t> chunk_of;
+  for (const WallNode& w : nodes_)
+    chunk_of.push_back(static_cast<std::int32_t>(chunk_of_node(w.body.node)));
+  part.complete(closed, chunk_of);
+  restore(closed);
+}
+
+template <int Dim, class Act>
+void WallContacts::act_on_nodes(Body<Dim>& body, ConstraintAction& action, const Act& act) {
+  action += parallel::sum_over<ConstraintAction>(
+      body.part(), chunks_,
+      [&](std::int64_t k, ConstraintAction& of_chunk) { act(nodes_[k], of_chunk); });
+}
+
 void WallContacts::keep(std::vector<char>& closed) const {
   closed.resize(nodes_.size());
   for (size_t k = 0; k < nodes_.size(); ++k)
@@ -108,58 +132,58 @@ void WallContacts::hold(Body<Dim>& body,
                         const StageCombination& next,
                         ConstraintAction& action) {
   last_ = next;
-  for (WallNode& w : nodes_) {
+  act_on_nodes(body, action, [&](WallNode& w, ConstraintAction& of_chunk) {
     if (w.closed) {
-      set_normal_velocity(w, 0, body, action);
-      continue;
+      set_normal_velocity(w, 0, body, of_chunk);
+      return;
     }
     add_work_of_force(w, body, stage);
-    if (!next.last) continue;
+    if (!next.last) return;
     const std::int32_t a = w.body.node;
     // alpha gap_0 + beta (gap + dt v_n) >= 0
     const double v_n = vector_at<Dim>(body.v, a).dot(w.wall.normal);
     const double least = -(next.alpha / next.beta * gap_of<Dim>(w.wall, w.body.X, body.u_0, a) +
                            gap_of<Dim>(w.wall, w.body.X, body.u, a)) /
                          next.dt;
-    if (v_n >= least) continue;
+    if (v_n >= least) return;
     w.lands = true;
     w.v_begin = vector_at<Dim>(body.v_0, a).dot(w.along());
-    set_normal_velocity(w, least, body, action);
-  }
+    set_normal_velocity(w, least, body, of_chunk);
+  });
 }
 
 template <int Dim>
 void WallContacts::hold_in_middle(Body<Dim>& body, double dt, ConstraintAction& action) {
   last_ = {.alpha = 0, .beta = 1, .dt = 0.5 * dt, .first = false, .last = true};  // the second kick
-  for (WallNode& w : nodes_) {
+  act_on_nodes(body, action, [&](WallNode& w, ConstraintAction& of_chunk) {
     if (w.closed) {
-      set_normal_velocity(w, 0, body, action);
-      continue;
+      set_normal_velocity(w, 0, body, of_chunk);
+      return;
     }
     const std::int32_t a = w.body.node;
     const double v_n = vector_at<Dim>(body.v, a).dot(w.wall.normal);
     const double least = -gap_of<Dim>(w.wall, w.body.X, body.u, a) / dt;
-    if (v_n >= least) continue;
+    if (v_n >= least) return;
     w.lands = true;
     const Vec3 along = w.along();
     const double T = vector_at<Dim>(body.T, a).dot(along);
     w.v_begin =
         vector_at<Dim>(body.v, a).dot(along) - 0.5 * dt * T / (body.options.rho_R * w.body.Omega);
-    set_normal_velocity(w, least, body, action);
+    set_normal_velocity(w, least, body, of_chunk);
     w.work_of_force = 0.5 * dt * T * vector_at<Dim>(body.v, a).dot(along);
-  }
+  });
 }
 
 template <int Dim>
 void WallContacts::settle(Body<Dim>& body, ConstraintAction& action) {
-  for (WallNode& w : nodes_) {
+  act_on_nodes(body, action, [&](WallNode& w, ConstraintAction& of_chunk) {
     const std::int32_t a = w.body.node;
     const double v_n = vector_at<Dim>(body.v, a).dot(w.wall.normal);
     if (w.closed) {
       // began the step with v_n = 0, so the sign of v_n is that of the force
       w.closed = v_n <= 0;
-      if (w.closed) set_normal_velocity(w, 0, body, action);
-      continue;
+      if (w.closed) set_normal_velocity(w, 0, body, of_chunk);
+      return;
     }
     const double half_mass = 0.5 * body.options.rho_R * w.body.Omega;
     const auto speed = [&] { return vector_at<Dim>(body.v, a).dot(w.along()); };
@@ -167,26 +191,27 @@ void WallContacts::settle(Body<Dim>& body, ConstraintAction& action) {
       add_work_of_force(w, body, last_);
       w.lands = false;
       w.closed = true;
-      set_normal_velocity(w, 0, body, action);
-      action.work += half_mass * (speed() * speed() - w.v_begin * w.v_begin) - w.work_of_force;
+      set_normal_velocity(w, 0, body, of_chunk);
+      of_chunk.work += half_mass * (speed() * speed() - w.v_begin * w.v_begin) - w.work_of_force;
     } else if (v_n < 0 && gap_of<Dim>(w.wall, w.body.X, body.u, a) <= 0) {
       // stands there from the start
       const double before = speed();
       w.closed = true;
-      set_normal_velocity(w, 0, body, action);
-      action.work += half_mass * (speed() * speed() - before * before);
+      set_normal_velocity(w, 0, body, of_chunk);
+      of_chunk.work += half_mass * (speed() * speed() - before * before);
     }
-  }
+  });
 }
 
 template <int Dim>
 Vec3 WallContacts::force(const Body<Dim>& body, const std::vector<std::int32_t>& nodes) const {
-  Vec3 sum = Vec3::Zero();
-  for (const WallNode& w : nodes_) {
-    if (!w.closed || !std::binary_search(nodes.begin(), nodes.end(), w.body.node)) continue;
-    sum -= vector_at<Dim>(body.T, w.body.node).dot(w.push) * w.wall.normal;
-  }
-  return sum;
+  const auto sum =
+      parallel::sum_over<VectorSum>(body.part(), chunks_, [&](std::int64_t k, VectorSum& force) {
+        const WallNode& w = nodes_[k];
+        if (!w.closed || !std::binary_search(nodes.begin(), nodes.end(), w.body.node)) return;
+        force.value -= vector_at<Dim>(body.T, w.body.node).dot(w.push) * w.wall.normal;
+      });
+  return sum.value;
 }
 
 #define DIPTYCH_INSTANTIATE(Dim)                                                                 \

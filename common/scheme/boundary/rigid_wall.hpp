@@ -40,7 +40,11 @@ class WallContacts {
   /// A node that the wall cannot push, since it is held, is left out.
   /// @throws base::InputError where the node already has another wall
   void add(const RigidWall& wall, const WallCandidate& candidate);
+  /// To be called once all nodes are there.
+  void list_chunks();
   bool empty() const { return nodes_.empty(); }
+  /// Among ranks: takes what the owners of nodes know of them.
+  void complete(const parallel::Part& part);
 
   /// Copies which nodes are closed into `closed`, and back.
   void keep(std::vector<char>& closed) const;
@@ -79,8 +83,12 @@ class WallContacts {
     Vec3 along() const { return push.normalized(); }
   };
   std::vector<WallNode> nodes_;
+  parallel::ChunksOfList chunks_;
   StageCombination last_;  ///< that ends the step
 
+  /// act(node, sum of what is done) for the nodes of this rank.
+  template <int Dim, class Act>
+  void act_on_nodes(Body<Dim>& body, ConstraintAction& action, const Act& act);
   template <int Dim>
   static void set_normal_velocity(const WallNode& w,
                                   double v_n,

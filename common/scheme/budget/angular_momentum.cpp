@@ -1,7 +1,5 @@
 #include "common/scheme/budget/angular_momentum.hpp"
 
-#include "common/parallel/for_chunks.hpp"
-
 #include <algorithm>
 
 namespace diptych::scheme {
@@ -31,7 +29,7 @@ Vec3 position(const Body<Dim>& body, std::int64_t a) {
 template <int Dim>
 Projection project_angular_momentum(Body<Dim>& body, const Vec3& wanted) {
   const auto for_nodes = [&](const auto& work) {
-    parallel::for_chunks(body.n_blocks,
+    parallel::for_chunks(body.part(), body.n_blocks,
                          [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
                            const std::int64_t last = std::min(end * n_lanes, body.n_owned);
                            for (std::int64_t a = begin * n_lanes; a < last; ++a)
@@ -51,6 +49,7 @@ Projection project_angular_momentum(Body<Dim>& body, const Vec3& wanted) {
     parts[chunk].second += m * x * x.transpose();
     parts[chunk].angular_momentum += m * x.cross(v);
   });
+  body.part().complete(parts);
   Moments sum;
   for (const Moments& part : parts) {
     sum.mass += part.mass;

@@ -15,12 +15,22 @@ using algebra::Vec3;
 struct Impulse {
   Vec3 linear = Vec3::Zero();
   Vec3 angular = Vec3::Zero();
+  Impulse& operator+=(const Impulse& other) {
+    linear += other.linear;
+    angular += other.angular;
+    return *this;
+  }
 };
 
 /// What constraints did to a state when they were applied.
 struct ConstraintAction {
   Impulse impulse;
   double work = 0;  ///< J, of impacts: the kinetic energy that they took, negative
+  ConstraintAction& operator+=(const ConstraintAction& other) {
+    impulse += other.impulse;
+    work += other.work;
+    return *this;
+  }
 };
 
 /// Rates of the loads at one instant.
@@ -28,6 +38,12 @@ struct LoadRates {
   double power = 0;            ///< W
   Vec3 force = Vec3::Zero();   ///< N
   Vec3 torque = Vec3::Zero();  ///< N m
+  LoadRates& operator+=(const LoadRates& other) {
+    power += other.power;
+    force += other.force;
+    torque += other.torque;
+    return *this;
+  }
 };
 
 /// Integrals, or, with the same members, their rates.

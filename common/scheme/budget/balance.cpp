@@ -1,7 +1,5 @@
 #include "common/scheme/budget/balance.hpp"
 
-#include "common/parallel/for_chunks.hpp"
-
 #include <algorithm>
 
 namespace diptych::scheme {
@@ -30,12 +28,19 @@ void add_momenta(const Body<Dim>& body, std::int64_t begin, std::int64_t end, Ba
 template <int Dim>
 Balance balance(const MaterialModel& material, const Body<Dim>& body) {
   const auto add_energies = block_physics<Dim>(material).add_energies;
+  const std::vector<double> J =
+      body.cells.empty() ? std::vector<double>{} : body.cells.ratios(body);
   std::vector<Balance> parts(parallel::n_chunks_of(body.n_blocks));
-  parallel::for_chunks(body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t c) {
-    parts[c].least_J = 1e300;
-    add_energies(material, body, begin, end, parts[c]);
-    add_momenta(body, begin, end, parts[c]);
-  });
+  parallel::for_chunks(
+      body.part(), body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t c) {
+        parts[c].least_J = 1e300;
+        add_energies(material, body, begin, end, parts[c]);
+        add_momenta(body, begin, end, parts[c]);
+        if (J.empty()) return;
+        for (std::int64_t a = begin * n_lanes; a < std::min(end * n_lanes, body.n_owned); ++a)
+          parts[c].strain += body.cells.reference(a) * material.volumetric_energy(J[a]);
+      });
+  body.part().complete(parts);
   Balance sum;
   sum.least_J = 1e300;
   for (const Balance& part : parts) {
@@ -48,11 +53,6 @@ Balance balance(const MaterialModel& material, const Body<Dim>& body) {
     sum.least_J = std::min(sum.least_J, part.least_J);
     sum.involution_H = std::max(sum.involution_H, part.involution_H);
     sum.involution_J = std::max(sum.involution_J, part.involution_J);
-  }
-  if (!body.cells.empty()) {
-    const std::vector<double> J = body.cells.ratios(body);
-    for (std::int64_t a = 0; a < body.n_owned; ++a)
-      sum.strain += body.cells.reference(a) * material.volumetric_energy(J[a]);
   }
   return sum;
 }

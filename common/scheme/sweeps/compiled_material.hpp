@@ -61,6 +61,54 @@ DIPTYCH_INLINE double power_of_old_forces(const Body<Dim>& body,
   return algebra::lane_sum(outer + algebra::load(body.graph.Omega.data() + b * n_lanes) * inner);
 }
 
+/// Whether stored internal variables are symmetric positive definite; false of NaN.
+DIPTYCH_INLINE auto are_positive_definite(const SymmetricTensor<Lanes>& A) {
+  const Lanes minor = A(0, 0) * A(1, 1) - A(0, 1) * A(0, 1);
+  const Lanes determinant = A(2, 2) * minor - A(1, 2) * (A(0, 0) * A(1, 2) - A(0, 1) * A(0, 2)) +
+                            A(0, 2) * (A(0, 1) * A(1, 2) - A(1, 1) * A(0, 2));
+  return (A(0, 0) > 0) & (minor > 0) & (determinant > 0);
+}
+
+/// Nodes of block b that the evaluation begins with as sound ones: J > 0 where it is evolved, the
+/// internal variables positive definite.  [mask of lanes]
+template <int Dim, bool has_H>
+DIPTYCH_INLINE auto sound_before(const Body<Dim>& body, std::int64_t b) {
+  auto is_sound = Lanes{} == 0.0;
+  if (body.options.unknowns != Unknowns::F) is_sound &= body.J.get(b, 0) > -1;
+  for (int k = 0; k < body.options.n_branches; ++k) {
+    const auto branch = stored_branch<Dim, has_H>(body, b, k);
+    is_sound &= are_positive_definite(branch.A);
+    if constexpr (has_H) is_sound &= are_positive_definite(branch.S);
+  }
+  return is_sound;
+}
+
+/// Leaves word of nodes that the evaluation did not begin with as sound ones: what they began with
+/// is overwritten. J, or F where J follows from it, is no number there from now on.
+template <int Dim>
+void mark_bad(Body<Dim>& body, std::int64_t b, const Lanes& is_bad) {
+  BlockField& field = body.options.unknowns == Unknowns::F ? body.F : body.J;
+  field.put(b, 0, field.get(b, 0) + (is_bad > 0 ? Lanes{} + __builtin_nan("") : Lanes{}));
+}
+
+/// And ends with as sound ones: J > 0; dF/dt, P and, where a step ends, u finite. What is not a
+/// number in F, H or internal variables is none in P, velocities in dF/dt.  [mask of lanes]
+template <int Dim>
+DIPTYCH_INLINE auto sound_after(const StrainRateSweep<Dim>& sweep,
+                                std::int64_t b,
+                                const Lanes (&L)[Dim * Dim],
+                                const Lanes& J,
+                                const Tensor<Lanes>& P) {
+  Lanes sum{};  // not finite where one of them is not
+  for (int k = 0; k < Dim * Dim; ++k)
+    sum += L[k] + P(k / Dim, k % Dim);
+  if (sweep.drift != 0 || (sweep.stage != nullptr && sweep.stage->last)) {
+    for (int i = 0; i < Dim; ++i)
+      sum += sweep.body.u.get(b, i);
+  }
+  return (J > 0) & (sum - sum == 0);  // comparisons with NaN are false
+}
+
 /// What the strain-rate sweep does with a block once its dF/dt is known: H and J (18c,d) with F,
 /// relaxation (14), stress (9), wave speeds.
 template <int Dim, class Material>
@@ -76,17 +124,13 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
     prefetch_to_write<NodeRecord<Dim>::n_isotropic>(body.records, b);
   }
   if (sweep.old_power != nullptr) totals.old_power += power_of_old_forces(body, b, L);
+  const auto was_sound = sound_before<Dim, has_H>(body, b);
   if (sweep.stage != nullptr) update_deformation_of_block(body, *sweep.stage, b);
   body.records.template put_each<Dim * Dim>(b, NodeRecord<Dim>::L,
                                             [&](int k) DIPTYCH_INLINE_LAMBDA { return L[k]; });
   if (sweep.drift != 0) drift_block(body, sweep.drift, b);
   const Deformation<Lanes> X = load_deformation(body, b);
   totals.least_J = algebra::smaller(totals.least_J, X.J);
-  Lanes rates{};  // not finite where one of them is not
-  for (int k = 0; k < Dim * Dim; ++k)
-    rates += L[k];
-  const auto is_sound = (X.J > 0) & (rates - rates == 0);  // comparisons with NaN are false
-  totals.n_bad += is_sound ? Lanes{} : Lanes{} + 1.0;
   const bool with_dissipation = sweep.with_dissipation && sweep.relaxation.excess_C.size() > 0;
   Lanes dissipation{};
   Response<Lanes> response = response_of_block(
@@ -106,6 +150,10 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
           });
   if (!body.cells.empty()) response.Sigma_J -= model.material.volumetric_stress(X.J);
   const Tensor<Lanes> P = physics::piola_stress<has_H>(response, X);
+  const auto is_sound = was_sound & sound_after<Dim>(sweep, b, L, X.J, P);
+  totals.n_bad += is_sound ? Lanes{} : Lanes{} + 1.0;
+  const Lanes was_bad = was_sound ? Lanes{} : Lanes{} + 1.0;
+  if (__builtin_expect(algebra::lane_sum(was_bad) > 0, 0)) mark_bad(body, b, was_bad);
   write_records(body, b, X, response, P);
   const double rho_R = model.rho_R;
   const auto speeds = physics::speed_bounds(response, X, rho_R, has_H, Material::has_W_FJ);

@@ -2,6 +2,7 @@
 
 #include "common/parallel/for_chunks.hpp"
 #include "common/scheme/body/pointwise.hpp"
+#include "common/scheme/ranks/division.hpp"
 
 #include <algorithm>
 
@@ -88,17 +89,43 @@ void sum_forces_of_runs(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> m
   });
 }
 
+/// The same of the chunks that write to nodes of this rank.
+template <int Dim>
+void sum_forces_of_part(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> momentum) {
+  const RunWork& work = sweep.body.division->runs;
+  const auto end_of = [&](std::int64_t chunk) {
+    return std::min(sweep.body.n_blocks, (chunk + 1) * parallel::chunk_size);
+  };
+  parallel::for_shares(std::ssize(work.written), [&](std::int64_t i) {
+    const std::int64_t chunk = work.written[i];
+    clear_sums(sweep.body, chunk * parallel::chunk_size, end_of(chunk));
+  });
+  for (const auto& segments : work.segments) {
+    parallel::for_shares(std::ssize(segments), [&](std::int64_t s) {
+      for (const std::int64_t chunk : segments[s])
+        momentum(sweep, chunk * parallel::chunk_size, end_of(chunk), chunk);
+    });
+  }
+  parallel::for_chunks(sweep.body.part(), sweep.body.n_blocks,
+                       [&](auto begin, auto end, auto) { use_sums(sweep, begin, end); });
+}
+
 }  // namespace
 
 template <int Dim>
 void sum_forces(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> momentum) {
-  if (sweep.body.graph.shape.arrangement == Arrangement::runs) {
+  const bool runs = sweep.body.graph.shape.arrangement == Arrangement::runs;
+  if (runs && sweep.body.division) {
+    sum_forces_of_part(sweep, momentum);
+    return;
+  }
+  if (runs) {
     sum_forces_of_runs(sweep, momentum);
     return;
   }
-  parallel::for_chunks(sweep.body.graph.n_blocks, [&](auto begin, auto end, auto chunk) {
-    momentum(sweep, begin, end, chunk);
-  });
+  parallel::for_chunks(
+      sweep.body.part(), sweep.body.n_blocks,
+      [&](auto begin, auto end, auto chunk) { momentum(sweep, begin, end, chunk); });
 }
 
 template void sum_forces(const MomentumSweep<2>&, MomentumFunction<2>);

@@ -14,7 +14,7 @@ namespace diptych::scheme {
 /// What the blocks of a chunk add up.
 struct BlockTotals {
   algebra::Lanes least_J = algebra::Lanes{} + 1e300;
-  algebra::Lanes n_bad{};          ///< nodes without J > 0 and finite dF/dt
+  algebra::Lanes n_bad{};          ///< nodes that are not sound (compiled_material.hpp)
   double viscous_dissipation = 0;  ///< J, of the step that ends here
   double old_power = 0;            ///< W, see StrainRateSweep
 };
@@ -30,7 +30,7 @@ struct StrainRateSweep {
   double drift;                   ///< s, leapfrog: moves u, F, H, J by the new rates
   // results, one per chunk of parallel::for_chunks
   double* viscous_dissipation;  ///< J
-  double* least_J;              ///< NaN where a node has not J > 0 and finite dF/dt
+  double* least_J;              ///< NaN where a node is not sound (compiled_material.hpp)
   /// W, leapfrog: of the forces before with the velocities of the drift, sum v . T + Omega P : L of
   /// the T and P that are replaced; what central forces do cancels. May be null
   double* old_power = nullptr;

@@ -1,6 +1,6 @@
 #include "common/scheme/sweeps/sweeps.hpp"
 
-#include "common/parallel/for_chunks.hpp"
+#include "common/scheme/ranks/exchange.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,14 @@ namespace {
 template <int Dim, class Work>
 void for_blocks(const Body<Dim>& body, const Work& work) {
   parallel::for_chunks(
-      body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) { work(begin, end); });
+      body.part(), body.n_blocks,
+      [&](std::int64_t begin, std::int64_t end, std::int64_t) { work(begin, end); });
+}
+
+/// The first n of these, which have an entry for each chunk, as their ranks have them.
+template <int Dim>
+void complete(const Body<Dim>& body, std::initializer_list<std::vector<double>*> arrays, size_t n) {
+  body.part().complete(std::span(arrays.begin(), n));
 }
 
 }  // namespace
@@ -40,13 +47,15 @@ void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
   const MomentumSweep<Dim> sweep{body, options_.dissipation_factor,
                                  with_step && speeds == Speeds::exact, numerical_power_.data(),
                                  largest_rate_.data()};
+  exchange(body, {&Body<Dim>::records});
   scheme::sum_forces(sweep, momentum_);
   if (!body.cells.empty()) body.cells.add_forces(body, *material_);
   if (with_step && speeds == Speeds::bound) {
-    parallel::for_chunks(body.n_blocks, [&](auto begin, auto end, auto chunk) {
+    parallel::for_chunks(body.part(), body.n_blocks, [&](auto begin, auto end, auto chunk) {
       largest_rate_[chunk] = geometric_rate_ * largest_speed(body, begin, end);
     });
   }
+  complete(body, {&numerical_power_, &largest_rate_}, with_step ? 2 : 1);
   if (with_step) stable_dt_ = options_.time_step.limit() / rate();
 }
 
@@ -66,13 +75,17 @@ void Sweeps<Dim>::strain_rates(Body<Dim>& body,
                                const StageCombination* stage,
                                double drift) {
   const double kappa_f = options_.face_correction;
+  exchange(body, {&Body<Dim>::v});
   if (kappa_f != 0) {
     for_blocks(body, [&](auto begin, auto end) { face_.gradients(body, begin, end); });
+    exchange(body, {&Body<Dim>::gradients});
   }
   evaluate_strain_rates<Dim>({body, *material_, relaxation, options_.energy_budget, kappa_f, stage,
                               drift, viscous_dissipation_.data(), least_J_.data(),
                               drift != 0 ? old_power_.data() : nullptr});
+  complete(body, {&least_J_, &viscous_dissipation_, &old_power_}, drift != 0 ? 3 : 2);
   if (kappa_f != 0) {
+    exchange(body, {&Body<Dim>::stresses});
     for_blocks(body, [&](auto begin, auto end) { face_.stresses(body, kappa_f, begin, end); });
   }
 }

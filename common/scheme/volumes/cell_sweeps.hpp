@@ -190,14 +190,15 @@ struct SharpenKernel {
 };
 
 template <class Kernel>
-void sweep_nodes(const CellsOfNodes& around,
+void sweep_nodes(const parallel::Part& part,
+                 const CellsOfNodes& around,
                  const double* of_cells,
                  const double* inverse_V_0,
                  double* values) {
   const auto run = algebra::version_here<
       algebra::Versions<Kernel, const CellsOfNodes&, const double*, const double*, double*,
                         std::int64_t, std::int64_t>>();
-  parallel::for_chunks(around.first.size() - 1,
+  parallel::for_chunks(part, around.first.size() - 1,
                        [&](std::int64_t begin, std::int64_t end, std::int64_t) {
                          run(around, of_cells, inverse_V_0, values, begin, end);
                        });
@@ -244,9 +245,17 @@ CellFunction function_of(const CellGroup& group) {
 }
 
 /// Over all blocks of cells, each by itself.
+/// @param work  of this rank; null: all
 template <template <int, int> class Kernel, int Dim>
-void sweep_group(const CellSweep& sweep, const CellGroup& group) {
+void sweep_group(const CellSweep& sweep, const CellGroup& group, const CellWork* work) {
   const CellFunction run = function_of<Kernel, Dim>(group);
+  if (work != nullptr) {
+    parallel::for_shares(std::ssize(work->segments), [&](std::int64_t s) {
+      for (const parallel::NodeRange& blocks : work->segments[s])
+        run(sweep, blocks.begin, blocks.end);
+    });
+    return;
+  }
   parallel::for_chunks(group.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
     run(sweep, begin, end);
   });

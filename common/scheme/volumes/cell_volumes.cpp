@@ -2,6 +2,7 @@
 
 #include "common/base/error.hpp"
 #include "common/scheme/body/material_model.hpp"
+#include "common/scheme/ranks/division.hpp"
 #include "common/scheme/volumes/cell_sweeps.hpp"
 
 #include <algorithm>
@@ -87,7 +88,46 @@ CellGroup group_of(const VolumeCells& cells,
   return group;
 }
 
+template <int Dim, class Work>
+void for_own_chunks(const Body<Dim>& body, const Work& work) {
+  parallel::for_chunks(body.part(), body.n_blocks, work);
+}
+
+/// Of group g; null where it is all of it.
+template <int Dim>
+const CellWork* work_in(const Body<Dim>* body, size_t g) {
+  return body != nullptr && body->division ? &body->division->cells[g] : nullptr;
+}
+
 }  // namespace
+
+template <int Dim>
+std::vector<CellWork> CellVolumes<Dim>::work_of(const parallel::Part& part,
+                                                std::vector<char>& corners) const {
+  std::vector<CellWork> work(groups_.size());
+  for (size_t g = 0; g < groups_.size(); ++g) {
+    const CellGroup& group = groups_[g];
+    const std::int64_t length = group.n_corners * n_lanes;
+    const auto is_mine = [&](std::int64_t block) {
+      const std::int32_t* first = group.corner.data() + block * length;
+      return std::any_of(first, first + length, [&](std::int32_t a) {
+        return part.owns(a / (parallel::chunk_size * n_lanes));
+      });
+    };
+    for (std::int64_t s = 0; s < n_segments_; ++s) {
+      const std::int64_t begin = group.segment[s];
+      auto ranges = parallel::ranges_of(group.segment[s + 1] - begin,
+                                        [&](std::int64_t b) { return is_mine(begin + b); });
+      for (parallel::NodeRange& blocks : ranges) {
+        blocks = {begin + blocks.begin, begin + blocks.end};
+        for (std::int64_t k = blocks.begin * length; k < blocks.end * length; ++k)
+          corners[group.corner[k]] = 1;
+      }
+      work[g].segments.push_back(std::move(ranges));
+    }
+  }
+  return work;
+}
 
 template <int Dim>
 CellVolumes<Dim>::CellVolumes(const VolumeCells& cells, const std::vector<algebra::Vec3>& X)
@@ -118,10 +158,10 @@ CellVolumes<Dim>::CellVolumes(const VolumeCells& cells, const std::vector<algebr
     for (int i = 0; i < Dim; ++i)
       x_[a * stride + i] = X[a][i];
   }
-  put_volumes(x_, nullptr, of_cells_);
+  put_volumes(nullptr, x_, nullptr, of_cells_);
   for (std::int64_t a = 0; a < n_nodes_; ++a)
     inverse_V_0_[a] = 1;
-  put_ratios(of_cells_, V_0_);
+  put_ratios(parallel::Part(), of_cells_, V_0_);
   for (CellGroup& group : groups_) {
     for (std::int64_t i = 0; i < group.n_blocks * n_lanes; ++i) {
       group.weight[i] = taken_back(Dim, group.n_corners) * of_cells_[group.first_cell + i];
@@ -129,7 +169,7 @@ CellVolumes<Dim>::CellVolumes(const VolumeCells& cells, const std::vector<algebr
     }
   }
   around_.weight = Array(pressure_.size());
-  put_ratios(of_cells_, around_.weight);
+  put_ratios(parallel::Part(), of_cells_, around_.weight);
   for (std::int64_t a = 0; a < n_nodes_; ++a)
     inverse_V_0_[a] = 1 / V_0_[a];
 }
@@ -190,53 +230,71 @@ std::int64_t CellVolumes<Dim>::bytes() const {
 
 template <int Dim>
 void CellVolumes<Dim>::put_positions(const Body<Dim>& body, Array& x) const {
-  parallel::for_chunks(body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+  for_own_chunks(body, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
     const std::int64_t last = std::min(end * n_lanes, n_nodes_);
     for (std::int64_t a = begin * n_lanes; a < last; ++a) {
       for (int i = 0; i < Dim; ++i)
         x[a * stride + i] = body.X[a][i] + body.u.at(a, i);
     }
   });
+  exchange(body, x, stride);
 }
 
 template <int Dim>
-void CellVolumes<Dim>::put_volumes(const Array& x, const double* rate, Array& volume) const {
-  for (const CellGroup& group : groups_) {
+void CellVolumes<Dim>::exchange(const Body<Dim>& body, Array& values, int n) const {
+  if (!body.division) return;
+  body.division->corners.exchange([&](std::int64_t begin, std::int64_t end, const auto& use) {
+    algebra::use_bytes(values.data() + begin * n, (end - begin) * n, use);
+  });
+}
+
+template <int Dim>
+void CellVolumes<Dim>::put_volumes(const Body<Dim>* body,
+                                   const Array& x,
+                                   const double* rate,
+                                   Array& volume) const {
+  for (size_t g = 0; g < groups_.size(); ++g) {
+    const CellGroup& group = groups_[g];
     CellSweep sweep = sweep_of(group);
     sweep.x = x.data();
     sweep.rate = rate;
     sweep.out = volume.data() + group.first_cell;
-    sweep_group<VolumeKernel, Dim>(sweep, group);
+    sweep_group<VolumeKernel, Dim>(sweep, group, work_in(body, g));
   }
 }
 
 template <int Dim>
-void CellVolumes<Dim>::put_ratios(const Array& volume, Array& ratio) const {
-  sweep_nodes<RatioKernel>(around_, volume.data(), inverse_V_0_.data(), ratio.data());
+void CellVolumes<Dim>::put_ratios(const parallel::Part& part,
+                                  const Array& volume,
+                                  Array& ratio) const {
+  sweep_nodes<RatioKernel>(part, around_, volume.data(), inverse_V_0_.data(), ratio.data());
 }
 
 template <int Dim>
-void CellVolumes<Dim>::sharpen(Array& values, Array& of_cells) const {
-  for (const CellGroup& group : groups_) {
+void CellVolumes<Dim>::sharpen(const Body<Dim>& body, Array& values, Array& of_cells) const {
+  exchange(body, values, 1);
+  for (size_t g = 0; g < groups_.size(); ++g) {
+    const CellGroup& group = groups_[g];
     CellSweep sweep = sweep_of(group);
     sweep.nodal = values.data();
     sweep.out = of_cells.data() + group.first_cell;
-    sweep_group<MeanKernel, Dim>(sweep, group);
+    sweep_group<MeanKernel, Dim>(sweep, group, work_in(&body, g));
   }
-  sweep_nodes<SharpenKernel>(around_, of_cells.data(), inverse_V_0_.data(), values.data());
+  sweep_nodes<SharpenKernel>(body.part(), around_, of_cells.data(), inverse_V_0_.data(),
+                             values.data());
 }
 
 template <int Dim>
 void CellVolumes<Dim>::add_forces(Body<Dim>& body, const MaterialModel& material) {
   put_positions(body, x_);
-  put_volumes(x_, nullptr, of_cells_);
-  put_ratios(of_cells_, pressure_);
-  sharpen(pressure_, of_cells_);
-  parallel::for_chunks(body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+  put_volumes(&body, x_, nullptr, of_cells_);
+  put_ratios(body.part(), of_cells_, pressure_);
+  sharpen(body, pressure_, of_cells_);
+  for_own_chunks(body, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
     const std::int64_t first = begin * n_lanes, last = std::min(end * n_lanes, n_nodes_);
     material.put_volumetric_stresses(&pressure_[first], last - first);
   });
-  sharpen(pressure_, of_cells_);
+  sharpen(body, pressure_, of_cells_);
   sum_forces(body);
 }
 
@@ -248,22 +306,34 @@ void CellVolumes<Dim>::add_linear_forces(Body<Dim>& body, double modulus) {
     for (int i = 0; i < Dim; ++i)
       rate[a * stride + i] = body.v.at(a, i);
   }
-  put_volumes(x_, rate.data(), of_cells_);
-  put_ratios(of_cells_, pressure_);
-  sharpen(pressure_, of_cells_);
+  put_volumes(&body, x_, rate.data(), of_cells_);
+  put_ratios(body.part(), of_cells_, pressure_);
+  sharpen(body, pressure_, of_cells_);
   for (std::int64_t a = 0; a < n_nodes_; ++a)
     pressure_[a] *= modulus;
-  sharpen(pressure_, of_cells_);
+  sharpen(body, pressure_, of_cells_);
   sum_forces(body);
 }
 
 template <int Dim>
-void CellVolumes<Dim>::sum_forces(Body<Dim>& body) {
-  parallel::for_chunks(body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+void CellVolumes<Dim>::clear_forces(const Body<Dim>& body) {
+  for_own_chunks(body, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
     constexpr std::int64_t row = n_lanes * stride;
     std::fill(&force_[begin * row], &force_[begin * row] + (end - begin) * row, 0.0);
   });
-  for (const CellGroup& group : groups_) {
+  if (!body.division) return;
+  for (const parallel::NodeRange& nodes : body.division->corners.received())
+    std::fill(&force_[nodes.begin * stride],
+              &force_[nodes.begin * stride] + (nodes.end - nodes.begin) * stride, 0.0);
+}
+
+template <int Dim>
+void CellVolumes<Dim>::sum_forces(Body<Dim>& body) {
+  exchange(body, pressure_, 1);
+  clear_forces(body);
+  for (size_t g = 0; g < groups_.size(); ++g) {
+    const CellGroup& group = groups_[g];
+    const CellWork* work = work_in(&body, g);
     CellSweep sweep = sweep_of(group);
     sweep.x = x_.data();
     sweep.nodal = pressure_.data();
@@ -272,14 +342,19 @@ void CellVolumes<Dim>::sum_forces(Body<Dim>& body) {
     for (const std::int64_t parity : {0, 1}) {
       parallel::for_shares((n_segments_ + 1 - parity) / 2, [&](std::int64_t i) {
         const std::int64_t s = 2 * i + parity;
-        run(sweep, group.segment[s], group.segment[s + 1]);
+        if (work == nullptr) {
+          run(sweep, group.segment[s], group.segment[s + 1]);
+          return;
+        }
+        for (const parallel::NodeRange& blocks : work->segments[s])
+          run(sweep, blocks.begin, blocks.end);
       });
     }
   }
   const auto add =
       algebra::version_here<algebra::Versions<AddRowsKernel<Dim>, const double*, Body<Dim>&,
                                               std::int64_t, std::int64_t>>();
-  parallel::for_chunks(body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+  for_own_chunks(body, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
     add(force_.data(), body, begin, end);
   });
 }
@@ -287,13 +362,14 @@ void CellVolumes<Dim>::sum_forces(Body<Dim>& body) {
 template <int Dim>
 double CellVolumes<Dim>::power(const Body<Dim>& body) const {
   std::vector<double> parts(parallel::n_chunks_of(body.n_blocks));
-  parallel::for_chunks(body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t c) {
+  for_own_chunks(body, [&](std::int64_t begin, std::int64_t end, std::int64_t c) {
     const std::int64_t last = std::min(end * n_lanes, n_nodes_);
     for (std::int64_t a = begin * n_lanes; a < last; ++a) {
       for (int i = 0; i < Dim; ++i)
         parts[c] += body.v.at(a, i) * force_[a * stride + i];
     }
   });
+  body.part().complete(parts);
   return parallel::sum_in_order(parts);
 }
 
@@ -301,9 +377,9 @@ template <int Dim>
 std::vector<double> CellVolumes<Dim>::ratios(const Body<Dim>& body) const {
   Array x(n_nodes_ * stride), volume(n_cells_ + n_lanes), J(pressure_.size());
   put_positions(body, x);
-  put_volumes(x, nullptr, volume);
-  put_ratios(volume, J);
-  sharpen(J, volume);
+  put_volumes(&body, x, nullptr, volume);
+  put_ratios(body.part(), volume, J);
+  sharpen(body, J, volume);
   return {J.data(), J.data() + n_nodes_};
 }
 

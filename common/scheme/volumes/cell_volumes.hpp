@@ -12,6 +12,7 @@
 
 #include "common/algebra/field.hpp"
 #include "common/algebra/vectors.hpp"
+#include "common/parallel/halo.hpp"
 #include "common/scheme/graph/volume_cells.hpp"
 
 #include <cstdint>
@@ -50,6 +51,11 @@ struct CellsOfNodes {
   algebra::AlignedArray<double> weight;  ///< [n_nodes, padded] m^Dim, of all their cells by share
 };
 
+/// Blocks of cells of a group that a rank works: those around its nodes, segment by segment.
+struct CellWork {
+  std::vector<std::vector<parallel::NodeRange>> segments;  ///< [n_segments] ranges of blocks
+};
+
 template <int Dim>
 class CellVolumes {
  public:
@@ -62,6 +68,10 @@ class CellVolumes {
   /// Volume of node a in the reference state  [m^Dim]
   double reference(std::int64_t a) const { return V_0_[a]; }
 
+  /// What a rank works.
+  /// @param corners  [n_nodes] set to 1 where these cells have a corner
+  std::vector<CellWork> work_of(const parallel::Part& part, std::vector<char>& corners) const;
+
   /// Adds the forces of the pressure U'(J_a) of the material to body.T, for the displacements as
   /// they stand.
   void add_forces(Body<Dim>& body, const MaterialModel& material);
@@ -73,19 +83,23 @@ class CellVolumes {
   /// Power of the forces that were added last with the velocities as they are now  [W]
   double power(const Body<Dim>& body) const;
 
-  /// J of the nodes by the volumes of cells  [n_nodes]
+  /// J of the nodes by the volumes of cells, among ranks of the own ones  [n_nodes]
   std::vector<double> ratios(const Body<Dim>& body) const;
 
  private:
   using Array = algebra::AlignedArray<double>;
   void put_positions(const Body<Dim>& body, Array& x) const;
   /// Volumes of all cells, or their rates of change.
+  /// @param body  whose part it is; null: all
   /// @param rate  [n_nodes][4] m/s, or null
-  void put_volumes(const Array& x, const double* rate, Array& volume) const;
+  void put_volumes(const Body<Dim>* body, const Array& x, const double* rate, Array& volume) const;
   /// V_a / V_a(X), or its rate, of the volumes of cells.
-  void put_ratios(const Array& volume, Array& ratio) const;
+  void put_ratios(const parallel::Part& part, const Array& volume, Array& ratio) const;
   /// values <- M values.  @param of_cells  [n_cells + 8] of no more use
-  void sharpen(Array& values, Array& of_cells) const;
+  void sharpen(const Body<Dim>& body, Array& values, Array& of_cells) const;
+  /// What neighbours of its nodes have in rows of n numbers, from their ranks.
+  void exchange(const Body<Dim>& body, Array& values, int n) const;
+  void clear_forces(const Body<Dim>& body);
   void sum_forces(Body<Dim>& body);
   void list_cells_of_nodes(const VolumeCells& cells, const std::vector<std::int64_t>& place);
 

@@ -17,15 +17,20 @@ std::string titled(const std::pair<std::string, std::string>& quantity) {
          (quantity.second == "-" ? "" : " [" + escaped(quantity.second) + "]");
 }
 
-/// Whether the finest values of the two methods lie within the sum of their error bars.
-std::string agreement(const std::vector<GridSeries>& series) {
+/// Whether the finest values of the two methods lie within the sum of their error bars, where both
+/// are resolved.
+std::string agreement(const StudyReport& study,
+                      const std::pair<std::string, std::string>& quantity,
+                      const std::vector<GridSeries>& series) {
   if (series.size() != 2) return "";
-  const GridPoint &a = series[0].points.back(), &b = series[1].points.back();
-  if (a.error_bar == 0 || b.error_bar == 0) return "";
-  return agree(a, b) ? "agree" : "do not agree";
+  const double scale = scale_of(study, quantity.first, quantity.second, series);
+  const std::string why = why_unresolved(series, scale);
+  if (!why.empty()) return "unresolved: " + escaped(why);
+  return agree(series[0].points.back(), series[1].points.back()) ? "agree" : "apart";
 }
 
-std::string rows_of(const std::pair<std::string, std::string>& quantity,
+std::string rows_of(const StudyReport& study,
+                    const std::pair<std::string, std::string>& quantity,
                     const std::vector<GridSeries>& series) {
   std::string rows;
   for (const GridSeries& one : series) {
@@ -40,7 +45,7 @@ std::string rows_of(const std::pair<std::string, std::string>& quantity,
             cell(e                        ? convergence_name(e->kind)
                  : one.points.size() == 2 ? "two grids"
                                           : "") +
-            cell(&one == &series.back() ? agreement(series) : "") + "</tr>\n";
+            cell(&one == &series.back() ? agreement(study, quantity, series) : "") + "</tr>\n";
   }
   return rows;
 }
@@ -53,7 +58,7 @@ std::string quantities_section(const StudyReport& study) {
   size_t number = 0;
   for (const auto& [quantity, series] : study.quantities) {
     options += fmt::format("<option value=\"{}\">{}</option>\n", number++, titled(quantity));
-    rows += rows_of(quantity, series);
+    rows += rows_of(study, quantity, series);
   }
   std::string head;
   for (const char* name : {"quantity", "method", "finest grid", "error bar", "extrapolated",
@@ -65,7 +70,10 @@ std::string quantities_section(const StudyReport& study) {
       "<p>Values at the end. A bar is the numerical uncertainty that a level and the two before it "
       "give (grid convergence index; on the second level with the formal order and a factor of "
       "3). The methods agree where their finest values are no further apart than the sum of their "
-      "bars.</p>\n<p class=\"choice\"><label>Quantity <select id=\"quantity\">\n" +
+      "bars. Unresolved: one of them shows no order within 0.5 of its own, or its bar is wider "
+      "than "
+      "5 % of the quantity over the run.</p>\n<p class=\"choice\"><label>Quantity <select "
+      "id=\"quantity\">\n" +
           options + "</select></label></p>\n" +
           chart("quantity-chart", "A quantity against spacing with error bars",
                 "Three levels that converge monotonically give an extrapolated value: the hollow "

@@ -1,5 +1,4 @@
-/// Duals against closed forms and against differences; jets are tested with the tape that uses them
-/// (tests/common/exact/motion_test.cpp).
+/// Duals against closed forms and against differences.
 
 #include "common/algebra/tensor.hpp"
 

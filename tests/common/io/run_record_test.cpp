@@ -28,6 +28,7 @@ RunSummary full_summary() {
   s.level = 2, s.dimension = 2, s.nodes = 4'000'000'017, s.pairs = 123456789,
   s.unknowns_per_node = 34;
   s.steps = 77, s.stages = 154, s.threads = 3, s.ranks = 5;
+  s.imbalance = 1.25, s.exchanged_bytes = 4711, s.communication_seconds = 0.5;
   s.arrangement = "rows";
   s.precision = "single", s.integrator = "ssp-rk3", s.status = "interrupted";
   s.end_time = 0.1, s.setup_seconds = 1.0 / 3, s.wall_seconds = 12.5, s.loop_seconds = 11.7;
@@ -125,6 +126,9 @@ TEST(RunRecord, HasTheKeysOfTheContract) {
                               "/stages",
                               "/threads",
                               "/ranks",
+                              "/communication/imbalance",
+                              "/communication/exchanged_bytes",
+                              "/communication/seconds",
                               "/precision",
                               "/arrangement",
                               "/status",

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace diptych::tests {
 namespace {
 
@@ -31,6 +33,23 @@ TYPED_TEST(Energy, IsNonNegative) {
     const auto F = random.deformation_gradient(n % 2 == 0 ? 1.001 : stretch);
     const double W = body.energy(deformation_of(F));
     ASSERT_GE(W, -rounding);
+  }
+}
+
+TYPED_TEST(Energy, HasTheLameConstantsThatTheMaterialWasMadeOf) {
+  RandomStates random(44);
+  constexpr double h = 1e-3;  // terms of fourth order: 1e-6 of the energy
+  for (int n = 0; n < 20; ++n) {
+    const double mu = random.factor(spread);
+    const physics::LameConstants lame{mu, 3 * mu * random.factor(stretch)};  // polyconvex
+    const auto material = TypeParam::from(lame, 0.3);
+    const Mat3 E = h * (to_eigen(random.deformation_gradient(stretch)) - Mat3::Identity());
+    const Mat3 strain = 0.5 * (E + E.transpose());
+    const double both = material.energy(deformation_of(to_tensor(Mat3::Identity() + strain))) +
+                        material.energy(deformation_of(to_tensor(Mat3::Identity() - strain)));
+    const double wanted =
+        lame.mu * strain.squaredNorm() + 0.5 * lame.lambda * std::pow(strain.trace(), 2);
+    EXPECT_NEAR(0.5 * both / wanted, 1, 1e-4);
   }
 }
 

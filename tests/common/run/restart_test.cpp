@@ -15,10 +15,13 @@
 #include "common/time/integrator.hpp"
 #include "tests/common/io/scratch.hpp"
 #include "tests/common/scheme/scenes.hpp"
+#include "tests/trials.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <random>
+#include <set>
 #include <tuple>
 
 namespace diptych::run {
@@ -158,9 +161,19 @@ void expect_same_bits(const std::string& method,
   const Record wanted = whole(method, text, overrides);
   ASSERT_GE(wanted.steps, 10) << "too few steps to end in between";
   const std::int64_t n = wanted.steps;
-  for (const std::vector<std::int64_t>& ends :
-       std::vector<std::vector<std::int64_t>>{{1}, {n - 1}, {2, 3, n / 3, n / 2, 2 * n / 3}}) {
+  std::vector<std::vector<std::int64_t>> routes{{1}, {n - 1}, {2, 3, n / 3, n / 2, 2 * n / 3}};
+  std::mt19937_64 random(static_cast<std::uint64_t>(n));
+  tests::Trials trials("restarts");
+  for (int k = 0; k < trials.n(1, 20); ++k) {  // chains of one to five random steps
+    std::set<std::int64_t> ends;
+    while (static_cast<int>(ends.size()) <= k % 5)
+      ends.insert(1 + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(n - 1)));
+    routes.emplace_back(ends.begin(), ends.end());
+  }
+  for (const std::vector<std::int64_t>& ends : routes) {
     const Record found = in_parts(method, text, overrides, ends);
+    trials.add(found.hash == wanted.hash && found.lines == wanted.lines &&
+               found.figures == wanted.figures);
     EXPECT_EQ(found.hash, wanted.hash) << method << ", first end at step " << ends.front();
     EXPECT_EQ(found.steps, wanted.steps);
     EXPECT_EQ(found.lines, wanted.lines);

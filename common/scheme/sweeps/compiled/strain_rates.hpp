@@ -2,7 +2,6 @@
 /// The strain-rate sweep as it is compiled, for the files of both dimensions and for tests.
 
 #include "common/algebra/versions.hpp"
-#include "common/parallel/for_chunks.hpp"
 #include "common/scheme/sweeps/face_correction.hpp"
 #include "common/scheme/sweeps/strain_rates.hpp"
 #include "common/scheme/sweeps/strain_sum.hpp"
@@ -91,7 +90,8 @@ void velocity_gradients(Body<Dim>& body, double kappa_f) {
       algebra::version_here<algebra::Versions<PlainGradientKernel<Dim>, Body<Dim>&, double,
                                               std::int64_t, std::int64_t>>();
   const auto for_blocks = [&](const auto& work) {
-    parallel::for_chunks(body.n_blocks, [&](auto begin, auto end, auto) { work(begin, end); });
+    parallel::for_chunks(body.part(), body.n_blocks,
+                         [&](auto begin, auto end, auto) { work(begin, end); });
   };
   if (kappa_f != 0) {
     for_blocks([&](auto b, auto e) { face_correction_sweeps<Dim>().gradients(body, b, e); });
@@ -102,9 +102,9 @@ void velocity_gradients(Body<Dim>& body, double kappa_f) {
 template <int Dim>
 void evaluate_strain_rates(const StrainRateSweep<Dim>& sweep) {
   const auto evaluate = algebra::version_here<StrainRateVersions<Dim>>();
-  parallel::for_chunks(sweep.body.n_blocks, [&](auto begin, auto end, auto chunk) {
-    evaluate(sweep, begin, end, chunk);
-  });
+  parallel::for_chunks(
+      sweep.body.part(), sweep.body.n_blocks,
+      [&](auto begin, auto end, auto chunk) { evaluate(sweep, begin, end, chunk); });
 }
 
 }  // namespace diptych::scheme

@@ -1,0 +1,128 @@
+#include "benchmarks/run/ranked_runs.hpp"
+
+#include "benchmarks/run/memory.hpp"
+#include "benchmarks/run/menus.hpp"
+#include "common/base/error.hpp"
+#include "common/parallel/agreement.hpp"
+#include "common/parallel/for_chunks.hpp"
+#include "common/parallel/ranks.hpp"
+#include "common/run/ranks/leading_solver.hpp"
+
+#include <cstdio>
+#include <fmt/format.h>
+#include <new>
+
+namespace diptych::harness {
+
+namespace {
+
+using parallel::Communicator;
+
+/// What a scene is made of; to end where there is no text.
+struct Request {
+  std::string text, file, method, partition;
+  std::vector<std::string> overrides;
+  std::int64_t level = 0, threads = 0;
+};
+
+/// The same on all ranks, of what rank 0 has.
+void share(Communicator& ranks, std::int64_t& value) {
+  parallel::broadcast(ranks, value);
+}
+void share(Communicator& ranks, std::string& text) {
+  auto n = std::ssize(text);
+  parallel::broadcast(ranks, n);
+  text.resize(static_cast<size_t>(n));
+  ranks.broadcast(parallel::bytes_of(text.data()), n);
+}
+void share(Communicator& ranks, Request& request) {
+  share(ranks, request.text);
+  for (std::string* text : {&request.file, &request.method, &request.partition})
+    share(ranks, *text);
+  std::int64_t n = std::ssize(request.overrides);
+  share(ranks, n);
+  request.overrides.resize(static_cast<size_t>(n));
+  for (std::string& override : request.overrides)
+    share(ranks, override);
+  share(ranks, request.level);
+  share(ranks, request.threads);
+}
+
+/// A scene that all ranks have made.
+template <class Make>
+std::unique_ptr<Scene> made_by_all(Communicator& ranks, const Make& make) {
+  std::unique_ptr<Scene> scene;
+  parallel::agree_on(ranks, [&] { scene = make(); });
+  return scene;
+}
+
+/// Makes a scene and follows its run.
+void follow_run(Communicator& ranks, const Request& request) {
+  parallel::set_threads(static_cast<int>(request.threads));
+  const auto scene = made_by_all(ranks, [&] {
+    const cases::Case setup =
+        cases::case_from_text(request.text, request.file, request.overrides, menus());
+    return std::make_unique<Scene>(setup, request.method, static_cast<int>(request.level));
+  });
+  release_pairs(scene->graph);
+  run::follow(*scene->solver, ranks, request.partition);
+}
+
+}  // namespace
+
+std::unique_ptr<Scene> scene_of_run(const cases::Case& setup, const RunOptions& options) {
+  const auto make = [&] { return std::make_unique<Scene>(setup, options.method, options.level); };
+  Communicator* ranks = parallel::all_ranks();
+  if (ranks == nullptr) return make();
+  Request request{setup.text,      setup.file,    options.method, options.partition,
+                  setup.overrides, options.level, options.threads};
+  share(*ranks, request);
+  std::unique_ptr<Scene> scene = made_by_all(*ranks, make);
+  scene->solver =
+      std::make_unique<run::LeadingSolver>(std::move(scene->solver), *ranks, options.partition);
+  return scene;
+}
+
+void note_ranks(const Scene& scene, io::RunSummary& summary) {
+  const auto* leading = dynamic_cast<const run::LeadingSolver*>(scene.solver.get());
+  if (leading == nullptr) return;
+  const run::RankCosts costs = leading->costs();
+  summary.ranks = parallel::all_ranks()->size();
+  summary.imbalance = costs.imbalance;
+  summary.exchanged_bytes = costs.parcel_bytes;
+  summary.communication_seconds = costs.communication_seconds;
+}
+
+bool is_following() {
+  return parallel::all_ranks() != nullptr && parallel::all_ranks()->rank() != 0;
+}
+
+int follow_runs() {
+  Communicator& ranks = *parallel::all_ranks();
+  for (;;) {
+    Request request;
+    share(ranks, request);
+    if (request.text.empty()) return 0;
+    try {
+      follow_run(ranks, request);
+    } catch (const base::Error&) {
+      // rank 0 has met it too, or has been told of it: it says so
+    } catch (const std::bad_alloc&) {
+      // the same, while the scene was made
+    } catch (const std::exception& error) {
+      std::fputs(
+          fmt::format("diptych: rank {} of {}: {}\n", ranks.rank(), ranks.size(), error.what())
+              .c_str(),
+          stderr);
+      ranks.abort(static_cast<int>(base::ExitCode::environment));
+    }
+  }
+}
+
+LedRuns::~LedRuns() {
+  if (parallel::all_ranks() == nullptr) return;
+  Request end;
+  share(*parallel::all_ranks(), end);
+}
+
+}  // namespace diptych::harness

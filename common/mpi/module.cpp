@@ -1,0 +1,153 @@
+/// The one room that knows MPI and METIS: a module that the program loads where it was started as
+/// several ranks (common/parallel/ranks.hpp). Errors of MPI end the job, with its own message.
+/// Test: tests/ranks
+
+#include "common/parallel/ranks.hpp"
+
+#include <metis.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <string>
+
+namespace diptych::parallel {
+
+namespace {
+
+/// Counts of MPI are ints.
+constexpr std::int64_t most_bytes = std::int64_t{1} << 30;
+
+class MpiCommunicator final : public Communicator {
+ public:
+  MpiCommunicator() {
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+  }
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+
+  void begin_exchange(std::span<const Parcel> sends, std::span<const Parcel> receives) override {
+    const Timing timing(cost_);
+    const auto for_pieces = [this](const Parcel& parcel, const auto& start) {
+      for (std::int64_t at = 0; at < parcel.n; at += most_bytes) {
+        const auto n = static_cast<int>(std::min(most_bytes, parcel.n - at));
+        start(parcel.bytes + at, n, parcel.rank, &requests_.emplace_back());
+      }
+    };
+    for (const Parcel& parcel : receives) {
+      for_pieces(parcel, [](std::byte* bytes, int n, int from, MPI_Request* request) {
+        MPI_Irecv(bytes, n, MPI_BYTE, from, 0, MPI_COMM_WORLD, request);
+      });
+    }
+    for (const Parcel& parcel : sends) {
+      cost_.parcel_bytes += parcel.n;
+      for_pieces(parcel, [](const std::byte* bytes, int n, int to, MPI_Request* request) {
+        MPI_Isend(bytes, n, MPI_BYTE, to, 0, MPI_COMM_WORLD, request);
+      });
+    }
+  }
+  void finish_exchange() override {
+    const Timing timing(cost_);
+    MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
+    requests_.clear();
+  }
+  void all_gather(std::byte* all, std::span<const std::int64_t> bytes) override {
+    const Timing timing(cost_);
+    const std::int64_t sum = std::accumulate(bytes.begin(), bytes.end(), std::int64_t{0});
+    if (sum <= most_bytes) {
+      const std::vector<int> counts(bytes.begin(), bytes.end());
+      std::vector<int> first(counts.size());
+      std::exclusive_scan(counts.begin(), counts.end(), first.begin(), 0);
+      MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_BYTE, all, counts.data(), first.data(), MPI_BYTE,
+                     MPI_COMM_WORLD);
+      return;
+    }
+    for (int r = 0; r < size_; ++r) {
+      broadcast_from(r, all, bytes[r]);
+      all += bytes[r];
+    }
+  }
+  void broadcast(std::byte* bytes, std::int64_t n) override {
+    const Timing timing(cost_);
+    broadcast_from(0, bytes, n);
+  }
+  CommunicationCost cost() const override { return cost_; }
+  void abort(int exit_code) override {
+    MPI_Abort(MPI_COMM_WORLD, exit_code);
+    std::abort();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  /// Adds the time until the end of a scope.
+  struct Timing {
+    explicit Timing(CommunicationCost& of) : cost(of) {}
+    Timing(const Timing&) = delete;
+    Timing& operator=(const Timing&) = delete;
+    ~Timing() { cost.seconds += std::chrono::duration<double>(Clock::now() - start).count(); }
+    CommunicationCost& cost;
+    Clock::time_point start = Clock::now();
+  };
+  void broadcast_from(int root, std::byte* bytes, std::int64_t n) {
+    for (std::int64_t at = 0; at < n; at += most_bytes) {
+      MPI_Bcast(bytes + at, static_cast<int>(std::min(most_bytes, n - at)), MPI_BYTE, root,
+                MPI_COMM_WORLD);
+    }
+  }
+
+  int rank_ = 0, size_ = 1;
+  std::vector<MPI_Request> requests_;
+  CommunicationCost cost_;
+};
+
+Communicator* begin(std::string& error) {
+  int provided = 0;
+  if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS ||
+      provided < MPI_THREAD_FUNNELED) {
+    error = "MPI_Init_thread failed";
+    return nullptr;
+  }
+  static MpiCommunicator world;
+  if (world.size() == launched_ranks()) return &world;
+  error = "the program was started among " + std::to_string(launched_ranks()) +
+          " processes and MPI sees " + std::to_string(world.size()) +
+          "; use the mpirun of the MPI that it was built with";
+  return nullptr;
+}
+
+void end() {
+  MPI_Finalize();
+}
+
+template <class To, class From>
+std::vector<To> as(const std::vector<From>& from) {
+  return {from.begin(), from.end()};
+}
+
+std::vector<int> metis(const ChunkGraph& graph, int n_parts) {
+  idx_t n = static_cast<idx_t>(graph.n_chunks()), n_constraints = 1, parts = n_parts, cut = 0;
+  std::vector<idx_t> row = as<idx_t>(graph.row), neighbour = as<idx_t>(graph.neighbour);
+  std::vector<idx_t> work = as<idx_t>(graph.work), weight = as<idx_t>(graph.weight);
+  std::vector<idx_t> owner(graph.work.size());
+  idx_t options[METIS_NOPTIONS];
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_SEED] = 1;
+  options[METIS_OPTION_NUMBERING] = 0;
+  const int status =
+      METIS_PartGraphKway(&n, &n_constraints, row.data(), neighbour.data(), work.data(), nullptr,
+                          weight.data(), &parts, nullptr, nullptr, options, &cut, owner.data());
+  if (status != METIS_OK) throw std::bad_alloc();
+  return as<int>(owner);
+}
+
+constexpr RanksModule ranks_module{begin, end, metis};
+
+}  // namespace
+
+}  // namespace diptych::parallel
+
+extern "C" const diptych::parallel::RanksModule* diptych_ranks_module() {
+  return &diptych::parallel::ranks_module;
+}

@@ -1,0 +1,58 @@
+#pragma once
+/// The ranks of this process, as the program that started it (mpirun, srun) made them. MPI itself
+/// stands behind a module that is loaded only where there are ranks: a program that was started by
+/// itself needs no MPI library. Test: tests/common/parallel/ranks_test.cpp, tests/ranks
+
+#include "common/parallel/communicator.hpp"
+#include "common/parallel/partition.hpp"
+
+#include <string>
+
+namespace diptych::parallel {
+
+/// What the module gives (common/mpi/module.cpp). It is looked for beside the program, and in
+/// lib/diptych of the folder above it.
+struct RanksModule {
+  /// Calls MPI_Init. @return null, and a message in `error`, where that is not possible
+  Communicator* (*begin)(std::string& error);
+  /// Calls MPI_Finalize.
+  void (*end)();
+  std::vector<int> (*metis)(const ChunkGraph& graph, int n_parts);
+};
+using RanksModuleFunction = const RanksModule* (*)();
+inline constexpr const char* ranks_module_symbol = "diptych_ranks_module";
+inline constexpr const char* ranks_module_file = "libdiptych_mpi.so";
+
+/// Processes that this one was started among, by the variables that mpirun and srun leave; 1 where
+/// there are none.
+int launched_ranks();
+/// The number of this one among them, from 0.
+int launched_rank();
+
+/// Joins the ranks that this process was started among, for its lifetime.
+class Ranks {
+ public:
+  /// @throws base::EnvironmentError where there are several and MPI cannot be had
+  Ranks();
+  ~Ranks();
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+};
+
+/// Of all ranks while there is a Ranks and there are several of them, null otherwise: like the
+/// processes themselves, there is one for a program.
+Communicator* all_ranks();
+
+/// Of several ranks on one machine, those that may run on the same processors share them: what
+/// thread_count() leaves each. 1 where there is one rank.
+int ranks_that_share_processors();
+
+/// What this rank does, for who is told to end and says where it was (from a handler of signals).
+/// @param phase  a text that stays; null: nothing that concerns other ranks
+void set_phase(const char* phase);
+const char* phase();
+
+/// @throws base::EnvironmentError where the program was built without METIS
+std::vector<int> metis_partition(const ChunkGraph& graph, int n_parts);
+
+}  // namespace diptych::parallel

@@ -1,0 +1,260 @@
+#include "common/run/ranks/leading_solver.hpp"
+
+#include "common/base/error.hpp"
+#include "common/parallel/ranks.hpp"
+#include "common/run/ranks/archive_copy.hpp"
+
+#include <cstdio>
+#include <exception>
+#include <fmt/format.h>
+
+namespace diptych::run {
+
+namespace {
+
+enum class Task : std::int32_t {
+  step,
+  balance,
+  snapshot,
+  snapshot_of_nodes,
+  reaction,
+  gather,
+  load,
+  exact_state,
+  costs,
+  end
+};
+
+const char* name_of(Task task) {
+  constexpr const char* names[] = {
+      "a step",     "a balance",   "a snapshot",           "probes",
+      "a reaction", "a gathering", "loading a checkpoint", "an exact state",
+      "the costs",  "the end"};
+  return names[static_cast<int>(task)];
+}
+
+/// What rank 0 asks for; nodes or bytes follow where n > 0.
+struct Order {
+  Task task = Task::end;
+  double time = 0;  ///< s
+  std::int64_t n = 0;
+};
+
+void give(parallel::Communicator& ranks, Task task, double time = 0, std::int64_t n = 0) {
+  Order order{task, time, n};
+  parallel::broadcast(ranks, order);
+}
+
+/// For its lifetime.
+struct Phase {
+  explicit Phase(const char* name) { parallel::set_phase(name); }
+  ~Phase() { parallel::set_phase(nullptr); }
+  Phase(const Phase&) = delete;
+  Phase& operator=(const Phase&) = delete;
+};
+
+/// Calls work(). What only one rank can meet, such as the end of its memory, ends all: the others
+/// would wait for it for ever.
+template <class Work>
+auto work_together(parallel::Communicator& ranks, Task task, const Work& work) {
+  const auto fail = [&](const char* message) {
+    std::fputs(fmt::format("diptych: rank {} of {}, in {}: {}\n", ranks.rank(), ranks.size(),
+                           name_of(task), message)
+                   .c_str(),
+               stderr);
+    ranks.abort(static_cast<int>(base::ExitCode::environment));
+  };
+  const Phase phase(name_of(task));
+  try {
+    return work();
+  } catch (const base::Error&) {
+    throw;  // of the state that all ranks have, or agreed on (common/parallel/agreement.hpp)
+  } catch (const std::bad_alloc&) {
+    fail("out of memory; use a smaller --level, or more machines");
+    throw;
+  } catch (const std::exception& error) {
+    fail(error.what());
+    throw;
+  }
+}
+
+/// Adds what is spent in its lifetime: in a step, not in waiting for the next one.
+struct Spending {
+  Spending(const parallel::Communicator& of, parallel::CommunicationCost& to)
+      : ranks(of), spent(to), before(of.cost()) {}
+  ~Spending() {
+    const parallel::CommunicationCost now = ranks.cost();
+    spent.seconds += now.seconds - before.seconds;
+    spent.parcel_bytes += now.parcel_bytes - before.parcel_bytes;
+  }
+  Spending(const Spending&) = delete;
+  Spending& operator=(const Spending&) = delete;
+  const parallel::Communicator& ranks;
+  parallel::CommunicationCost& spent;
+  parallel::CommunicationCost before;
+};
+
+/// @param spent  by this rank in steps
+RankCosts sum_costs(const Solver& solver,
+                    parallel::Communicator& ranks,
+                    const parallel::CommunicationCost& spent) {
+  const auto n = static_cast<size_t>(ranks.size());
+  std::vector<parallel::CommunicationCost> all(n);
+  all[ranks.rank()] = spent;
+  const std::vector<std::int64_t> bytes(n, sizeof(parallel::CommunicationCost));
+  ranks.all_gather(parallel::bytes_of(all.data()), bytes);
+  RankCosts costs{solver.imbalance()};
+  for (const parallel::CommunicationCost& cost : all) {
+    costs.communication_seconds += cost.seconds / static_cast<double>(n);
+    costs.parcel_bytes += cost.parcel_bytes;
+  }
+  return costs;
+}
+
+template <class T>
+std::vector<T> received(parallel::Communicator& ranks, std::int64_t n) {
+  std::vector<T> values(static_cast<size_t>(n));
+  ranks.broadcast(parallel::bytes_of(values.data()), n * static_cast<std::int64_t>(sizeof(T)));
+  return values;
+}
+
+/// Of nodes, to the others.
+void send_nodes(parallel::Communicator& ranks, Task task, std::span<const std::int32_t> nodes) {
+  std::vector<std::int32_t> copy(nodes.begin(), nodes.end());
+  give(ranks, task, 0, std::ssize(copy));
+  ranks.broadcast(parallel::bytes_of(copy.data()),
+                  std::ssize(copy) * static_cast<std::int64_t>(sizeof(std::int32_t)));
+}
+
+void carry_out(const Order& order,
+               Solver& solver,
+               parallel::Communicator& ranks,
+               parallel::CommunicationCost& spent) {
+  switch (order.task) {
+    case Task::step: {
+      const Spending spending(ranks, spent);
+      solver.step(order.time);
+      break;
+    }
+    case Task::balance:
+      (void)solver.balance();
+      break;
+    case Task::snapshot:
+      (void)solver.snapshot();
+      break;
+    case Task::snapshot_of_nodes:
+      (void)solver.snapshot(received<std::int32_t>(ranks, order.n));
+      break;
+    case Task::reaction:
+      solver.reaction(received<std::int32_t>(ranks, order.n));
+      break;
+    case Task::gather:
+      solver.gather();
+      break;
+    case Task::load: {
+      ArchiveCopy copy(received<std::byte>(ranks, order.n));
+      solver.archive(copy);
+      break;
+    }
+    case Task::exact_state:
+      (void)solver.exact_state(order.time);
+      break;
+    case Task::costs:
+      (void)sum_costs(solver, ranks, spent);
+      break;
+    case Task::end:
+      break;
+  }
+}
+
+}  // namespace
+
+LeadingSolver::LeadingSolver(std::unique_ptr<Solver> solver,
+                             parallel::Communicator& ranks,
+                             const std::string& partition)
+    : solver_(std::move(solver)), ranks_(ranks) {
+  solver_->divide(ranks, partition);
+}
+
+LeadingSolver::~LeadingSolver() {
+  give(ranks_, Task::end);
+}
+
+RankCosts LeadingSolver::costs() const {
+  give(ranks_, Task::costs);
+  return sum_costs(*solver_, ranks_, spent_);
+}
+
+StepReport LeadingSolver::step(double t_limit) {
+  give(ranks_, Task::step, t_limit);
+  const Spending spending(ranks_, spent_);
+  return work_together(ranks_, Task::step, [&] { return solver_->step(t_limit); });
+}
+
+void LeadingSolver::divide(parallel::Communicator&, const std::string&) {}
+
+void LeadingSolver::gather() {
+  give(ranks_, Task::gather);
+  work_together(ranks_, Task::gather, [&] { solver_->gather(); });
+}
+
+scheme::Balance LeadingSolver::balance() const {
+  give(ranks_, Task::balance);
+  return work_together(ranks_, Task::balance, [&] { return solver_->balance(); });
+}
+
+Snapshot LeadingSolver::snapshot() const {
+  give(ranks_, Task::snapshot);
+  return work_together(ranks_, Task::snapshot, [&] { return solver_->snapshot(); });
+}
+
+Snapshot LeadingSolver::snapshot(std::span<const std::int32_t> nodes) const {
+  send_nodes(ranks_, Task::snapshot_of_nodes, nodes);
+  return work_together(ranks_, Task::snapshot_of_nodes, [&] { return solver_->snapshot(nodes); });
+}
+
+algebra::Vec3 LeadingSolver::reaction(const std::vector<std::int32_t>& nodes) {
+  send_nodes(ranks_, Task::reaction, nodes);
+  return work_together(ranks_, Task::reaction, [&] { return solver_->reaction(nodes); });
+}
+
+std::string LeadingSolver::state_hash(const std::vector<std::int32_t>& order) const {
+  give(ranks_, Task::gather);
+  work_together(ranks_, Task::gather, [&] { solver_->gather(); });
+  return solver_->state_hash(order);
+}
+
+void LeadingSolver::archive(algebra::Archive& archive) {
+  if (!archive.is_loading()) {
+    gather();
+    solver_->archive(archive);
+    return;
+  }
+  CopyingArchive copying(archive);
+  solver_->archive(copying);
+  std::vector<std::byte>& copy = copying.copy();
+  give(ranks_, Task::load, 0, std::ssize(copy));
+  ranks_.broadcast(copy.data(), std::ssize(copy));
+}
+
+std::optional<Snapshot> LeadingSolver::exact_state(double t) const {
+  give(ranks_, Task::exact_state, t);
+  return work_together(ranks_, Task::exact_state, [&] { return solver_->exact_state(t); });
+}
+
+void follow(Solver& solver, parallel::Communicator& ranks, const std::string& partition) {
+  solver.divide(ranks, partition);
+  parallel::CommunicationCost spent;
+  for (;;) {
+    Order order;
+    parallel::broadcast(ranks, order);
+    if (order.task == Task::end) return;
+    try {
+      work_together(ranks, order.task, [&] { carry_out(order, solver, ranks, spent); });
+    } catch (const base::Error&) {
+      // of the state, which all ranks have: rank 0 says it, and goes on with what it asks next
+    }
+  }
+}
+
+}  // namespace diptych::run

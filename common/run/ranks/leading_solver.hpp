@@ -1,0 +1,63 @@
+#pragma once
+/// A solver whose body is divided among ranks. Rank 0 has the simulation, its observers, guards and
+/// files, which see one solver; whatever they ask it for is asked of the other ranks first, which
+/// do nothing but follow. So all decisions are made once, and nobody waits for a call that others
+/// do not make. Test: tests/ranks
+
+#include "common/run/solver.hpp"
+
+namespace diptych::run {
+
+/// What the ranks did besides.
+struct RankCosts {
+  double imbalance = 1;  ///< largest work of a rank over the mean, as the partition sees it
+  double communication_seconds = 0;  ///< in steps, mean of the ranks, waiting included
+  std::int64_t parcel_bytes = 0;     ///< sent in steps, of all ranks
+};
+
+class LeadingSolver : public Solver {
+ public:
+  /// On rank 0; the others call follow() with the same solver.
+  /// @throws base::InputError where there are more ranks than parts
+  LeadingSolver(std::unique_ptr<Solver> solver,
+                parallel::Communicator& ranks,
+                const std::string& partition);
+  /// The others stop following.
+  ~LeadingSolver() override;
+  LeadingSolver(const LeadingSolver&) = delete;
+  LeadingSolver& operator=(const LeadingSolver&) = delete;
+
+  RankCosts costs() const;
+
+  StepReport step(double t_limit) override;
+  void divide(parallel::Communicator& ranks, const std::string& partition) override;
+  void gather() override;
+  double imbalance() const override { return solver_->imbalance(); }
+  double time() const override { return solver_->time(); }
+  bool is_sound() const override { return solver_->is_sound(); }
+  scheme::Balance balance() const override;
+  const scheme::Audit& audit() const override { return solver_->audit(); }
+  Snapshot snapshot() const override;
+  Snapshot snapshot(std::span<const std::int32_t> nodes) const override;
+  algebra::Vec3 reaction(const std::vector<std::int32_t>& nodes) override;
+  std::string state_hash(const std::vector<std::int32_t>& order) const override;
+  void archive(algebra::Archive& archive) override;
+  int unknowns_per_node() const override { return solver_->unknowns_per_node(); }
+  std::string arrangement() const override { return solver_->arrangement(); }
+  int evaluations_per_step() const override { return solver_->evaluations_per_step(); }
+  std::int64_t bytes() const override { return solver_->bytes(); }
+  double undeformed_speed() const override { return solver_->undeformed_speed(); }
+  Mat3 equilibrium_stress(const Mat3& F) const override { return solver_->equilibrium_stress(F); }
+  std::optional<Snapshot> exact_state(double t) const override;
+
+ private:
+  std::unique_ptr<Solver> solver_;
+  parallel::Communicator& ranks_;
+  parallel::CommunicationCost spent_;  ///< in steps
+};
+
+/// On the other ranks: does what rank 0 asks its LeadingSolver for, until that is gone.
+/// @throws base::InputError as LeadingSolver does, on all ranks
+void follow(Solver& solver, parallel::Communicator& ranks, const std::string& partition);
+
+}  // namespace diptych::run

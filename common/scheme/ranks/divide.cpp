@@ -1,0 +1,170 @@
+#include "common/parallel/partition.hpp"
+#include "common/scheme/ranks/division.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace diptych::scheme {
+
+namespace {
+
+using algebra::n_lanes;
+
+constexpr std::int64_t chunk_nodes = parallel::chunk_size * n_lanes;
+
+std::int64_t chunk_of_node(std::int64_t a) {
+  return a / chunk_nodes;
+}
+
+/// use(a, b): node a, or its lane, reads node b in a sweep over pairs. In runs all lanes of a block
+/// read, those without a pair too.
+template <int Dim, class Use>
+void for_reads(const SweepGraph<Dim>& graph, const Use& use) {
+  if (graph.shape.arrangement == Arrangement::rows) {
+    for (std::int64_t a = 0; a < graph.n_nodes; ++a) {
+      for (std::int64_t chunk = graph.row[a]; chunk < graph.row[a + 1]; ++chunk) {
+        for (const std::int32_t b : graph.neighbours[chunk].node)
+          use(a, static_cast<std::int64_t>(b));
+      }
+    }
+    return;
+  }
+  const auto for_lanes = [&](std::int64_t block, std::int64_t offset, const auto& both) {
+    for (std::int64_t a = block * n_lanes; a < (block + 1) * n_lanes; ++a) {
+      const std::int64_t b = a + offset;
+      if (a < graph.n_nodes && b >= 0 && b < graph.n_nodes) both(a, b);
+    }
+  };
+  for (std::int64_t block = 0; block < graph.n_blocks; ++block) {
+    for (std::int64_t chunk = graph.row[block]; chunk < graph.row[block + 1]; ++chunk)
+      for_lanes(block, graph.offset[chunk], use);
+    for (std::int64_t chunk = graph.mutual.row[block]; chunk < graph.mutual.row[block + 1];
+         ++chunk) {
+      for_lanes(block, graph.mutual.offset[chunk], [&](std::int64_t a, std::int64_t b) {
+        use(a, b);
+        use(b, a);
+      });
+    }
+  }
+}
+
+template <int Dim>
+parallel::ChunkGraph chunk_graph(const Body<Dim>& body) {
+  const std::int64_t n_chunks = parallel::n_chunks_of(body.n_blocks);
+  parallel::ChunkGraph graph;
+  graph.work.assign(static_cast<size_t>(n_chunks), 0);
+  graph.centre.assign(static_cast<size_t>(n_chunks), {0, 0, 0});
+  std::vector<std::map<std::int32_t, std::int64_t>> pairs(graph.work.size());
+  const auto add = [&](std::int64_t c, std::int64_t d) {
+    if (c != d) ++pairs[c][static_cast<std::int32_t>(d)];
+  };
+  for_reads(body.graph, [&](std::int64_t a, std::int64_t b) {
+    ++graph.work[chunk_of_node(a)];
+    add(chunk_of_node(a), chunk_of_node(b));
+    add(chunk_of_node(b), chunk_of_node(a));
+  });
+  for (std::int64_t a = 0; a < body.n_owned; ++a) {
+    constexpr std::int64_t work_of_node = 8;  // relaxation, stress, update, in pairs
+    const std::int64_t c = chunk_of_node(a);
+    const auto n = static_cast<double>(std::min(body.n_owned - c * chunk_nodes, chunk_nodes));
+    graph.work[c] += work_of_node;
+    for (int i = 0; i < 3; ++i)
+      graph.centre[c][i] += body.X[a][i] / n;
+  }
+  graph.row.push_back(0);
+  for (const auto& row : pairs) {
+    for (const auto& [other, n] : row) {
+      graph.neighbour.push_back(other);
+      graph.weight.push_back(n);
+    }
+    graph.row.push_back(std::ssize(graph.neighbour));
+  }
+  return graph;
+}
+
+/// The owners that rank 0 finds, for all: no rank can have found others. Where there are more ranks
+/// than chunks the last ranks have none, and nothing to work.
+std::vector<int> owners_of(const parallel::ChunkGraph& graph,
+                           parallel::Communicator& ranks,
+                           const std::string& partition) {
+  const parallel::Partitioner find = parallel::partitioners().at(partition);
+  std::vector<int> owner(graph.work.size());
+  const int n_parts = static_cast<int>(std::min<std::int64_t>(ranks.size(), std::ssize(owner)));
+  if (ranks.rank() == 0) owner = find(graph, n_parts);
+  ranks.broadcast(parallel::bytes_of(owner.data()),
+                  std::ssize(owner) * static_cast<std::int64_t>(sizeof(int)));
+  return owner;
+}
+
+/// Nodes that the sweeps of this rank read.
+template <int Dim>
+std::vector<char> read_nodes(const Body<Dim>& body, const parallel::Part& part) {
+  std::vector<char> needed(static_cast<size_t>(body.n_owned));
+  for_reads(body.graph, [&](std::int64_t a, std::int64_t b) {
+    if (part.owns(chunk_of_node(a))) needed[b] = 1;
+  });
+  return needed;
+}
+
+template <int Dim>
+RunWork run_work(const Body<Dim>& body, const parallel::Part& part) {
+  const SweepGraph<Dim>& graph = body.graph;
+  const std::int64_t n_chunks = parallel::n_chunks_of(body.n_blocks);
+  // chunks that each writes to, from its pairs with nodes above
+  std::vector<char> works(static_cast<size_t>(n_chunks)), written(works.size());
+  const auto for_targets = [&](std::int64_t c, const auto& use) {
+    const std::int64_t begin = c * parallel::chunk_size,
+                       end = std::min(graph.n_blocks, begin + parallel::chunk_size);
+    for (std::int64_t b = begin; b < end; ++b) {
+      for (std::int64_t k = graph.mutual.row[b]; k < graph.mutual.row[b + 1]; ++k) {
+        const std::int64_t first = b * n_lanes + graph.mutual.offset[k];
+        for (const std::int64_t node : {first, first + n_lanes - 1})
+          use(std::min(chunk_of_node(node), n_chunks - 1));
+      }
+    }
+  };
+  for (std::int64_t c = 0; c < n_chunks; ++c) {
+    works[c] = part.owns(c) ? 1 : 0;
+    for_targets(c, [&](std::int64_t target) { works[c] |= part.owns(target) ? 1 : 0; });
+    if (works[c] == 0) continue;
+    written[c] = 1;
+    for_targets(c, [&](std::int64_t target) { written[target] = 1; });
+  }
+  RunWork work;
+  const std::int64_t length = graph.mutual.segment / parallel::chunk_size;
+  for (std::int64_t begin = 0; begin < n_chunks; begin += length) {
+    std::vector<std::int64_t> chunks;
+    for (std::int64_t c = begin; c < std::min(begin + length, n_chunks); ++c) {
+      if (works[c] != 0) chunks.push_back(c);
+      if (written[c] != 0) work.written.push_back(c);
+    }
+    if (!chunks.empty()) work.segments[begin / length % 2].push_back(std::move(chunks));
+  }
+  return work;
+}
+
+}  // namespace
+
+template <int Dim>
+void divide(Body<Dim>& body, parallel::Communicator& ranks, const std::string& partition) {
+  const parallel::ChunkGraph graph = chunk_graph(body);
+  auto division = std::make_shared<Division>();
+  const std::vector<int> owner = owners_of(graph, ranks, partition);
+  division->imbalance = parallel::imbalance(graph, owner, ranks.size());
+  division->part = parallel::Part(ranks, owner);
+  const parallel::Part& part = division->part;
+  const auto owner_of_node = [&](std::int64_t a) { return owner[chunk_of_node(a)]; };
+  division->pairs = parallel::Halo(ranks, read_nodes(body, part), owner_of_node);
+  if (body.in_runs()) division->runs = run_work(body, part);
+  if (!body.cells.empty()) {
+    std::vector<char> corners(static_cast<size_t>(body.n_owned));
+    division->cells = body.cells.work_of(part, corners);
+    division->corners = parallel::Halo(ranks, corners, owner_of_node);
+  }
+  body.division = std::move(division);
+}
+
+template void divide(Body<2>&, parallel::Communicator&, const std::string&);
+template void divide(Body<3>&, parallel::Communicator&, const std::string&);
+
+}  // namespace diptych::scheme

@@ -1,0 +1,58 @@
+#pragma once
+/// A body among ranks. Every rank keeps the global numbers of nodes, blocks, chunks and segments
+/// and works the chunks that it owns:
+///   - sums over rows and all that is pointwise: of its own nodes, in the order that one rank has;
+///   - forces of runs, where a pair is worked once for both nodes: the chunks that write to its own
+///     nodes too, with the parity of their segments. What they write to nodes of others is never
+///     read. So nothing is sent back, and the sums have their order.
+///   - forces of cells: the same, with blocks of cells.
+/// What sweeps read of other ranks' nodes comes by halos, whole, also where a lane multiplies it by
+/// zero. The state so has the same bits for every number of ranks. Test: tests/ranks
+
+#include "common/parallel/halo.hpp"
+#include "common/scheme/body/body.hpp"
+
+#include <string>
+
+namespace diptych::scheme {
+
+/// Momentum sweep of runs.
+struct RunWork {
+  /// Of even and of odd segments: the chunks of each that this rank works, ascending.
+  std::vector<std::vector<std::int64_t>> segments[2];
+  std::vector<std::int64_t> written;  ///< chunks that they write to, and the own ones
+};
+
+struct Division {
+  parallel::Part part;
+  parallel::Halo pairs;    ///< nodes that sweeps over pairs read
+  parallel::Halo corners;  ///< nodes that sweeps over cells read
+  RunWork runs;
+  std::vector<CellWork> cells;  ///< by group
+  double imbalance = 1;         ///< largest work of a rank over the mean
+};
+
+/// Gives this rank its part. All ranks have the same body, at the same state.
+/// @param partition  of parallel::partitioners()
+/// @throws base::InputError where there are more ranks than chunks, on all ranks
+template <int Dim>
+void divide(Body<Dim>& body, parallel::Communicator& ranks, const std::string& partition);
+
+/// For its lifetime a body is worked as if this rank were the only one: what is the same on all
+/// ranks, or of rank 0 once all is gathered.
+template <int Dim>
+class Undivided {
+ public:
+  explicit Undivided(Body<Dim>& body) : body_(body), division_(std::move(body.division)) {
+    body.division.reset();
+  }
+  ~Undivided() { body_.division = std::move(division_); }
+  Undivided(const Undivided&) = delete;
+  Undivided& operator=(const Undivided&) = delete;
+
+ private:
+  Body<Dim>& body_;
+  std::shared_ptr<Division> division_;
+};
+
+}  // namespace diptych::scheme

@@ -1,0 +1,314 @@
+/// Runs among ranks have the bits of a run of one process: state and histories, for both methods,
+/// rows and runs of pairs, both precisions, and all that ranks tell each other of.
+
+#include "tests/command_line/program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
+#include <regex>
+
+namespace diptych::tests {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string mpirun =
+    "export OMP_WAIT_POLICY=passive; mpirun --oversubscribe --allow-run-as-root --bind-to none ";
+
+/// A case with what tests change by --set; 1331 nodes, six chunks of them.
+const std::string cube = R"toml(title = "Cube among ranks"
+[mesh]
+element = "hexahedron"
+lower = [0, 0, 0]
+upper = [1, 1, 1]
+cells = [10, 10, 10]
+[material]
+model = "mooney-rivlin"
+density = 1100
+youngs_modulus = 17e6
+poissons_ratio = 0.3
+zeta_ratio = 0.5
+[initial]
+velocity = ["20*y*z", "-30*x", "10*sin(3*x)"]
+[time]
+end = 5e-3
+max_steps = 12
+[output]
+frames = 40
+fields = false
+)toml";
+const std::string held = R"toml([[boundary]]
+group = "x_min"
+type = "fixed"
+[[boundary]]
+group = "x_max"
+type = "traction"
+value = ["1e5*sin(500*t)", 0, "2e5*y"]
+)toml";
+const std::string branches = R"toml([[material.branch]]
+beta_C = 0.5
+tau_C = 1e-3
+beta_G = 0.5
+tau_G = 2e-3
+)toml";
+const std::string probes = R"toml([[probe]]
+name = "corner"
+unit = "m"
+kind = "point"
+at = [1, 1, 1]
+quantity = "ux"
+every_step = true
+[[probe]]
+name = "support"
+unit = "N"
+kind = "reaction"
+group = "x_min"
+direction = [1, 0, 0]
+)toml";
+const std::string plane = R"toml(title = "Square among ranks"
+[mesh]
+element = "quadrilateral"
+lower = [0, 0]
+upper = [0.1, 0.1]
+cells = [36, 36]
+[material]
+model = "neo-hookean"
+density = 1100
+youngs_modulus = 1e6
+poissons_ratio = 0.4
+[time]
+end = 2e-2
+max_steps = 30
+[output]
+frames = 200
+fields = false
+)toml";
+
+struct Scene {
+  const char* name;
+  std::string text;
+  std::string options;  ///< of the command line
+};
+std::ostream& operator<<(std::ostream& to, const Scene& scene) {
+  return to << scene.name;
+}
+
+std::vector<Scene> scenes() {
+  const std::string wall = R"toml([initial]
+velocity = ["-20 + 100*y", 3]
+[[boundary]]
+group = "x_min"
+type = "rigid-wall"
+point = [-1e-4, 0]
+normal = [1, 0]
+[[boundary]]
+group = "y_min"
+type = "symmetry"
+)toml";
+  const std::string blown = R"toml([initial]
+velocity = ["30*y", 0]
+[[boundary]]
+group = "x_max"
+type = "pressure"
+value = "1e4*t/1e-3"
+[[boundary]]
+group = "x_min"
+type = "velocity"
+value = ["sin(1000*t)", 0]
+)toml";
+  const std::string pressed = " --set material.poissons_ratio=0.49";
+  return {
+      {"HexahedraHeld", cube + held + probes, ""},
+      {"TetrahedraInSinglePrecision", cube + held,
+       "--set mesh.element=tetrahedron --set scheme.precision=single"},
+      {"LeapfrogWithBranchesAndProjection", cube + branches,
+       "--set time.integrator=leapfrog --set scheme.angular_momentum_projection=true"},
+      {"MovedNodesWithLimiterAndFaceCorrection", cube + branches + held,
+       "--set mesh.perturbation=0.2 --set scheme.limiter=venkatakrishnan --set "
+       "scheme.face_correction=1/6 --set time.integrator=ssp-rk3"},
+      {"VolumesOfCells", cube + held, "--set scheme.volumes=cells" + pressed},
+      {"VolumesOfCellsLeapfrog", cube + held,
+       "--set mesh.element=tetrahedron --set time.integrator=leapfrog --set scheme.volumes=cells" +
+           pressed},
+      {"ExactImpedance", cube, "--set scheme.impedance=exact --set scheme.unknowns=F"},
+      {"RigidWall", plane + wall, "--set time.integrator=leapfrog"},
+      {"RigidWallInStages", plane + wall, ""},
+      {"PressureAndVelocity", plane + blown, "--set scheme.volumes=cells"},
+  };
+}
+
+/// What may differ: times of the clock, and how it was run.
+std::string hash_in(const std::filesystem::path& run) {
+  const std::string text = text_of(run / "summary.json");
+  std::smatch found;
+  return std::regex_search(text, found, std::regex(R"re("state_hash": "(\w+)")re")) ? found[1].str()
+                                                                                    : "none";
+}
+
+class Ranks : public testing::TestWithParam<Scene> {
+ protected:
+  /// Runs the case on n ranks, 0: without mpirun, to a folder of that name.
+  void run(int n, int threads = 1, const std::string& more = "") const {
+    const std::string start = n == 0 ? "" : mpirun + "-n " + std::to_string(n) + " ";
+    const Outcome outcome = shell(
+        folder_, start + "$diptych run case.toml --quiet --threads " + std::to_string(threads) +
+                     " --out " + std::to_string(n) + " " + GetParam().options + " " + more);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  }
+  void expect_same(const std::string& one, const std::string& other) const {
+    for (const char* method : {"sph", "fvm"}) {
+      const auto a = folder_.path() / one / method, b = folder_.path() / other / method;
+      EXPECT_NE(hash_in(a), "none");
+      EXPECT_EQ(hash_in(a), hash_in(b)) << method;
+      EXPECT_EQ(text_of(a / "history.csv"), text_of(b / "history.csv")) << method;
+      EXPECT_EQ(text_of(a / "steps.csv"), text_of(b / "steps.csv")) << method;
+    }
+  }
+  Folder folder_;
+};
+
+TEST_P(Ranks, HaveTheBitsOfOneProcess) {
+  folder_.write("case.toml", GetParam().text);
+  run(0);
+  for (const int n : {2, 5}) {
+    run(n, 1, n == 2 ? "--partition slab" : "");
+    expect_same("0", std::to_string(n));
+  }
+}
+INSTANTIATE_TEST_SUITE_P(OfScenes, Ranks, testing::ValuesIn(scenes()), [](const auto& tested) {
+  return tested.param.name;
+});
+
+/// A mesh of a file: rows.
+class RanksOnRows : public Ranks {};
+TEST_P(RanksOnRows, HaveTheBitsOfOneProcess) {
+  folder_.write("case.toml", GetParam().text);
+  folder_.write("disc.geo",
+                "SetFactory(\"OpenCASCADE\");\nDefineConstant[h = 0.01];\n"
+                "Disk(1) = {0, 0, 0, 0.05};\nMesh.MeshSizeMax = h;\n"
+                "Physical Surface(\"body\") = {1};\nPhysical Curve(\"rim\") = {1};\n");
+  run(0);
+  EXPECT_THAT(text_of(folder_.path() / "0/sph/summary.json"),
+              HasSubstr("\"arrangement\": \"rows\""));
+  for (const int n : {2, 3}) {
+    run(n, n - 1, n == 3 ? "--partition bisection" : "");
+    expect_same("0", std::to_string(n));
+  }
+}
+const std::string disc = R"toml(title = "Disc among ranks"
+[mesh]
+element = "triangle"
+file = "disc.geo"
+size = 2.5e-3
+[material]
+model = "neo-hookean"
+density = 1100
+youngs_modulus = 1e6
+poissons_ratio = 0.45
+[initial]
+velocity = ["-5 + 100*y", "20*x"]
+[[boundary]]
+group = "rim"
+type = "rigid-wall"
+point = [-0.0502, 0]
+normal = [1, 0]
+[time]
+end = 2e-2
+max_steps = 40
+[output]
+frames = 300
+fields = false
+)toml";
+INSTANTIATE_TEST_SUITE_P(OfScenes,
+                         RanksOnRows,
+                         testing::Values(Scene{"Disc", disc, ""},
+                                         Scene{"DiscLeapfrogSingle", disc,
+                                               "--set time.integrator=leapfrog --set "
+                                               "scheme.precision=single"}),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST(RanksOfARun, GoOnFromACheckpointOfOtherRanks) {
+  const Folder folder;
+  folder.write("case.toml", cube + branches + held);
+  const std::string run = "$diptych run case.toml --method fvm --quiet --threads 1 ";
+  const std::string halves = "--set time.checkpoint_every=6 ";
+  EXPECT_EQ(shell(folder, run + "--out whole").exit_code, 0);
+  for (const auto& [first, second] : {std::pair{3, 2}, {2, 0}, {0, 5}}) {
+    const auto on = [](int n) { return n == 0 ? "" : mpirun + "-n " + std::to_string(n) + " "; };
+    const std::string out = " --out " + std::to_string(first) + "_" + std::to_string(second);
+    Outcome outcome = shell(folder, on(first) + run + halves + "--set time.max_steps=6" + out);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+    outcome = shell(folder, on(second) + run + halves + "--restart latest" + out);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+    EXPECT_EQ(
+        hash_in(folder.path() / (std::to_string(first) + "_" + std::to_string(second)) / "fvm"),
+        hash_in(folder.path() / "whole/fvm"))
+        << first << " to " << second << " ranks";
+  }
+}
+
+TEST(RanksOfARun, BreakDownAsOneProcessDoes) {
+  const Folder folder;
+  folder.write("case.toml", cube);
+  const std::string run =
+      "$diptych run case.toml --method fvm --quiet --threads 1 --set time.max_steps=400 --set "
+      "'initial.velocity=[\"-2000*x\", 0, 0]' ";
+  const Outcome alone = shell(folder, run + "--out 0");
+  const Outcome three = shell(folder, mpirun + "-n 3 " + run + "--out 3");
+  EXPECT_EQ(alone.exit_code, 3) << alone.text;
+  EXPECT_EQ(three.exit_code, 3) << three.text;
+  const std::string first_line = alone.text.substr(0, alone.text.find('\n'));
+  EXPECT_THAT(three.text, HasSubstr(first_line));
+}
+
+TEST(RanksOfARun, SayOnceWhatIsWrong) {
+  const Folder folder;
+  folder.write("case.toml", cube);
+  const auto count = [](const std::string& text, const std::string& word) {
+    size_t n = 0;
+    for (size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+      ++n;
+    return n;
+  };
+  for (const char* arguments : {"run case.toml --set material.modell=1", "run no-such-case",
+                                "run case.toml --partition slap", "run case.toml --quiet"}) {
+    const Outcome outcome = shell(folder, mpirun + "-n 7 $diptych " + std::string(arguments));
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
+    EXPECT_EQ(count(outcome.text, "diptych: "), 1U) << outcome.text;
+  }
+}
+
+TEST(RanksOfARun, AreToldInTheSummary) {
+  const Folder folder;
+  folder.write("case.toml", cube);
+  const Outcome outcome =
+      shell(folder, mpirun + "-n 2 $diptych run case.toml --method fvm --quiet --out two");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("2 ranks of "));
+  const std::string summary = text_of(folder.path() / "two/fvm/summary.json");
+  EXPECT_THAT(summary, HasSubstr("\"ranks\": 2"));
+  EXPECT_THAT(summary, HasSubstr("\"exchanged_bytes\": "));
+}
+
+/// A process that dies takes the others with it.
+TEST(RanksOfARun, EndWhereOneIsKilled) {
+  const Folder folder;
+  folder.write("case.toml", cube);
+  const Outcome outcome =
+      shell(folder, mpirun + R"(-n 3 $diptych run case.toml --method fvm --quiet \
+      --set time.max_steps=0 --set time.end=1000 --out killed &
+for i in $(seq 200); do grep -q running killed/fvm/summary.json 2>/dev/null && break; sleep 0.1; done
+sleep 0.3
+victim=$(pgrep -P $! | tail -n 1)
+kill -9 $victim
+start=$(date +%s)
+wait $!
+code=$?
+[ $code -ne 0 ] && [ $(($(date +%s) - start)) -lt 30 ] && echo ended in time)");
+  EXPECT_THAT(outcome.text, HasSubstr("ended in time"));
+  EXPECT_THAT(outcome.text, testing::ContainsRegex("rank [0-2]")) << outcome.text;
+}
+
+}  // namespace
+}  // namespace diptych::tests
