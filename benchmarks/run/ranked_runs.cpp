@@ -51,6 +51,7 @@ void share(Communicator& ranks, Request& request) {
 /// A scene that all ranks have made.
 template <class Make>
 std::unique_ptr<Scene> made_by_all(Communicator& ranks, const Make& make) {
+  const parallel::Phase phase("set-up");
   std::unique_ptr<Scene> scene;
   parallel::agree_on(ranks, [&] { scene = make(); });
   return scene;

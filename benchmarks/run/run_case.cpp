@@ -224,6 +224,10 @@ void CaseRun::measure() {
     s.loop_seconds = totals.seconds;
   }
   s.stages = s.steps * scene_->solver->evaluations_per_step();
+  const scheme::Interventions& acts = scene_->solver->interventions();
+  s.projections = acts.projections;
+  s.resynchronisations = acts.resynchronisations;
+  s.limited_pairs = acts.limited_pairs;
   s.end_time = scene_->solver->time();
   s.wall_seconds = seconds_before_ + seconds_since(start_);
   s.peak_rss_bytes = memory_.peak();

@@ -198,6 +198,10 @@ void read_size_and_cost(const Section& file, RunSummary& summary) {
   summary.stages = file.large_count("stages");
   summary.rejected_steps = file.large_count("rejected_steps");
   summary.restarts = file.large_count("restarts");
+  const Section acts = file.section("interventions");
+  summary.projections = acts.large_count("projections");
+  summary.resynchronisations = acts.large_count("resynchronisations");
+  summary.limited_pairs = acts.large_count("limited_pairs");
   summary.threads = file.small_count("threads");
   summary.ranks = file.small_count("ranks");
   const Section communication = file.section("communication");
@@ -301,6 +305,10 @@ std::string to_json(const RunSummary& summary) {
       {"stages", summary.stages},
       {"rejected_steps", summary.rejected_steps},
       {"restarts", summary.restarts},
+      {"interventions",
+       {{"projections", summary.projections},
+        {"resynchronisations", summary.resynchronisations},
+        {"limited_pairs", summary.limited_pairs}}},
       {"threads", summary.threads},
       {"ranks", summary.ranks},
       {"communication",

@@ -60,6 +60,8 @@ struct RunSummary {
   std::int64_t steps = 0, stages = 0;
   std::int64_t rejected_steps = 0;  ///< attempts that failed and were made again with half the size
   std::int64_t restarts = 0;        ///< how often it went on from a checkpoint
+  // what acted beside the equations (scheme/budget/interventions.hpp)
+  std::int64_t projections = 0, resynchronisations = 0, limited_pairs = 0;
   int threads = 1, ranks = 1;
   std::string precision = "double", integrator;
   std::string status = "done";  ///< running, done, step limit, interrupted, breakdown, failed
@@ -99,10 +101,10 @@ struct RunSummary {
 };
 
 /// JSON text with the key names of the contract: method, case, level, ..., steps, stages,
-/// rejected_steps, restarts, ..., dt{min,max},
-/// errors{field{l1,l2,linf}}, energy{...}, momentum{linear_drift,angular_drift}, involution{H,J},
-/// min_jacobian, cells{least_J,most_inverted,inverted_from}, state_hash, provenance{...}; where the
-/// run was not finished, failure{message,time,step,node,place}.
+/// rejected_steps, restarts, interventions{projections,resynchronisations,limited_pairs}, ...,
+/// dt{min,max}, errors{field{l1,l2,linf}}, energy{...}, momentum{linear_drift,angular_drift},
+/// involution{H,J}, min_jacobian, cells{least_J,most_inverted,inverted_from}, state_hash,
+/// provenance{...}; where the run was not finished, failure{message,time,step,node,place}.
 std::string to_json(const RunSummary& summary);
 
 /// @throws base::InputError on malformed text, a missing key, NaN

@@ -2,6 +2,7 @@
 /// several ranks (common/parallel/ranks.hpp). Errors of MPI end the job, with its own message.
 /// Test: tests/ranks
 
+#include "common/mpi/watch.hpp"
 #include "common/parallel/ranks.hpp"
 
 #include <metis.h>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <numeric>
 #include <string>
 
@@ -102,22 +104,37 @@ class MpiCommunicator final : public Communicator {
   CommunicationCost cost_;
 };
 
-Communicator* begin(std::string& error) {
+std::unique_ptr<Watch> watch;
+
+Communicator* begin(std::string& error, const char* (*phase)()) {
   int provided = 0;
-  if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS ||
+  if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_MULTIPLE, &provided) != MPI_SUCCESS ||
       provided < MPI_THREAD_FUNNELED) {
     error = "MPI_Init_thread failed";
     return nullptr;
   }
   static MpiCommunicator world;
-  if (world.size() == launched_ranks()) return &world;
-  error = "the program was started among " + std::to_string(launched_ranks()) +
-          " processes and MPI sees " + std::to_string(world.size()) +
-          "; use the mpirun of the MPI that it was built with";
-  return nullptr;
+  if (world.size() != launched_ranks()) {
+    error = "the program was started among " + std::to_string(launched_ranks()) +
+            " processes and MPI sees " + std::to_string(world.size()) +
+            "; use the mpirun of the MPI that it was built with";
+    return nullptr;
+  }
+  const int patience = rank_patience();
+  if (patience > 0) {
+    if (provided < MPI_THREAD_MULTIPLE) {
+      error =
+          "this MPI has no MPI_THREAD_MULTIPLE, which ranks need to watch each other; set "
+          "DIPTYCH_RANK_PATIENCE=0 to do without";
+      return nullptr;
+    }
+    watch = std::make_unique<Watch>(patience, phase);
+  }
+  return &world;
 }
 
 void end() {
+  watch.reset();
   MPI_Finalize();
 }
 

@@ -3,6 +3,7 @@
 #include "common/base/error.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <dlfcn.h>
 #include <filesystem>
 #include <sched.h>
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 
 Communicator* communicator = nullptr;
 int n_sharing = 1;
-const char* volatile current_phase = nullptr;
+std::atomic<const char*> current_phase = nullptr;  // lock-free: handlers of signals read it
 
 fs::path program_folder() {
   std::error_code error;
@@ -72,7 +73,7 @@ int count_sharing(Communicator& ranks) {
 Ranks::Ranks() {
   if (launched_ranks() <= 1) return;
   std::string error;
-  communicator = module().begin(error);
+  communicator = module().begin(error, phase);
   if (communicator == nullptr) throw base::EnvironmentError("MPI cannot begin: " + error);
   n_sharing = count_sharing(*communicator);
 }
@@ -91,8 +92,11 @@ int ranks_that_share_processors() {
   return n_sharing;
 }
 
-void set_phase(const char* phase) {
-  current_phase = phase;
+Phase::Phase(const char* name) {
+  current_phase = name;
+}
+Phase::~Phase() {
+  current_phase = nullptr;
 }
 
 const char* phase() {

@@ -13,8 +13,10 @@ namespace diptych::parallel {
 /// What the module gives (common/mpi/module.cpp). It is looked for beside the program, and in
 /// lib/diptych of the folder above it.
 struct RanksModule {
-  /// Calls MPI_Init. @return null, and a message in `error`, where that is not possible
-  Communicator* (*begin)(std::string& error);
+  /// Calls MPI_Init, and watches the other ranks from then on.
+  /// @param phase  what this rank does: phase(), below
+  /// @return null, and a message in `error`, where that is not possible
+  Communicator* (*begin)(std::string& error, const char* (*phase)());
   /// Calls MPI_Finalize.
   void (*end)();
   std::vector<int> (*metis)(const ChunkGraph& graph, int n_parts);
@@ -47,10 +49,18 @@ Communicator* all_ranks();
 /// thread_count() leaves each. 1 where there is one rank.
 int ranks_that_share_processors();
 
-/// What this rank does, for who is told to end and says where it was (from a handler of signals).
-/// @param phase  a text that stays; null: nothing that concerns other ranks
-void set_phase(const char* phase);
+/// What this rank does, for who is told to end and says where it was (from a handler of signals),
+/// and for the rank that watches this one.
+/// @return a text that stays; null: nothing that concerns other ranks
 const char* phase();
+/// Sets it for its lifetime.
+struct Phase {
+  /// @param name  a text that stays
+  explicit Phase(const char* name);
+  ~Phase();
+  Phase(const Phase&) = delete;
+  Phase& operator=(const Phase&) = delete;
+};
 
 /// @throws base::EnvironmentError where the program was built without METIS
 std::vector<int> metis_partition(const ChunkGraph& graph, int n_parts);

@@ -21,7 +21,7 @@ LargestRates<Dim>::LargestRates(scheme::Body<Dim>& body, double kappa_f)
                                                 .impedance = scheme::Impedance::isotropic},
                                                true)),
       face_(scheme::face_correction_sweeps<Dim>()),
-      scratch_(2 * static_cast<size_t>(parallel::n_chunks_of(body.n_blocks))) {}
+      scratch_(3 * static_cast<size_t>(parallel::n_chunks_of(body.n_blocks))) {}
 
 template <int Dim>
 void LargestRates<Dim>::put_velocities(const Vectors& v) {
@@ -46,7 +46,8 @@ void LargestRates<Dim>::divide_forces(Vectors& out) const {
 template <int Dim>
 void LargestRates<Dim>::sum_forces(double dissipation_factor) {
   scheme::sum_forces<Dim>(
-      {body_, dissipation_factor, false, scratch_.data(), scratch_.data() + scratch_.size() / 2},
+      {body_, dissipation_factor, false, scratch_.data(), scratch_.data() + scratch_.size() / 3,
+       scratch_.data() + scratch_.size() / 3 * 2},
       momentum_);
 }
 

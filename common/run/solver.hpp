@@ -7,6 +7,7 @@
 #include "common/parallel/communicator.hpp"
 #include "common/scheme/body/snapshot.hpp"
 #include "common/scheme/budget/audit.hpp"
+#include "common/scheme/budget/interventions.hpp"
 #include "common/scheme/graph/pair_graph.hpp"
 
 #include <memory>
@@ -53,6 +54,7 @@ class Solver {
   virtual bool is_sound() const = 0;
   virtual scheme::Balance balance() const = 0;
   virtual const scheme::Audit& audit() const = 0;
+  virtual const scheme::Interventions& interventions() const = 0;
   virtual Snapshot snapshot() const = 0;
   /// Fields of these nodes only, in this order.
   virtual Snapshot snapshot(std::span<const std::int32_t> nodes) const = 0;

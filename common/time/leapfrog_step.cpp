@@ -26,7 +26,7 @@ void begin_leapfrog(MovingBody<Dim>& moving) {
 template <int Dim>
 double leapfrog_step(MovingBody<Dim>& moving, double t_limit) {
   using Rule = scheme::Relaxation::Rule;
-  auto& [body, sweeps, boundary, integrator, keeps, audit, load_rates, L_0, clock] = moving;
+  auto& [body, sweeps, boundary, integrator, keeps, audit, load_rates, L_0, clock, acts] = moving;
   const double dt = choose_dt(moving, t_limit), t = clock.time;
   boundary.begin_step(t, dt);
   scheme::Audit rate;
@@ -42,6 +42,7 @@ double leapfrog_step(MovingBody<Dim>& moving, double t_limit) {
   // D_ab kicks twice, after it is summed and before: of one kick alone the budget is off by its lag
   rate.numerical_dissipation = 0.5 * sweeps.old_numerical_power(body, old_loads);
   sweeps.sum_forces(body, true);
+  acts.limited_pairs += sweeps.limited_pairs();
   load_rates = boundary.add_loads(body, t + dt);
   rate.external_work += 0.5 * load_rates.power;
   // the same velocities against the forces of the end: the trapezoid, of second order

@@ -49,6 +49,7 @@ void keep_angular_momentum(MovingBody<Dim>& moving) {
   const scheme::Projection made = scheme::project_angular_momentum(
       moving.body, moving.initial_angular_momentum + moving.audit.impulse.angular);
   moving.audit.projection_work += made.gain - moving.boundary.withheld(moving.body, made);
+  moving.interventions.projections += made.gain != 0 ? 1 : 0;
 }
 
 #define DIPTYCH_INSTANTIATE(Dim)                                         \

@@ -3,6 +3,7 @@
 
 #include "common/scheme/boundary/applied_boundary.hpp"
 #include "common/scheme/budget/audit.hpp"
+#include "common/scheme/budget/interventions.hpp"
 #include "common/scheme/sweeps/sweeps.hpp"
 #include "common/time/integrator.hpp"
 
@@ -30,6 +31,7 @@ struct MovingBody {
   scheme::LoadRates load_rates{};  ///< of the loads as they were added last
   algebra::Vec3 initial_angular_momentum = algebra::Vec3::Zero();  ///< N m s, about the centroid
   Clock clock{};
+  scheme::Interventions interventions{};
 
   bool has_branches() const { return body.options.n_branches > 0; }
 };

@@ -39,6 +39,12 @@ void archive_audit(scheme::Audit& audit, Archive& archive) {
   archive.vector("audit/angular impulse", "N m s", audit.impulse.angular);
 }
 
+void archive_interventions(scheme::Interventions& acts, Archive& archive) {
+  archive.integer("interventions/projections", acts.projections);
+  archive.integer("interventions/resynchronisations", acts.resynchronisations);
+  archive.integer("interventions/limited pairs", acts.limited_pairs);
+}
+
 void archive_loads(scheme::LoadRates& rates, Archive& archive) {
   archive.real("loads/power", "W", rates.power);
   archive.vector("loads/force", "N", rates.force);
@@ -86,6 +92,7 @@ void archive(MovingBody<Dim>& moving, Archive& archive) {
   archive_body(moving, archive);
   archive_clock(moving.clock, archive);
   archive_audit(moving.audit, archive);
+  archive_interventions(moving.interventions, archive);
   archive_loads(moving.load_rates, archive);
   archive.vector("initial angular momentum", "N m s", moving.initial_angular_momentum);
   archive_boundary(moving.boundary, archive);

@@ -30,7 +30,7 @@ scheme::Relaxation relaxation_of(const MovingBody<Dim>& moving, double elapsed, 
 
 template <int Dim>
 double ssp_step(MovingBody<Dim>& moving, double t_limit) {
-  auto& [body, sweeps, boundary, integrator, keeps, audit, load_rates, L_0, clock] = moving;
+  auto& [body, sweeps, boundary, integrator, keeps, audit, load_rates, L_0, clock, acts] = moving;
   const scheme::Audit audit_0 = audit;
   const size_t n_stages = integrator.stages.size();
   double dt = 0, fraction = 0;  // of the step that has passed when a stage begins
@@ -42,6 +42,7 @@ double ssp_step(MovingBody<Dim>& moving, double t_limit) {
     const SspStage& now = integrator.stages[i];
     const bool first = i == 0, last = i + 1 == n_stages;
     sweeps.sum_forces(body, first);  // (18a) + D_ab, step bound
+    acts.limited_pairs += sweeps.limited_pairs();
     if (first) {
       dt = choose_dt(moving, t_limit);
       boundary.begin_step(clock.time, dt);
@@ -60,6 +61,7 @@ double ssp_step(MovingBody<Dim>& moving, double t_limit) {
     fraction = now.time;
   }
   audit.viscous_dissipation += sweeps.viscous_dissipation();
+  acts.resynchronisations += body.options.unknowns != scheme::Unknowns::F ? 1 : 0;
   return dt;
 }
 

@@ -104,6 +104,7 @@ void StepBegin<Dim>::keep(MovingBody<Dim>& moving, double t_limit) {
   is_kept_ = true;
   copy(moving.body);
   audit_ = moving.audit;
+  interventions_ = moving.interventions;
   load_rates_ = moving.load_rates;
   clock_ = moving.clock;
   moving.boundary.keep(boundary_);
@@ -114,6 +115,7 @@ template <int Dim>
 void StepBegin<Dim>::restore(MovingBody<Dim>& moving) {
   put_back(moving.body);
   moving.audit = audit_;
+  moving.interventions = interventions_;
   moving.load_rates = load_rates_;
   moving.clock = clock_;
   moving.boundary.restore(boundary_);

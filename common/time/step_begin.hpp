@@ -54,6 +54,7 @@ class StepBegin {
   std::vector<algebra::BlockField> own_;
   // what else a step begins with
   scheme::Audit audit_;
+  scheme::Interventions interventions_;
   scheme::LoadRates load_rates_;
   Clock clock_;
   scheme::BoundaryState boundary_;

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <regex>
 
@@ -88,6 +89,35 @@ TEST(Breakdown, LeavesTheLastGoodState) {
   const auto rows = io::history_from_csv(text_of(run / "history.csv"), "history.csv");
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows.back().time, summary.end_time);
+}
+
+/// Nothing of the step that fails is kept: the latest checkpoint is of the state before it, whole,
+/// and goes on to the same end.
+TEST(Breakdown, LeavesTheLastCheckpoint) {
+  const Folder folder;
+  folder.write("case.toml", crushed("3e4"));
+  const std::string line =
+      "run case.toml --quiet --threads 1 --method fvm --out out --set time.max_retries=5 "
+      "--set time.checkpoint_every=1";
+  EXPECT_EQ(diptych(folder, line).exit_code, 3);
+  const fs::path run = folder.path() / "out" / "fvm";
+  const auto summary = summary_in(run);
+  ASSERT_TRUE(summary.failure && summary.failure->step);
+  ASSERT_GT(summary.steps, 1);
+  const auto checkpoint = [&](std::int64_t step) {
+    return run / fmt::format("checkpoint_{:08}.hdf", step);
+  };
+  EXPECT_TRUE(fs::exists(checkpoint(*summary.failure->step - 1)));
+  EXPECT_FALSE(fs::exists(checkpoint(*summary.failure->step)));
+  EXPECT_EQ(diptych(folder, "check out").exit_code, 0);
+  const auto again = diptych(folder, line + " --restart latest");
+  EXPECT_EQ(again.exit_code, 3) << again.text;
+  const auto same = summary_in(run);
+  ASSERT_TRUE(same.failure.has_value());
+  EXPECT_EQ(same.restarts, 1);
+  EXPECT_EQ(same.failure->step, summary.failure->step);
+  EXPECT_EQ(same.failure->node, summary.failure->node);
+  EXPECT_EQ(same.state_hash, summary.state_hash);
 }
 
 /// At this speed SPH breaks down on level 0 and on no other; the finite volumes never do.

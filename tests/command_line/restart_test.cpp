@@ -68,6 +68,9 @@ void expect_same_results(const fs::path& a, const fs::path& b) {
   EXPECT_EQ(found.state_hash, wanted.state_hash);
   EXPECT_EQ(found.steps, wanted.steps);
   EXPECT_EQ(found.rejected_steps, wanted.rejected_steps);
+  EXPECT_EQ(found.projections, wanted.projections);
+  EXPECT_EQ(found.resynchronisations, wanted.resynchronisations);
+  EXPECT_EQ(found.limited_pairs, wanted.limited_pairs);
   EXPECT_EQ(found.dt_min, wanted.dt_min);
   EXPECT_EQ(found.dt_max, wanted.dt_max);
   EXPECT_EQ(found.min_jacobian, wanted.min_jacobian);

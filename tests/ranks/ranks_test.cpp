@@ -2,10 +2,12 @@
 /// rows and runs of pairs, both precisions, and all that ranks tell each other of.
 
 #include "tests/command_line/program.hpp"
+#include "tests/trials.hpp"
 
 #include <gtest/gtest.h>
 
 #include <gmock/gmock.h>
+#include <random>
 #include <regex>
 
 namespace diptych::tests {
@@ -180,6 +182,21 @@ INSTANTIATE_TEST_SUITE_P(OfScenes, Ranks, testing::ValuesIn(scenes()), [](const 
   return tested.param.name;
 });
 
+/// Six chunks among seven ranks: the last one has nothing to work.
+class MoreRanksThanChunks : public Ranks {};
+TEST_P(MoreRanksThanChunks, HaveTheBitsOfOneProcess) {
+  folder_.write("case.toml", GetParam().text);
+  run(0);
+  run(7);
+  expect_same("0", "7");
+}
+INSTANTIATE_TEST_SUITE_P(OfScenes,
+                         MoreRanksThanChunks,
+                         testing::Values(Scene{"Held", cube + branches + held,
+                                               "--set time.max_steps=5"},
+                                         Scene{"Plane", plane, "--set time.max_steps=5"}),
+                         [](const auto& tested) { return tested.param.name; });
+
 /// A mesh of a file: rows.
 class RanksOnRows : public Ranks {};
 TEST_P(RanksOnRows, HaveTheBitsOfOneProcess) {
@@ -272,7 +289,7 @@ TEST(RanksOfARun, SayOnceWhatIsWrong) {
     return n;
   };
   for (const char* arguments : {"run case.toml --set material.modell=1", "run no-such-case",
-                                "run case.toml --partition slap", "run case.toml --quiet"}) {
+                                "run case.toml --partition slap"}) {
     const Outcome outcome = shell(folder, mpirun + "-n 7 $diptych " + std::string(arguments));
     EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
     EXPECT_EQ(count(outcome.text, "diptych: "), 1U) << outcome.text;
@@ -291,23 +308,88 @@ TEST(RanksOfARun, AreToldInTheSummary) {
   EXPECT_THAT(summary, HasSubstr("\"exchanged_bytes\": "));
 }
 
-/// A process that dies takes the others with it.
-TEST(RanksOfARun, EndWhereOneIsKilled) {
+/// Every verb that runs cases takes ranks; what it writes is that of one process.
+TEST(RanksOfARun, AreTakenByAllVerbs) {
   const Folder folder;
-  folder.write("case.toml", cube);
-  const Outcome outcome =
-      shell(folder, mpirun + R"(-n 3 $diptych run case.toml --method fvm --quiet \
-      --set time.max_steps=0 --set time.end=1000 --out killed &
-for i in $(seq 200); do grep -q running killed/fvm/summary.json 2>/dev/null && break; sleep 0.1; done
-sleep 0.3
-victim=$(pgrep -P $! | tail -n 1)
-kill -9 $victim
-start=$(date +%s)
-wait $!
-code=$?
-[ $code -ne 0 ] && [ $(($(date +%s) - start)) -lt 30 ] && echo ended in time)");
-  EXPECT_THAT(outcome.text, HasSubstr("ended in time"));
-  EXPECT_THAT(outcome.text, testing::ContainsRegex("rank [0-2]")) << outcome.text;
+  std::string small = cube;
+  small.replace(small.find("[10, 10, 10]"), 12, "[8, 4, 4]");
+  small.replace(small.find("end = 5e-3\nmax_steps = 12"), 25, "end = 2e-3");
+  std::filesystem::create_directories(folder.path() / "cases/beam");
+  folder.write("cases/beam/case.toml", small);
+  const std::string many = mpirun + "-n 3 $diptych ", one = "$diptych ";
+  const std::string verbs[] = {"compare beam", "converge beam --levels 2",
+                               "study beam --levels 2 --vary scheme.dissipation=0.5,1"};
+  for (const std::string& verb : verbs) {
+    for (const auto& [start, out] : {std::pair{one, "one"}, std::pair{many, "many"}}) {
+      const Outcome outcome = shell(
+          folder, start + verb + " --cases cases --threads 1 --quiet --out " + out + " --force");
+      EXPECT_EQ(outcome.exit_code, 0) << verb << "\n" << outcome.text;
+    }
+    int n_runs = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path() / "one")) {
+      if (entry.path().filename() != "summary.json") continue;
+      const auto run = entry.path().parent_path();
+      const auto other = folder.path() / "many" / relative(run, folder.path() / "one");
+      EXPECT_NE(hash_in(run), "none") << run;
+      EXPECT_EQ(hash_in(run), hash_in(other)) << verb << " " << other;
+      ++n_runs;
+    }
+    EXPECT_GE(n_runs, 2) << verb;
+    std::filesystem::remove_all(folder.path() / "one");
+    std::filesystem::remove_all(folder.path() / "many");
+  }
+  const std::string regress = "regress --cases cases --baselines baselines --quiet ";
+  Outcome outcome = shell(folder, one + regress + "--bless beam --why 'the first'");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  outcome = shell(folder, many + regress + "beam");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+}
+
+/// A rank that is killed or stopped ends all of them within half a minute, is named, and the last
+/// checkpoint goes on with fewer ranks to the bits of the run that was left alone.
+TEST(RanksThatEnd, EndTheJobAndGoOnWithFewer) {
+  const Folder folder;
+  std::string text = cube + branches + held;
+  text.replace(text.find("max_steps = 12"), 14, "max_steps = 300\ncheckpoint_every = 1");
+  folder.write("case.toml", text);
+  const std::string run = "$diptych run case.toml --method fvm --threads 1 --quiet --out ";
+  ASSERT_EQ(shell(folder, run + "whole --set time.checkpoint_every=0").exit_code, 0);
+  const std::string wanted = hash_in(folder.path() / "whole/fvm");
+  std::mt19937 random(20);
+  Trials trials("ranks killed or stopped");
+  const int n_trials = Trials::n(2, 50);
+  for (int k = 0; trials.n_made() < n_trials && k < 4 * n_trials; ++k) {
+    const std::string signal = k % 2 == 0 ? "STOP" : "KILL";
+    const auto victim = std::to_string(random() % 3);
+    const std::string delay = "0." + std::to_string(10 + random() % 80);
+    std::filesystem::remove_all(folder.path() / "out");
+    const Outcome ended = shell(
+        folder, "export DIPTYCH_RANK_PATIENCE=3; " + mpirun + "-n 3 " + run + "out &\n" +
+                    "for i in $(seq 400); do ls out/fvm/checkpoint_* >/dev/null 2>&1 && break; "
+                    "sleep 0.05; done; sleep " +
+                    delay +
+                    "\nfor p in $(pgrep -P $!); do tr '\\0' '\\n' </proc/$p/environ | grep -qx "
+                    "OMPI_COMM_WORLD_RANK=" +
+                    victim + " && kill -" + signal +
+                    " $p && hit=yes; done\nstart=$(date +%s)\nwait $!\ncode=$?\n"
+                    "echo \"hit=$hit code=$code after $(($(date +%s) - start)) s\"");
+    const bool was_over = ended.text.find("hit=yes") == std::string::npos ||
+                          ended.text.find("code=0") != std::string::npos;
+    if (was_over) continue;
+    std::smatch after;
+    const bool is_told = std::regex_search(ended.text, after, std::regex(R"(after (\d+) s)")) &&
+                         std::stoi(after[1].str()) < 30;
+    EXPECT_TRUE(is_told) << ended.text;
+    const bool is_named = std::regex_search(ended.text, std::regex("rank " + victim));
+    EXPECT_TRUE(is_named) << "rank " << victim << " " << signal << "\n" << ended.text;
+    const int fewer = static_cast<int>(random() % 2) + 1;
+    const Outcome again =
+        shell(folder, mpirun + "-n " + std::to_string(fewer) + " " + run + "out --restart latest");
+    const bool goes_on = again.exit_code == 0 && hash_in(folder.path() / "out/fvm") == wanted;
+    EXPECT_TRUE(goes_on) << ended.text << again.text;
+    trials.add(is_told && is_named && goes_on);
+  }
+  EXPECT_EQ(trials.n_made(), n_trials) << "too many runs were over before";
 }
 
 }  // namespace

@@ -198,7 +198,7 @@ class LoadedBody {
     scheme::evaluate_strain_rates<Dim>(
         {body_, material_, {}, true, kappa_f_, nullptr, 0, viscous_.data(), least_J_.data()});
     if (kappa_f_ != 0) face.stresses(body_, kappa_f_, 0, blocks);
-    scheme::sum_forces<Dim>({body_, 1, false, numerical_.data(), rate_.data()},
+    scheme::sum_forces<Dim>({body_, 1, false, numerical_.data(), rate_.data(), limited_.data()},
                             scheme::momentum_function<Dim>({}, true));
   }
 
@@ -263,7 +263,7 @@ class LoadedBody {
   double kappa_f_;
   size_t chunks_;
   std::vector<double> viscous_ = std::vector<double>(chunks_), least_J_ = viscous_,
-                      numerical_ = viscous_, rate_ = viscous_;
+                      numerical_ = viscous_, rate_ = viscous_, limited_ = viscous_;
   scheme::AppliedBoundary boundary_;
 };
 

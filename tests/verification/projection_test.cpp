@@ -54,6 +54,14 @@ TEST_P(Projection, KeepsFTheGradientOfTheMotion) {
   }
 }
 
+TEST_P(Projection, IsCounted) {
+  const auto scene = after(16);
+  EXPECT_EQ(scene->solver->interventions().projections, 16);
+  const bool is_leapfrog = std::get<1>(GetParam()) == std::string("leapfrog");
+  EXPECT_EQ(scene->solver->interventions().resynchronisations, is_leapfrog ? 0 : 16);
+  EXPECT_EQ(scene->solver->interventions().limited_pairs, 0);
+}
+
 TEST_P(Projection, IsInTheEnergyBudget) {
   const std::string integrator = std::get<1>(GetParam());
   const int n = integrator == "ssp-rk2" ? 64 : 16;  // of SPH it has its order from here on

@@ -45,14 +45,6 @@ void give(parallel::Communicator& ranks, Task task, double time = 0, std::int64_
   parallel::broadcast(ranks, order);
 }
 
-/// For its lifetime.
-struct Phase {
-  explicit Phase(const char* name) { parallel::set_phase(name); }
-  ~Phase() { parallel::set_phase(nullptr); }
-  Phase(const Phase&) = delete;
-  Phase& operator=(const Phase&) = delete;
-};
-
 /// Calls work(). What only one rank can meet, such as the end of its memory, ends all: the others
 /// would wait for it for ever.
 template <class Work>
@@ -64,7 +56,7 @@ auto work_together(parallel::Communicator& ranks, Task task, const Work& work) {
                stderr);
     ranks.abort(static_cast<int>(base::ExitCode::environment));
   };
-  const Phase phase(name_of(task));
+  const parallel::Phase phase(name_of(task));
   try {
     return work();
   } catch (const base::Error&) {

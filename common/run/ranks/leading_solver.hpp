@@ -37,6 +37,7 @@ class LeadingSolver : public Solver {
   bool is_sound() const override { return solver_->is_sound(); }
   scheme::Balance balance() const override;
   const scheme::Audit& audit() const override { return solver_->audit(); }
+  const scheme::Interventions& interventions() const override { return solver_->interventions(); }
   Snapshot snapshot() const override;
   Snapshot snapshot(std::span<const std::int32_t> nodes) const override;
   algebra::Vec3 reaction(const std::vector<std::int32_t>& nodes) override;

@@ -31,6 +31,7 @@ struct MomentumSweep {
   // results, one per chunk of parallel::for_chunks
   double* numerical_power;  ///< W
   double* largest_rate;     ///< 1/s, graph CFL: dt <= 1/rate
+  double* limited_pairs;    ///< whose jump the limiter has changed
 };
 
 /// A compiled sweep over blocks [begin, end) of a chunk: forces of rows into state.T, of runs added

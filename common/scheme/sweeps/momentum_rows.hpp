@@ -37,6 +37,7 @@ DIPTYCH_INLINE auto sums_of_node(const MomentumSweep<Dim>& sweep, std::int64_t a
     for (int i = 0; i < Dim; ++i)
       sums.force[i] += of_pairs.force[i];
     sums.power += of_pairs.power;
+    if constexpr (kind.limiter != PairLimiter::none) sums.limited += of_pairs.limited;
     if (sweep.with_bound) {
       Vector<T> C_ab{};
       for (int i = 0; i < Dim; ++i)
@@ -48,11 +49,11 @@ DIPTYCH_INLINE auto sums_of_node(const MomentumSweep<Dim>& sweep, std::int64_t a
 }
 
 /// Rows: forces on the eight nodes of block b, each over its pairs.
-/// @return numerical dissipation of their halves of the pairs [W]; updates the largest rate
+/// @param total  of their halves of the pairs; added to
 template <InstructionSet isa, class Real, int Dim, DissipationKind kind, bool has_H>
-DIPTYCH_INLINE double forces_on_block(const MomentumSweep<Dim>& sweep,
-                                      std::int64_t b,
-                                      double& largest_rate) {
+DIPTYCH_INLINE void forces_on_block(const MomentumSweep<Dim>& sweep,
+                                    std::int64_t b,
+                                    ChunkSums& total) {
   using Record = NodeRecord<Dim>;
   const SweepGraph<Dim>& graph = sweep.body.graph;
   NodeSums<Dim, Lanes> sums;
@@ -62,6 +63,8 @@ DIPTYCH_INLINE double forces_on_block(const MomentumSweep<Dim>& sweep,
       sums.force[i][lane] = algebra::lane_sum(of_node.force[i]);
     sums.power[lane] = algebra::lane_sum(of_node.power);
     sums.rate[lane] = algebra::lane_sum(of_node.rate);
+    if constexpr (kind.limiter != PairLimiter::none)
+      total.limited += 0.5 * algebra::lane_sum(of_node.limited);
   }
   for (int i = 0; i < Dim; ++i) {
     Lanes PC{};
@@ -74,9 +77,9 @@ DIPTYCH_INLINE double forces_on_block(const MomentumSweep<Dim>& sweep,
     const Lanes rate = (0.5 / sweep.body.options.rho_R) * sums.rate *
                        algebra::load(graph.inverse_Omega.data() + b * n_lanes);
     for (int lane = 0; lane < n_lanes; ++lane)
-      largest_rate = algebra::larger(largest_rate, rate[lane]);
+      total.rate = algebra::larger(total.rate, rate[lane]);
   }
-  return 0.25 * algebra::lane_sum(sums.power);
+  total.power += 0.25 * algebra::lane_sum(sums.power);
 }
 
 }  // namespace diptych::scheme

@@ -88,6 +88,7 @@ DIPTYCH_INLINE void work_chunks(const MomentumSweep<Dim>& sweep,
       add_to<T>(their_sums + i * stride, -of_pairs.force[i]);
     }
     sums.power += of_pairs.power;
+    if constexpr (kind.limiter != PairLimiter::none) sums.limited += of_pairs.limited;
     if (sweep.with_bound) {
       sums.rate += rate_of<Dim, T>(pair.C_ab, pairs);
       add_to<T>(their_sums + Dim * stride, rate_of<Dim, T>(pair.C_ba, pairs));
@@ -118,11 +119,12 @@ inline constexpr int most_blocks_together = 4;
 /// Forces of the pairs of blocks b, b + 1, .. b + n_blocks - 1, which are at the same offsets, with
 /// nodes above them, added to both: together, since their neighbours share cache lines.
 /// @param n_blocks  as many as most_blocks_together at most; of WideSingles even
-/// @return their numerical dissipation  [W]
+/// @param total     added to
 template <class T, int Dim, DissipationKind kind, bool has_H>
-DIPTYCH_INLINE double add_forces_of_blocks(const MomentumSweep<Dim>& sweep,
-                                           std::int64_t b,
-                                           int n_blocks) {
+DIPTYCH_INLINE void add_forces_of_blocks(const MomentumSweep<Dim>& sweep,
+                                         std::int64_t b,
+                                         int n_blocks,
+                                         ChunkSums& total) {
   using Real = algebra::Element<T>;
   using Worked = WorkedBlock<Dim, T>;
   const MutualPairs<Dim>& mutual = sweep.body.graph.mutual;
@@ -136,7 +138,6 @@ DIPTYCH_INLINE double add_forces_of_blocks(const MomentumSweep<Dim>& sweep,
     for (int k = 0; k < n; ++k)
       work_chunks<T, Dim, kind, has_H>(sweep, n_chunks, blocks[k]);
   }
-  double power = 0;
   const std::int64_t stride = sweep.body.T.component_stride();
   for (int k = 0; k < n; ++k) {
     const NodeSums<Dim, T>& sums = blocks[k].sums;
@@ -144,9 +145,10 @@ DIPTYCH_INLINE double add_forces_of_blocks(const MomentumSweep<Dim>& sweep,
     for (int i = 0; i < Dim; ++i)
       add_to<T>(own_sums + i * stride, sums.force[i]);
     if (sweep.with_bound) add_to<T>(own_sums + Dim * stride, sums.rate);
-    power += 0.5 * algebra::lane_sum(sums.power);
+    total.power += 0.5 * algebra::lane_sum(sums.power);
+    if constexpr (kind.limiter != PairLimiter::none)
+      total.limited += algebra::lane_sum(sums.limited);
   }
-  return power;
 }
 
 /// Asks for what the pairs of the next blocks will be the first to read, in every layer of
@@ -167,30 +169,29 @@ DIPTYCH_INLINE void prefetch_layers(const MomentumSweep<Dim>& sweep, std::int64_
 }
 
 /// Runs: forces of the pairs of the next blocks of [b, end) with nodes above them, added to both.
-/// @return their numerical dissipation [W]; moves b on
+/// Moves b on and adds to `total`.
 template <class Real, int Dim, DissipationKind kind, bool has_H>
-DIPTYCH_INLINE double add_forces_of_next(const MomentumSweep<Dim>& sweep,
-                                         std::int64_t& b,
-                                         std::int64_t end) {
+DIPTYCH_INLINE void add_forces_of_next(const MomentumSweep<Dim>& sweep,
+                                       std::int64_t& b,
+                                       std::int64_t end,
+                                       ChunkSums& total) {
   const MutualPairs<Dim>& mutual = sweep.body.graph.mutual;
   int n_blocks = 1;
   while (n_blocks < most_blocks_together && b + n_blocks < end &&
          same_offsets(mutual.row, mutual.offset, b + n_blocks - 1))
     ++n_blocks;
   prefetch_layers<Real, Dim, kind.impedance == Impedance::exact>(sweep, b, n_blocks);
-  double power = 0;
   const std::int64_t first = b;
   b += n_blocks;
   if constexpr (std::is_same_v<Real, float>) {
     const int n_wide = n_blocks / 2 * 2;
     if (n_wide > 0) {
-      power += add_forces_of_blocks<algebra::WideSingles, Dim, kind, has_H>(sweep, first, n_wide);
+      add_forces_of_blocks<algebra::WideSingles, Dim, kind, has_H>(sweep, first, n_wide, total);
     }
-    if (n_wide == n_blocks) return power;
-    return power +
-           add_forces_of_blocks<algebra::SingleLanes, Dim, kind, has_H>(sweep, first + n_wide, 1);
+    if (n_wide == n_blocks) return;
+    add_forces_of_blocks<algebra::SingleLanes, Dim, kind, has_H>(sweep, first + n_wide, 1, total);
   } else {
-    return add_forces_of_blocks<Lanes, Dim, kind, has_H>(sweep, first, n_blocks);
+    add_forces_of_blocks<Lanes, Dim, kind, has_H>(sweep, first, n_blocks, total);
   }
 }
 

@@ -15,6 +15,7 @@ struct NodeSums {
   T force[Dim] = {};  ///< 2 T; in rows without P_a sum C_ab
   T power{};          ///< sum (v_b - v_a) . |S| Z jump
   T rate{};           ///< sum |C_ab| z_ab
+  T limited{};        ///< pairs whose jump a limiter has changed
 };
 
 /// Mean response of the pair from the records of its nodes, for the exact impedance.
@@ -51,14 +52,22 @@ struct Slopes {
   Vector<T> sum{}, a{}, b{};
 };
 
-/// v_b^rec - v_a^rec, limited.  @param h  along the normal of the pair in space
+/// A change of a jump by this share of the plain one counts as limited: more than rounding makes.
+inline constexpr float limited_share = 1e-6F;
+
+/// v_b^rec - v_a^rec, limited.
+/// @param h        along the normal of the pair in space
+/// @param limited  one of pairs that the limiter has changed, zero of others
 template <int Dim, PairLimiter limiter, class T>
 DIPTYCH_INLINE Vector<T> reconstructed_jump(const Vector<T>& plain,
                                             const Slopes<Dim, T>& slopes,
-                                            const Vector<T>& h) {
+                                            const Vector<T>& h,
+                                            T& limited) {
   Vector<T> jump{};
-  for (int i = 0; i < Dim; ++i)
-    jump[i] = plain[i] - 0.5 * slopes.sum[i];
+  for (int i = 0; i < Dim; ++i) {
+    const T sum = limits_slopes(limiter) ? slopes.a[i] + slopes.b[i] : slopes.sum[i];
+    jump[i] = plain[i] - 0.5 * sum;
+  }
   if constexpr (limiter == PairLimiter::none) return jump;
   T h_h{};
   for (int i = 0; i < Dim; ++i)
@@ -68,7 +77,14 @@ DIPTYCH_INLINE Vector<T> reconstructed_jump(const Vector<T>& plain,
   for (int i = 0; i < Dim; ++i)
     n[i] = h[i] * inverse;
   if constexpr (limiter != PairLimiter::none) {
+    const Vector<T> reconstructed = jump;
     jump = LimiterOf<limiter>::template limited<Dim>(jump, plain, slopes.a, slopes.b, n);
+    T change{}, size{};
+    for (int i = 0; i < Dim; ++i) {
+      change += (jump[i] - reconstructed[i]) * (jump[i] - reconstructed[i]);
+      size += plain[i] * plain[i];
+    }
+    limited = change > limited_share * limited_share * size ? T{} + 1.0F : T{};
   }
   return jump;
 }
@@ -81,7 +97,7 @@ struct PairGeometry {
   T area;                    ///< m^2, |S_ab|
 };
 
-/// 2 D_ab of eight pairs.
+/// 2 D_ab of eight pairs, and which of them are limited.
 /// @param pairs      of the records
 /// @param positions  pairs of X
 /// @param plain      v_b - v_a
@@ -90,7 +106,8 @@ DIPTYCH_INLINE Vector<T> dissipation_of(const MomentumSweep<Dim>& sweep,
                                         const PairGeometry<Dim, T>& pair,
                                         const Pairs& pairs,
                                         const Positions& positions,
-                                        const Vector<T>& plain) {
+                                        const Vector<T>& plain,
+                                        T& limited) {
   using Record = NodeRecord<Dim>;
   Vector<T> h{};
   Slopes<Dim, T> slopes;
@@ -112,7 +129,8 @@ DIPTYCH_INLINE Vector<T> dissipation_of(const MomentumSweep<Dim>& sweep,
       }
     }
   }
-  const Vector<T> jump = reconstructed_jump<Dim, kind.limiter>(plain, slopes, h);
+  const Vector<T> jump = reconstructed_jump<Dim, kind.limiter>(plain, slopes, h, limited);
+  limited = pair.area > 0 ? limited : T{};  // lanes without a pair
   Vector<T> D{};
   if constexpr (kind.impedance == Impedance::isotropic) {
     D = isotropic_impedance_times<Dim, T>(
@@ -143,6 +161,14 @@ template <int Dim, class T>
 struct PairForces {
   Vector<T> force{};  ///< 2 f_ab  [N]
   T power{};          ///< 2 (v_b - v_a) . D_ab  [W]
+  T limited{};        ///< one of limited pairs
+};
+
+/// What a chunk sums over its pairs.
+struct ChunkSums {
+  double power = 0;    ///< W, numerical dissipation
+  double rate = 0;     ///< 1/s, the largest of its nodes
+  double limited = 0;  ///< pairs, those of rows by halves
 };
 
 /// Which stresses a pair force is made of: rows add P_a sum_b C_ab once for all pairs of a node.
@@ -162,8 +188,9 @@ DIPTYCH_INLINE PairForces<Dim, T> pair_forces(const MomentumSweep<Dim>& sweep,
                                               const Pairs& pairs,
                                               const Positions& positions,
                                               const Vector<T>& plain) {
-  const Vector<T> D = dissipation_of<Dim, kind, has_H>(sweep, pair, pairs, positions, plain);
   PairForces<Dim, T> f;
+  const Vector<T> D =
+      dissipation_of<Dim, kind, has_H>(sweep, pair, pairs, positions, plain, f.limited);
 #pragma GCC unroll 3
   for (int i = 0; i < Dim; ++i) {
     f.force[i] = D[i];

@@ -39,14 +39,18 @@ Sweeps<Dim>::Sweeps(const Body<Dim>& body,
       old_power_(viscous_dissipation_.size()),
       least_J_(viscous_dissipation_.size()),
       numerical_power_(viscous_dissipation_.size()),
-      largest_rate_(viscous_dissipation_.size()) {}
+      largest_rate_(viscous_dissipation_.size()),
+      limited_pairs_(viscous_dissipation_.size()) {}
 
 template <int Dim>
 void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
   const Speeds speeds = options_.time_step.speeds;
-  const MomentumSweep<Dim> sweep{body, options_.dissipation_factor,
-                                 with_step && speeds == Speeds::exact, numerical_power_.data(),
-                                 largest_rate_.data()};
+  const MomentumSweep<Dim> sweep{body,
+                                 options_.dissipation_factor,
+                                 with_step && speeds == Speeds::exact,
+                                 numerical_power_.data(),
+                                 largest_rate_.data(),
+                                 limited_pairs_.data()};
   exchange(body, {&Body<Dim>::records});
   scheme::sum_forces(sweep, momentum_);
   if (!body.cells.empty()) body.cells.add_forces(body, *material_);
@@ -55,7 +59,11 @@ void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
       largest_rate_[chunk] = geometric_rate_ * largest_speed(body, begin, end);
     });
   }
-  complete(body, {&numerical_power_, &largest_rate_}, with_step ? 2 : 1);
+  if (options_.dissipation.limiter == PairLimiter::none) {
+    complete(body, {&numerical_power_, &largest_rate_}, with_step ? 2 : 1);
+  } else {
+    complete(body, {&numerical_power_, &limited_pairs_, &largest_rate_}, with_step ? 3 : 2);
+  }
   if (with_step) stable_dt_ = options_.time_step.limit() / rate();
 }
 
@@ -93,6 +101,11 @@ void Sweeps<Dim>::strain_rates(Body<Dim>& body,
 template <int Dim>
 double Sweeps<Dim>::numerical_power() const {
   return parallel::sum_in_order(numerical_power_);
+}
+
+template <int Dim>
+std::int64_t Sweeps<Dim>::limited_pairs() const {
+  return std::llround(parallel::sum_in_order(limited_pairs_));
 }
 
 template <int Dim>

@@ -52,6 +52,7 @@ class Sweeps {
 
   double stable_dt() const { return stable_dt_; }  ///< s, of the last sum_forces with_step
   double numerical_power() const;                  ///< W, of the last sum_forces
+  std::int64_t limited_pairs() const;  ///< whose jump the limiter changed in the last sum_forces
   /// J, of the step that the last strain_rates ended; 0 where it ended none.
   double viscous_dissipation() const;
   /// W, of the D_ab of the sum_forces before the last strain_rates with drift, with the velocities
@@ -77,7 +78,8 @@ class Sweeps {
   double undeformed_speed_;
   double stable_dt_ = 0;
   // results of the sweeps, one per chunk
-  std::vector<double> viscous_dissipation_, old_power_, least_J_, numerical_power_, largest_rate_;
+  std::vector<double> viscous_dissipation_, old_power_, least_J_, numerical_power_, largest_rate_,
+      limited_pairs_;
 };
 
 extern template class Sweeps<2>;

@@ -49,6 +49,7 @@ RunSummary full_summary() {
   s.least_cell_J = -0.25, s.most_inverted_cells = 12;
   s.rejected_steps = 3;
   s.restarts = 2;
+  s.projections = 5, s.resynchronisations = 6, s.limited_pairs = 7;
   s.state_hash = "a1b2";
   s.provenance = {"0.1.0", "c0ffee",     "GCC 12.2", "-O3",  "some cpu",
                   "avx2",  "2026-01-02", "d00d",     "beef", "f00d"};
@@ -160,6 +161,9 @@ TEST(RunRecord, HasTheKeysOfTheContract) {
                               "/involution/J",
                               "/rejected_steps",
                               "/restarts",
+                              "/interventions/projections",
+                              "/interventions/resynchronisations",
+                              "/interventions/limited_pairs",
                               "/min_jacobian",
                               "/cells/least_J",
                               "/cells/most_inverted",

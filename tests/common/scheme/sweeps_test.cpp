@@ -78,7 +78,8 @@ class RandomBody {
                                            nullptr, 0,        viscous.data(), least_J.data()};
     parallel::for_chunks(state.n_blocks,
                          [&](auto b, auto e, auto c) { strain_rates(first, b, e, c); });
-    scheme::sum_forces<3>({state, factor, true, numerical.data(), rate.data()}, momentum);
+    scheme::sum_forces<3>({state, factor, true, numerical.data(), rate.data(), limited.data()},
+                          momentum);
   }
   void evaluate(double factor = 1) {
     evaluate(algebra::version_here<StrainRates>(), scheme::momentum_function<3>(kind_, true),
@@ -96,6 +97,7 @@ class RandomBody {
   }
   const scheme::PairGraph& graph() const { return graph_; }
   double numerical_power() const { return parallel::sum_in_order(numerical); }
+  double limited_pairs() const { return parallel::sum_in_order(limited); }
   Vec3 vector(const algebra::NodeTable& field, std::int64_t a) const {
     return {field.at(a, 0), field.at(a, 1), field.at(a, 2)};
   }
@@ -129,7 +131,7 @@ class RandomBody {
 
  public:
   std::vector<double> viscous = std::vector<double>(chunks_), least_J = viscous,
-                      numerical = viscous, rate = viscous;
+                      numerical = viscous, rate = viscous, limited = viscous;
 };
 
 constexpr DissipationKind isotropic{};
@@ -222,6 +224,9 @@ TEST_P(Methods, ArrangementsAgree) {
     EXPECT_NEAR(rows.numerical_power(), runs.numerical_power(),
                 1e-9 * std::abs(rows.numerical_power()));
     EXPECT_NEAR(rows.rate[0], runs.rate[0], 1e-7 * rows.rate[0]);
+    // and so which pairs are just limited
+    EXPECT_NEAR(rows.limited_pairs(), runs.limited_pairs(), 1e-3 * runs.limited_pairs());
+    EXPECT_EQ(runs.limited_pairs() > 0, kind.limiter != scheme::PairLimiter::none);
   }
 }
 
@@ -331,6 +336,7 @@ TEST_P(Methods, AffineVelocityDissipatesNothing) {
     rough.evaluate();
     EXPECT_GT(rough.numerical_power(), 0);
     EXPECT_LE(std::abs(affine.numerical_power()), 1e-13 * rough.numerical_power());
+    EXPECT_EQ(affine.limited_pairs(), 0);
   }
 }
 

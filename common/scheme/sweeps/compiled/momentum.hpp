@@ -14,16 +14,17 @@ DIPTYCH_INLINE void forces_in(const MomentumSweep<Dim>& sweep,
                               std::int64_t end,
                               std::int64_t chunk) {
   const algebra::FlushToZero flush(sweep.body.is_single());
-  double power = 0, rate = 0;
+  ChunkSums total;
   if (sweep.body.graph.shape.arrangement == Arrangement::runs) {
     for (std::int64_t b = begin; b < end;)
-      power += add_forces_of_next<Real, Dim, kind, has_H>(sweep, b, end);
+      add_forces_of_next<Real, Dim, kind, has_H>(sweep, b, end, total);
   } else {
     for (std::int64_t b = begin; b < end; ++b)
-      power += forces_on_block<isa, Real, Dim, kind, has_H>(sweep, b, rate);
+      forces_on_block<isa, Real, Dim, kind, has_H>(sweep, b, total);
   }
-  sweep.numerical_power[chunk] = power;
-  sweep.largest_rate[chunk] = rate;
+  sweep.numerical_power[chunk] = total.power;
+  sweep.largest_rate[chunk] = total.rate;
+  sweep.limited_pairs[chunk] = total.limited;
 }
 
 template <int Dim, DissipationKind kind, bool has_H>

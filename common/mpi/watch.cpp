@@ -1,0 +1,122 @@
+#include "common/mpi/watch.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+
+namespace diptych::parallel {
+
+namespace {
+
+constexpr std::chrono::milliseconds interval{1000};
+
+/// Signals are for the thread that works.
+struct SignalsBlocked {
+  SignalsBlocked() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, &before);
+  }
+  ~SignalsBlocked() { pthread_sigmask(SIG_SETMASK, &before, nullptr); }
+  SignalsBlocked(const SignalsBlocked&) = delete;
+  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
+  sigset_t before{};
+};
+
+}  // namespace
+
+int rank_patience() {
+  const char* text = std::getenv("DIPTYCH_RANK_PATIENCE");
+  char* end = nullptr;
+  const long seconds = text == nullptr ? 0 : std::strtol(text, &end, 10);
+  return text != nullptr && end != text && *end == '\0' && seconds >= 0 && seconds < 1000000
+             ? static_cast<int>(seconds)
+             : 20;
+}
+
+Watch::Watch(int patience, const char* (*phase)()) : patience_(patience), phase_(phase) {
+  MPI_Comm_dup(MPI_COMM_WORLD, &beats_);
+  MPI_Comm_rank(beats_, &rank_);
+  MPI_Comm_size(beats_, &size_);
+  const SignalsBlocked blocked;
+  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+Watch::~Watch() {
+  thread_.request_stop();
+  thread_.join();
+  MPI_Comm_free(&beats_);
+}
+
+void Watch::say(bool is_last) {
+  int is_sent = 0;
+  MPI_Test(&saying_, &is_sent, MPI_STATUS_IGNORE);
+  if (is_sent == 0 && !is_last) return;
+  MPI_Wait(&saying_, MPI_STATUS_IGNORE);
+  said_ = {};
+  said_.is_last = is_last;
+  const char* phase = phase_();
+  std::strncpy(said_.phase, phase == nullptr ? "nothing for others" : phase,
+               sizeof said_.phase - 1);
+  MPI_Isend(&said_, sizeof said_, MPI_BYTE, (rank_ + 1) % size_, 0, beats_, &saying_);
+}
+
+void Watch::give_up() const {
+  const int lost = (rank_ + size_ - 1) % size_;
+  std::fprintf(
+      stderr,
+      "diptych: rank %d of %d has not been heard of for %d s, last in %s: it is stopped, or "
+      "its machine is lost; the job ends here. Go on from the last checkpoint with run "
+      "--restart latest. (DIPTYCH_RANK_PATIENCE sets the seconds, 0 waits for ever.)\n",
+      lost, size_, patience_, heard_.phase[0] == '\0' ? "its start" : heard_.phase);
+  std::fflush(stderr);
+  MPI_Abort(MPI_COMM_WORLD, 4);
+  std::abort();
+}
+
+void Watch::listen() {
+  MPI_Irecv(&beat_, sizeof beat_, MPI_BYTE, (rank_ + size_ - 1) % size_, 0, beats_, &hearing_);
+}
+
+bool Watch::hear() {
+  bool has_heard = false;
+  while (!heard_.is_last) {
+    int has_come = 0;
+    MPI_Test(&hearing_, &has_come, MPI_STATUS_IGNORE);
+    if (has_come == 0) break;
+    has_heard = true;
+    heard_ = beat_;
+    if (!heard_.is_last) listen();
+  }
+  return has_heard;
+}
+
+/// Seconds are counted as rounds of this thread: where the whole job was stopped and goes on, none
+/// has passed for anybody.
+void Watch::run(const std::stop_token& stop) {
+  std::mutex mutex;
+  std::condition_variable_any woken;
+  std::unique_lock lock(mutex);
+  listen();
+  std::chrono::milliseconds silent{0};
+  while (!heard_.is_last || !said_.is_last) {
+    const bool is_ending = stop.stop_requested();
+    if (!said_.is_last) say(is_ending);
+    if (hear()) silent = {};
+    const auto pause = is_ending ? std::chrono::milliseconds(1) : interval;
+    if (is_ending) {
+      std::this_thread::sleep_for(pause);
+    } else {
+      woken.wait_for(lock, stop, pause, [] { return false; });
+    }
+    silent += pause;
+    if (!heard_.is_last && silent > std::chrono::seconds(patience_)) give_up();
+  }
+  MPI_Wait(&saying_, MPI_STATUS_IGNORE);
+}
+
+}  // namespace diptych::parallel

@@ -1,0 +1,47 @@
+#pragma once
+/// Ranks watch each other: each says once a second to the next one that it lives, and in which
+/// phase it is. A process that is stopped, a machine that has gone: the next one hears nothing
+/// more, says of whom, and ends the job; else all would wait for ever. Beats are sent by a thread
+/// of their own, however long a phase takes. Test: tests/ranks
+
+#include <mpi.h>
+
+#include <thread>
+
+namespace diptych::parallel {
+
+/// Seconds without a word after which a rank is given up: DIPTYCH_RANK_PATIENCE, 20 where it is not
+/// set; 0: never.
+int rank_patience();
+
+class Watch {
+ public:
+  /// @param phase  what this rank does, or null; called by the thread that watches
+  /// @pre MPI_THREAD_MULTIPLE; several ranks
+  Watch(int patience, const char* (*phase)());
+  /// Waits for the last word of the rank before. @pre all ranks end their watches
+  ~Watch();
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+ private:
+  struct Beat {
+    char phase[48] = {};
+    bool is_last = false;
+  };
+  void run(const std::stop_token& stop);
+  void say(bool is_last);
+  void listen();
+  bool hear();  ///< whether there was a word
+  [[noreturn]] void give_up() const;
+
+  int patience_;
+  const char* (*phase_)();
+  MPI_Comm beats_ = MPI_COMM_NULL;  ///< apart from what the program sends
+  int rank_ = 0, size_ = 1;
+  Beat heard_, beat_, said_;
+  MPI_Request saying_ = MPI_REQUEST_NULL, hearing_ = MPI_REQUEST_NULL;
+  std::jthread thread_;
+};
+
+}  // namespace diptych::parallel
