@@ -54,11 +54,12 @@ std::string run_table(const io::RunSummary& s) {
     text += fmt::format("  {} {} rejected and made again with half the size\n", s.rejected_steps,
                         s.rejected_steps == 1 ? "attempt at a step was" : "attempts at steps were");
   }
-  if (s.projections > 0 || s.limited_pairs > 0) {
-    text += fmt::format(
-        "  beside the equations: angular momentum projected {} times, {:.3g} jumps of pairs "
-        "limited\n",
-        s.projections, static_cast<double>(s.limited_pairs));
+  if (s.projections > 0)
+    text += fmt::format("  angular momentum projected {} times\n", s.projections);
+  if (s.limited_pairs > 0) {
+    const double all = 0.5 * static_cast<double>(s.pairs) * static_cast<double>(s.stages);
+    text += fmt::format("  the limiter changed {:.3g} % of the jumps by 1 % and more\n",
+                        100 * static_cast<double>(s.limited_pairs) / all);
   }
   if (s.restarts > 0) {
     text += fmt::format("  went on from a checkpoint {} {}\n", s.restarts,

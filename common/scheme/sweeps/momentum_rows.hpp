@@ -15,7 +15,7 @@ DIPTYCH_INLINE auto sums_of_node(const MomentumSweep<Dim>& sweep, std::int64_t a
   const SweepGraph<Dim>& graph = sweep.body.graph;
   const PairArea* area = graph.area.data() + graph.first[a];
   FaceCursor<Dim> geometry(graph, graph.first[a]);
-  NodeSums<Dim, T> sums;
+  SumsWith<Dim, kind.limiter, T> sums;
   for (std::int64_t chunk = graph.row[a]; chunk < graph.row[a + 1]; ++chunk, ++area) {
     prefetch(area + chunks_ahead);
     const auto pairs =

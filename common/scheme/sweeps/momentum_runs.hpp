@@ -13,12 +13,12 @@ DIPTYCH_INLINE void add_to(algebra::Element<T>* sums, const T& value) {
 
 /// A block whose pairs with nodes above it are being worked; of WideSingles two blocks, whose pairs
 /// are at the same offsets.
-template <int Dim, class T>
+template <int Dim, PairLimiter limiter, class T>
 struct WorkedBlock {
   static constexpr int n_blocks = algebra::width_of<T> / n_lanes;
   std::int64_t b = 0, chunk = 0;
   typename GeometryArray<MutualGeometry, Dim>::Cursor geometry[n_blocks];
-  NodeSums<Dim, T> sums;
+  SumsWith<Dim, limiter, T> sums;
 
   DIPTYCH_INLINE void begin(const MutualPairs<Dim>& mutual, std::int64_t block) {
     b = block;
@@ -62,13 +62,13 @@ DIPTYCH_INLINE void next_geometry(
 template <class T, int Dim, DissipationKind kind, bool has_H>
 DIPTYCH_INLINE void work_chunks(const MomentumSweep<Dim>& sweep,
                                 std::int64_t n,
-                                WorkedBlock<Dim, T>& block) {
+                                WorkedBlock<Dim, kind.limiter, T>& block) {
   using Real = algebra::Element<T>;
   const SweepGraph<Dim>& graph = sweep.body.graph;
   const std::int64_t stride = sweep.body.T.component_stride();
   Real* const own_sums = sweep.body.T.template origin<Real>() + block.b * n_lanes;
-  WorkedBlock<Dim, T> work = block;
-  NodeSums<Dim, T>& sums = work.sums;
+  WorkedBlock<Dim, kind.limiter, T> work = block;
+  auto& sums = work.sums;
   const std::int64_t end = work.chunk + n;
   for (; work.chunk < end; ++work.chunk) {
     const std::int64_t offset = graph.mutual.offset.data()[work.chunk];
@@ -126,7 +126,7 @@ DIPTYCH_INLINE void add_forces_of_blocks(const MomentumSweep<Dim>& sweep,
                                          int n_blocks,
                                          ChunkSums& total) {
   using Real = algebra::Element<T>;
-  using Worked = WorkedBlock<Dim, T>;
+  using Worked = WorkedBlock<Dim, kind.limiter, T>;
   const MutualPairs<Dim>& mutual = sweep.body.graph.mutual;
   const int n = n_blocks / Worked::n_blocks;
   Worked blocks[most_blocks_together / Worked::n_blocks];
@@ -140,7 +140,7 @@ DIPTYCH_INLINE void add_forces_of_blocks(const MomentumSweep<Dim>& sweep,
   }
   const std::int64_t stride = sweep.body.T.component_stride();
   for (int k = 0; k < n; ++k) {
-    const NodeSums<Dim, T>& sums = blocks[k].sums;
+    const auto& sums = blocks[k].sums;
     Real* const own_sums = sweep.body.T.template origin<Real>() + blocks[k].b * n_lanes;
     for (int i = 0; i < Dim; ++i)
       add_to<T>(own_sums + i * stride, sums.force[i]);

@@ -7,6 +7,8 @@
 #include "common/scheme/sweeps/momentum.hpp"
 #include "common/scheme/sweeps/pair_access.hpp"
 
+#include <type_traits>
+
 namespace diptych::scheme {
 
 /// Sums of nodes over their pairs. T, here and below: Lanes, SingleLanes or WideSingles.
@@ -15,8 +17,15 @@ struct NodeSums {
   T force[Dim] = {};  ///< 2 T; in rows without P_a sum C_ab
   T power{};          ///< sum (v_b - v_a) . |S| Z jump
   T rate{};           ///< sum |C_ab| z_ab
-  T limited{};        ///< pairs whose jump a limiter has changed
 };
+template <int Dim, class T>
+struct CountedSums : NodeSums<Dim, T> {
+  T limited{};  ///< pairs whose jump the limiter has changed by limited_share
+};
+/// With a count where there is a limiter.
+template <int Dim, PairLimiter limiter, class T>
+using SumsWith =
+    std::conditional_t<limiter == PairLimiter::none, NodeSums<Dim, T>, CountedSums<Dim, T>>;
 
 /// Mean response of the pair from the records of its nodes, for the exact impedance.
 template <int Dim, class Pairs>
@@ -52,8 +61,9 @@ struct Slopes {
   Vector<T> sum{}, a{}, b{};
 };
 
-/// A change of a jump by this share of the plain one counts as limited: more than rounding makes.
-inline constexpr float limited_share = 1e-6F;
+/// A change of a jump by this share of the plain one counts as limited: smooth limiters change all
+/// a little.
+inline constexpr float limited_share = 0.01F;
 
 /// v_b^rec - v_a^rec, limited.
 /// @param h        along the normal of the pair in space
