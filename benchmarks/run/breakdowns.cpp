@@ -24,7 +24,7 @@ std::string first_line(const std::string& text) {
 
 report::Breakdown breakdown_of(const io::RunSummary& run) {
   const io::RunFailure failure = run.failure.value_or(io::RunFailure{});
-  return {run.method,
+  return {run.column(),
           run.level,
           failure.time.value_or(run.end_time),
           failure.step.value_or(run.steps),
@@ -34,7 +34,7 @@ report::Breakdown breakdown_of(const io::RunSummary& run) {
 }
 
 std::string breakdown_message(const io::RunSummary& run) {
-  return fmt::format("{} level {}: {}", run.method, run.level, run.failure->message);
+  return fmt::format("{} level {}: {}", run.column(), run.level, run.failure->message);
 }
 
 std::string breakdown_table(const std::vector<report::Breakdown>& breakdowns) {
@@ -43,12 +43,12 @@ std::string breakdown_table(const std::vector<report::Breakdown>& breakdowns) {
                                        "time [s]", "step", "node", "place [m]");
   std::string text = head + "\n" + std::string(80, '-') + "\n";
   for (const report::Breakdown& one : breakdowns) {
-    text += fmt::format("{:<12}{:>6}{:>13.6g}{:>10}{:>10}  {}\n", report::method_title(one.method),
+    text += fmt::format("{:<12}{:>6}{:>13.6g}{:>10}{:>10}  {}\n", report::column_title(one.column),
                         one.level, one.time, one.step,
                         one.node < 0 ? "-" : std::to_string(one.node), place_of(one));
   }
   for (const report::Breakdown& one : breakdowns)
-    text += fmt::format("{} level {}: {}\n", one.method, one.level, one.message);
+    text += fmt::format("{} level {}: {}\n", one.column, one.level, one.message);
   return text;
 }
 
@@ -56,7 +56,7 @@ int exit_code_of_study(const std::vector<report::Breakdown>& breakdowns,
                        const std::string& to_go_on) {
   if (const int code = exit_code_of_study(to_go_on); code != 0) return code;
   for (const report::Breakdown& one : breakdowns) {
-    std::fputs(fmt::format("diptych: {} level {} broke down: {}\n", one.method, one.level,
+    std::fputs(fmt::format("diptych: {} level {} broke down: {}\n", one.column, one.level,
                            first_line(one.message))
                    .c_str(),
                stderr);

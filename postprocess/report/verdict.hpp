@@ -25,8 +25,11 @@ bool agree(const GridPoint& a, const GridPoint& b);
 /// "0.35 %"
 std::string percent_html(double part);
 
-/// "finite volume", as it stands within a sentence.
-std::string method_in_sentence(const std::string& method);
+/// "finite volume", or "finite volume sbp" of a variant, as it stands within a sentence.
+std::string column_in_sentence(const std::string& column);
+
+/// Those of the methods at the settings of the case, which a verdict is on.
+std::vector<GridSeries> series_of_methods(const std::vector<GridSeries>& series);
 
 /// With a capital letter.
 std::string at_the_start(std::string sentence);
