@@ -45,6 +45,17 @@ std::vector<fs::path> level_folders(const fs::path& directory) {
   return levels;
 }
 
+std::optional<io::SummaryOwner> owner_of(const fs::path& run) {
+  return io::summary_owner(io::read_file((run / "summary.json").string()));
+}
+
+/// Whether it holds the run of a variant; not so a copy of another run that the user has put there.
+bool is_variant_folder(const fs::path& folder, const std::string& method) {
+  const std::string name = folder.filename().string();
+  return name.starts_with(method + "-") && is_run_folder(folder.string()) &&
+         owner_of(folder)->column == name;
+}
+
 /// The folders of both methods that hold a run, and those of their variants.
 std::vector<fs::path> runs_in(const fs::path& directory) {
   std::vector<fs::path> runs;
@@ -52,8 +63,7 @@ std::vector<fs::path> runs_in(const fs::path& directory) {
   for (const std::string& method : method_menu().names()) {
     if (is_run_folder((directory / method).string())) runs.push_back(directory / method);
     for (const fs::path& folder : folders) {
-      const bool is_variant = folder.filename().string().starts_with(method + "-");
-      if (is_variant && is_run_folder(folder.string())) runs.push_back(folder);
+      if (is_variant_folder(folder, method)) runs.push_back(folder);
     }
   }
   return runs;
@@ -73,10 +83,6 @@ std::vector<fs::path> all_runs(const fs::path& directory) {
     if (is_run_folder(run.string())) all.push_back(run);
   }
   return all;
-}
-
-std::optional<io::SummaryOwner> owner_of(const fs::path& run) {
-  return io::summary_owner(io::read_file((run / "summary.json").string()));
 }
 
 void remove_if_empty(const fs::path& folder) {

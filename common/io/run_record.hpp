@@ -118,6 +118,7 @@ RunSummary summary_from_json(const std::string& text, const std::string& path);
 /// Whose results a summary.json is of; it need not be whole.
 struct SummaryOwner {
   std::string case_name, case_file;  ///< case_file: empty in summaries of earlier versions
+  std::string column;                ///< see RunSummary
 };
 /// Nothing where the text is no summary.
 std::optional<SummaryOwner> summary_owner(const std::string& text);

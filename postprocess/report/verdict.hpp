@@ -52,7 +52,8 @@ struct Pair {
 std::string why_unresolved(const std::vector<GridSeries>& series, double scale);
 
 /// Largest size that a quantity has over the run, so that one that ends near zero is not judged by
-/// its last value; of an energy or a dissipation the largest energy that there is.
+/// its last value; of an energy or a dissipation the largest energy that there is. Variants do not
+/// count.
 double scale_of(const StudyReport& study,
                 const std::string& name,
                 const std::string& unit,

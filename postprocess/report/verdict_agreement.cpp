@@ -20,12 +20,14 @@ double scale_of(const StudyReport& study,
       scale = std::max(scale, std::abs(point.value));
   }
   for (const io::RunSummary& run : study.runs) {
+    if (!run.variant.empty()) continue;
     for (const io::QuantitySummary& q : run.quantities) {
       if (q.name == name) scale = std::max({scale, std::abs(q.least), std::abs(q.greatest)});
     }
   }
   if (unit != "J") return scale;
-  for (const auto& [method, rows] : study.histories) {
+  for (const auto& [column, rows] : study.histories) {
+    if (!variant_of_column(column).empty()) continue;
     for (const io::HistoryRow& row : rows) {
       scale =
           std::max(scale, row.energy.kinetic + row.energy.strain + row.energy.viscous_dissipation +

@@ -42,10 +42,12 @@ TEST(VariantColumns, StandBesideTheMethodsOfAComparison) {
   const std::string page = text_of(out / "report.html");
   EXPECT_THAT(page, AllOf(HasSubstr("\"title\":\"SPH wide\""), HasSubstr("sph.kappa=1.4</small>"),
                           HasSubstr("energy-fvm-integral"), HasSubstr("var(--fvm-2)")));
+  std::filesystem::copy(out / "sph", out / "sph-before");  // of the user
   const auto fewer = diptych(folder, "compare case.toml --quiet --out out --force --no-variants");
   EXPECT_EQ(fewer.exit_code, 0) << fewer.text;
   EXPECT_THAT(fewer.text, Not(HasSubstr("variants")));
   EXPECT_FALSE(std::filesystem::exists(out / "sph-wide")) << "nothing of an earlier command stays";
+  EXPECT_TRUE(std::filesystem::exists(out / "sph-before" / "summary.json")) << "no variant's";
 }
 
 TEST(VariantColumns, AreTakenOverAsTheMethodsAre) {
