@@ -4,6 +4,7 @@
 #include "common/base/error.hpp"
 #include "postprocess/report/orders.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 
@@ -39,12 +40,15 @@ std::string breakdown_message(const io::RunSummary& run) {
 
 std::string breakdown_table(const std::vector<report::Breakdown>& breakdowns) {
   if (breakdowns.empty()) return "";
-  const std::string head = fmt::format("{:<12}{:>6}{:>13}{:>10}{:>10}  {}", "broke down", "level",
-                                       "time [s]", "step", "node", "place [m]");
-  std::string text = head + "\n" + std::string(80, '-') + "\n";
+  size_t width = 12;
+  for (const report::Breakdown& one : breakdowns)
+    width = std::max(width, report::column_title(one.column).size());
+  const std::string head = fmt::format("{:<{}}{:>6}{:>13}{:>10}{:>10}  {}", "broke down", width,
+                                       "level", "time [s]", "step", "node", "place [m]");
+  std::string text = head + "\n" + std::string(68 + width, '-') + "\n";
   for (const report::Breakdown& one : breakdowns) {
-    text += fmt::format("{:<12}{:>6}{:>13.6g}{:>10}{:>10}  {}\n", report::column_title(one.column),
-                        one.level, one.time, one.step,
+    text += fmt::format("{:<{}}{:>6}{:>13.6g}{:>10}{:>10}  {}\n", report::column_title(one.column),
+                        width, one.level, one.time, one.step,
                         one.node < 0 ? "-" : std::to_string(one.node), place_of(one));
   }
   for (const report::Breakdown& one : breakdowns)

@@ -4,7 +4,7 @@
 const plots = (() => {
   const study = JSON.parse(document.getElementById('study').textContent);
   const shapes = { sph: ['circle', 'triangle', 'rect', 'star'], fvm: ['rectRot', 'crossRot', 'cross', 'triangle'] };
-  const dashes = { sph: [], fvm: [7, 3] };
+  const dashes = { sph: [[], [14, 3], [14, 3, 2, 3], [10, 2]], fvm: [[7, 3], [2, 3], [7, 3, 2, 3], [4, 2]] };
   const builders = [];  // one per chart: [id, what makes its configuration with the colours of the moment]
   const painters = [];  // called whenever the page is drawn anew
   const dressers = [];  // called with every new chart
@@ -18,7 +18,7 @@ const plots = (() => {
     const number = method === name ? 0 : 1 + (before % 3);
     looks.set(name, {
       ink: !shapes[method] ? 'other' : number ? `${method}-${number}` : method,
-      shape: shapes[method] ? shapes[method][number] : 'rect', dash: dashes[method] || [2, 2],
+      shape: shapes[method] ? shapes[method][number] : 'rect', dash: dashes[method] ? dashes[method][number] : [2, 2],
     });
   });
   const colourOf = (name) => colour(looks.get(name).ink);
