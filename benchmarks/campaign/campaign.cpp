@@ -20,7 +20,7 @@ namespace {
 /// Runs with the same key have the same result.
 std::string key_of(const CampaignRun& run) {
   return fmt::format("{} {} {} {}", input_hash(*run.setup, run.options.measures),
-                     run.options.method, run.options.level, run.repetition);
+                     run.options.column(), run.options.level, run.repetition);
 }
 
 Schedule schedule_of(const std::vector<CampaignRun>& plan) {
@@ -44,6 +44,7 @@ std::optional<RunResult> finished_before(const CampaignRun& run, TakeOver take_o
 RunResult not_begun(const CampaignRun& run, const std::string& status, const std::string& message) {
   RunResult result;
   result.summary.method = run.options.method;
+  result.summary.variant = run.options.variant;
   result.summary.case_name = run.setup->name;
   result.summary.level = run.options.level;
   result.summary.status = status;
@@ -51,12 +52,23 @@ RunResult not_begun(const CampaignRun& run, const std::string& status, const std
   return result;
 }
 
+/// What a variant cannot begin with is told with its name: the methods may well begin.
+RunResult attempt(const CampaignRun& run, const RunOptions& options) {
+  try {
+    return attempt_case(*run.setup, options);
+  } catch (const base::InputError& error) {
+    if (options.variant.empty()) throw;
+    throw base::InputError(
+        fmt::format("{} level {}: {}", options.column(), options.level, error.what()));
+  }
+}
+
 RunResult made_now(const CampaignRun& run, const Schedule& schedule) {
   RunOptions options = run.options;
   options.schedule = &schedule;
   StatusLine status(options.quiet);
   if (!run.label.empty()) status.show(run.label);
-  if (!run.may_be_refused) return attempt_case(*run.setup, options);
+  if (!run.may_be_refused) return attempt(run, options);
   try {
     return attempt_case(*run.setup, options);
   } catch (const base::InputError& error) {

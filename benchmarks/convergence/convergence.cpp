@@ -86,12 +86,12 @@ double scale_of(const LevelRecord& record, const io::HistoryColumn& column) {
   return sizes.empty() ? 0 : *std::max_element(sizes.begin(), sizes.end());
 }
 
-MethodConvergence convergence_of_method(std::vector<LevelRecord> records,
+ColumnConvergence convergence_of_column(std::vector<LevelRecord> records,
                                         const std::vector<std::string>& wanted) {
   std::stable_sort(records.begin(), records.end(),
                    [](const auto& a, const auto& b) { return a.summary.level < b.summary.level; });
-  MethodConvergence study;
-  study.method = records.front().summary.method;
+  ColumnConvergence study;
+  study.column = records.front().summary.column();
   study.case_name = records.front().summary.case_name;
   for (const LevelRecord& record : records)
     study.levels.push_back(record.summary);
@@ -119,25 +119,25 @@ MethodConvergence convergence_of_method(std::vector<LevelRecord> records,
 
 }  // namespace
 
-std::vector<MethodConvergence> convergence_of(const std::vector<LevelRecord>& records,
+std::vector<ColumnConvergence> convergence_of(const std::vector<LevelRecord>& records,
                                               const std::vector<std::string>& wanted) {
   check_names(records, wanted);
   std::vector<io::RunSummary> summaries;
   for (const LevelRecord& record : records)
     summaries.push_back(record.summary);
-  std::vector<MethodConvergence> studies;
-  for (const std::string& method : report::methods_of(summaries)) {
+  std::vector<ColumnConvergence> studies;
+  for (const std::string& column : report::columns_of(summaries)) {
     std::vector<LevelRecord> finished;
     for (const LevelRecord& record : records) {
-      if (record.summary.method == method && record.summary.status == "done")
+      if (record.summary.column() == column && record.summary.status == "done")
         finished.push_back(record);
     }
-    if (!finished.empty()) studies.push_back(convergence_of_method(finished, wanted));
+    if (!finished.empty()) studies.push_back(convergence_of_column(finished, wanted));
   }
   return studies;
 }
 
-std::optional<report::GridConvergence> estimate(const MethodConvergence& study,
+std::optional<report::GridConvergence> estimate(const ColumnConvergence& study,
                                                 const Quantity& quantity,
                                                 size_t level) {
   if (quantity.is_error) return std::nullopt;
@@ -149,7 +149,7 @@ std::optional<report::GridConvergence> estimate(const MethodConvergence& study,
                                     {begin, begin + static_cast<std::ptrdiff_t>(level) + 1});
 }
 
-double error_bar(const MethodConvergence& study, const Quantity& quantity, size_t level) {
+double error_bar(const ColumnConvergence& study, const Quantity& quantity, size_t level) {
   if (const auto g = estimate(study, quantity, level)) return g->error_bar;
   const bool two = level == 1 && std::isfinite(quantity.values[0] + quantity.values[1]) &&
                    study.levels[1].spacing < study.levels[0].spacing;
@@ -162,7 +162,7 @@ double formal_order(const io::RunSummary& run) {
   return run.graph_operators.empty() ? 2 : 3;
 }
 
-double order_of_error(const MethodConvergence& study, const Quantity& quantity, size_t level) {
+double order_of_error(const ColumnConvergence& study, const Quantity& quantity, size_t level) {
   if (level == 0) return nothing;
   return report::observed_order(quantity.values[level - 1], quantity.values[level],
                                 study.levels[level - 1].spacing, study.levels[level].spacing);

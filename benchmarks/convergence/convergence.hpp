@@ -18,7 +18,8 @@ struct LevelRecord {
   std::vector<io::HistoryColumn> history;
 };
 
-/// A scalar at the final time, or the norm of an error, on the levels of one method.
+/// A scalar at the final time, or the norm of an error, on the levels of one column: a method, or a
+/// variant of one.
 struct Quantity {
   std::string name, unit;
   bool is_error = false;
@@ -26,8 +27,8 @@ struct Quantity {
   double scale = 0;  ///< largest size over all runs; of an energy, that of all energies together
 };
 
-struct MethodConvergence {
-  std::string method, case_name;
+struct ColumnConvergence {
+  std::string column, case_name;       ///< column: see RunSummary
   std::vector<io::RunSummary> levels;  ///< coarse to fine; finished runs only
   std::vector<Quantity> errors;        ///< L1, L2, Linf of each field
   std::vector<Quantity> scalars;       ///< those that are zero on every level are left out
@@ -37,37 +38,38 @@ struct MethodConvergence {
 /// @param wanted  names of columns of the history, without units; empty: energies, least J, and
 ///                all that the case adds (probes); "all": every column
 /// @throws base::InputError on a name that no column has
-std::vector<MethodConvergence> convergence_of(const std::vector<LevelRecord>& records,
+std::vector<ColumnConvergence> convergence_of(const std::vector<LevelRecord>& records,
                                               const std::vector<std::string>& wanted);
 
 /// What the levels up to `level` (an index) say; nothing below three of them, or for errors.
-std::optional<report::GridConvergence> estimate(const MethodConvergence& study,
+std::optional<report::GridConvergence> estimate(const ColumnConvergence& study,
                                                 const Quantity& quantity,
                                                 size_t level);
 
 /// log(e_coarse/e_fine)/log(h_coarse/h_fine) of an error at `level` and the one before.
-double order_of_error(const MethodConvergence& study, const Quantity& quantity, size_t level);
+double order_of_error(const ColumnConvergence& study, const Quantity& quantity, size_t level);
 
 /// Error bar of the value at `level`, from three levels or from the first two; NaN where there is
 /// none.
-double error_bar(const MethodConvergence& study, const Quantity& quantity, size_t level);
+double error_bar(const ColumnConvergence& study, const Quantity& quantity, size_t level);
 
-/// Scalars of one method for a terminal of 100 columns; empty where there are none.
-std::string quantity_table(const MethodConvergence& study);
+/// Scalars of one column for a terminal of 100 columns; empty where there are none.
+std::string quantity_table(const ColumnConvergence& study);
 
 /// The order that a method as it ran is said to have in v and u: 3 where it sums by parts with the
 /// pair (4, 2), else 2.
 double formal_order(const io::RunSummary& run);
 
-/// Two methods on the finest level: difference of each scalar against the sum of both error bars,
-/// where both methods resolve it (report::why_unresolved).
+/// Both methods, at the settings of the case, on the finest level: difference of each scalar
+/// against the sum of both error bars, where both methods resolve it (report::why_unresolved).
 /// Empty where there is nothing to compare.
-std::string agreement_table(const std::vector<MethodConvergence>& studies);
+std::string agreement_table(const std::vector<ColumnConvergence>& studies);
 
-/// One line per method, quantity and level, with the order and the estimate of the levels so far.
-std::string convergence_csv(const std::vector<MethodConvergence>& studies);
+/// One line per column ("method": sph, fvm, or sph-compact for a variant), quantity and level, with
+/// the order and the estimate of the levels so far.
+std::string convergence_csv(const std::vector<ColumnConvergence>& studies);
 
-/// Two plain tabulars per method, of errors and of scalars; needs no package.
-std::string convergence_tex(const std::vector<MethodConvergence>& studies);
+/// Two plain tabulars per column, of errors and of scalars; needs no package.
+std::string convergence_tex(const std::vector<ColumnConvergence>& studies);
 
 }  // namespace diptych::harness

@@ -27,7 +27,7 @@ struct ScalarRow {
   std::string finest, extrapolated = "-", order = "-", index = "-", bar = "-", remark;
 };
 
-ScalarRow row_of(const MethodConvergence& study, const Quantity& quantity) {
+ScalarRow row_of(const ColumnConvergence& study, const Quantity& quantity) {
   const size_t last = quantity.values.size() - 1;
   ScalarRow row;
   row.finest = number_text(quantity.values[last], value_format);
@@ -76,14 +76,14 @@ std::string tex_number(const std::string& text) {
   return fmt::format("${}\\cdot10^{{{}}}$", text.substr(0, e), std::stoi(text.substr(e + 1)));
 }
 
-std::string tex_errors(const MethodConvergence& study) {
+std::string tex_errors(const ColumnConvergence& study) {
   std::vector<const Quantity*> columns;
   for (const Quantity& error : study.errors) {
     if (error.name.ends_with(" L2")) columns.push_back(&error);
   }
   if (columns.empty()) return "";
   std::string text = fmt::format("% {}, {}: relative L2 errors and observed orders\n",
-                                 report::method_title(study.method), study.case_name);
+                                 report::column_title(study.column), study.case_name);
   text += "\\begin{tabular}{rr";
   for (size_t i = 0; i < columns.size(); ++i)
     text += "rr";
@@ -103,11 +103,11 @@ std::string tex_errors(const MethodConvergence& study) {
   return text + "\\hline\n\\end{tabular}\n";
 }
 
-std::string tex_scalars(const MethodConvergence& study) {
+std::string tex_scalars(const ColumnConvergence& study) {
   if (study.scalars.empty()) return "";
   std::string text =
       fmt::format("% {}, {}: values at the end, extrapolated from the finest grids\n",
-                  report::method_title(study.method), study.case_name);
+                  report::column_title(study.column), study.case_name);
   text +=
       "\\begin{tabular}{lrrrrrl}\n\\hline\nquantity [unit] & finest grid & extrapolated & "
       "order [-] & index [\\%] & error bar & \\\\\n\\hline\n";
@@ -122,12 +122,35 @@ std::string tex_scalars(const MethodConvergence& study) {
   return text + "\\hline\n\\end{tabular}\n";
 }
 
+/// Of a quantity that both methods have; empty where one of them has no error bar.
+std::string agreement_line(const ColumnConvergence& first,
+                           const Quantity& one,
+                           const ColumnConvergence& second,
+                           const Quantity& other) {
+  const double difference = std::abs(one.values.back() - other.values.back());
+  const double bars = error_bar(first, one, one.values.size() - 1) +
+                      error_bar(second, other, other.values.size() - 1);
+  if (!std::isfinite(difference + bars)) return "";
+  const double scale = std::max(one.scale, other.scale);
+  std::string verdict = difference <= bars ? "agree" : "APART";
+  const auto look_at = [&](const ColumnConvergence& study, const Quantity& quantity) {
+    const std::string why =
+        report::why_unresolved(estimate(study, quantity, quantity.values.size() - 1), scale,
+                               formal_order(study.levels.back()));
+    if (!why.empty()) verdict = "unresolved: " + study.column + " " + why;
+  };
+  look_at(second, other);
+  look_at(first, one);
+  return fmt::format("{:<32} {:>10.2e} {:>10.2e}  {}\n",
+                     (one.name + " [" + one.unit + "]").substr(0, 32), difference, bars, verdict);
+}
+
 }  // namespace
 
-std::string quantity_table(const MethodConvergence& study) {
+std::string quantity_table(const ColumnConvergence& study) {
   if (study.scalars.empty()) return "";
   std::string text = fmt::format("{}, {}: values at the end, extrapolated from the finest levels\n",
-                                 report::method_title(study.method), study.case_name);
+                                 report::column_title(study.column), study.case_name);
   const auto line = [&](const std::string& name, const ScalarRow& row) {
     std::string cells =
         fmt::format("{:<33}{:>14}{:>14}{:>7}{:>10}{:>10}  {}", name.substr(0, 33), row.finest,
@@ -144,51 +167,39 @@ std::string quantity_table(const MethodConvergence& study) {
   return text;
 }
 
-std::string agreement_table(const std::vector<MethodConvergence>& studies) {
-  if (studies.size() != 2 || studies[0].levels.back().level != studies[1].levels.back().level)
-    return "";
+std::string agreement_table(const std::vector<ColumnConvergence>& columns) {
+  std::vector<const ColumnConvergence*> methods;
+  for (const ColumnConvergence& column : columns) {
+    if (column.levels.back().variant.empty()) methods.push_back(&column);
+  }
+  if (methods.size() != 2) return "";
+  const ColumnConvergence &first = *methods[0], &second = *methods[1];
+  if (first.levels.back().level != second.levels.back().level) return "";
   std::string lines;
-  for (const Quantity& one : studies[0].scalars) {
-    for (const Quantity& other : studies[1].scalars) {
-      if (other.name != one.name) continue;
-      const double difference = std::abs(one.values.back() - other.values.back());
-      const double bars = error_bar(studies[0], one, one.values.size() - 1) +
-                          error_bar(studies[1], other, other.values.size() - 1);
-      if (!std::isfinite(difference + bars)) continue;
-      const double scale = std::max(one.scale, other.scale);
-      std::string verdict = difference <= bars ? "agree" : "APART";
-      const auto look_at = [&](const MethodConvergence& study, const Quantity& quantity) {
-        const std::string why =
-            report::why_unresolved(estimate(study, quantity, quantity.values.size() - 1), scale,
-                                   formal_order(study.levels.back()));
-        if (!why.empty()) verdict = "unresolved: " + study.method + " " + why;
-      };
-      look_at(studies[1], other);
-      look_at(studies[0], one);
-      lines +=
-          fmt::format("{:<32} {:>10.2e} {:>10.2e}  {}\n",
-                      (one.name + " [" + one.unit + "]").substr(0, 32), difference, bars, verdict);
+  for (const Quantity& one : first.scalars) {
+    for (const Quantity& other : second.scalars) {
+      if (other.name == one.name) lines += agreement_line(first, one, second, other);
     }
   }
   if (lines.empty()) return "";
   std::string text =
       fmt::format("{}, {} and {} on level {}: apart, and the sum of their error bars\n",
-                  studies[0].case_name, report::method_title(studies[0].method),
-                  report::method_title(studies[1].method), studies[0].levels.back().level);
+                  first.case_name, report::column_title(first.column),
+                  report::column_title(second.column), first.levels.back().level);
   text += std::string(80, '-') + "\n";
   return text + lines;
 }
 
-std::string convergence_csv(const std::vector<MethodConvergence>& studies) {
+std::string convergence_csv(const std::vector<ColumnConvergence>& studies) {
   std::string text =
       "method,quantity,unit,level,spacing [m],nodes,steps,value,order,extrapolated,error bar,"
       "GCI,convergence\n";
-  for (const MethodConvergence& study : studies) {
+  for (const ColumnConvergence& study : studies) {
     for (const auto* group : {&study.errors, &study.scalars}) {
       for (const Quantity& quantity : *group) {
         for (size_t i = 0; i < study.levels.size(); ++i) {
           const auto& run = study.levels[i];
-          text += fmt::format("{},{},{},{},{:.17g},{},{},{}", csv_cell(study.method),
+          text += fmt::format("{},{},{},{},{:.17g},{},{},{}", csv_cell(study.column),
                               csv_cell(quantity.name), csv_cell(quantity.unit), run.level,
                               run.spacing, run.nodes, run.steps, csv_number(quantity.values[i]));
           if (quantity.is_error) {
@@ -207,9 +218,9 @@ std::string convergence_csv(const std::vector<MethodConvergence>& studies) {
   return text;
 }
 
-std::string convergence_tex(const std::vector<MethodConvergence>& studies) {
+std::string convergence_tex(const std::vector<ColumnConvergence>& studies) {
   std::string text;
-  for (const MethodConvergence& study : studies) {
+  for (const ColumnConvergence& study : studies) {
     for (const std::string& part : {tex_errors(study), tex_scalars(study)}) {
       if (!part.empty()) text += (text.empty() ? "" : "\n") + part;
     }

@@ -282,7 +282,7 @@ struct BarredValue {
   double value, bar;
 };
 
-std::map<std::string, BarredValue> barred(const MethodConvergence& study,
+std::map<std::string, BarredValue> barred(const ColumnConvergence& study,
                                           const std::map<std::string, double>& floors) {
   std::map<std::string, BarredValue> values;
   for (const Quantity& q : study.scalars) {
@@ -308,8 +308,8 @@ void add_agreement(const cases::Case& setup,
     floors[probe.name] = floor_of(probe.unit, natural, energy);
   const auto studies = convergence_of(records, {});
   std::map<std::string, std::map<std::string, BarredValue>> values;
-  for (const MethodConvergence& study : studies) {
-    if (study.levels.size() == 2) values[study.method] = barred(study, floors);
+  for (const ColumnConvergence& study : studies) {
+    if (study.levels.size() == 2) values[study.column] = barred(study, floors);
   }
   const double nothing = std::numeric_limits<double>::quiet_NaN();  // agrees with no value
   for (const std::string method : {"sph", "fvm"}) {

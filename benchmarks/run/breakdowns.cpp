@@ -4,6 +4,7 @@
 #include "common/base/error.hpp"
 #include "postprocess/report/orders.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 
@@ -24,7 +25,7 @@ std::string first_line(const std::string& text) {
 
 report::Breakdown breakdown_of(const io::RunSummary& run) {
   const io::RunFailure failure = run.failure.value_or(io::RunFailure{});
-  return {run.method,
+  return {run.column(),
           run.level,
           failure.time.value_or(run.end_time),
           failure.step.value_or(run.steps),
@@ -34,21 +35,24 @@ report::Breakdown breakdown_of(const io::RunSummary& run) {
 }
 
 std::string breakdown_message(const io::RunSummary& run) {
-  return fmt::format("{} level {}: {}", run.method, run.level, run.failure->message);
+  return fmt::format("{} level {}: {}", run.column(), run.level, run.failure->message);
 }
 
 std::string breakdown_table(const std::vector<report::Breakdown>& breakdowns) {
   if (breakdowns.empty()) return "";
-  const std::string head = fmt::format("{:<12}{:>6}{:>13}{:>10}{:>10}  {}", "broke down", "level",
-                                       "time [s]", "step", "node", "place [m]");
-  std::string text = head + "\n" + std::string(80, '-') + "\n";
+  size_t width = 12;
+  for (const report::Breakdown& one : breakdowns)
+    width = std::max(width, report::column_title(one.column).size());
+  const std::string head = fmt::format("{:<{}}{:>6}{:>13}{:>10}{:>10}  {}", "broke down", width,
+                                       "level", "time [s]", "step", "node", "place [m]");
+  std::string text = head + "\n" + std::string(68 + width, '-') + "\n";
   for (const report::Breakdown& one : breakdowns) {
-    text += fmt::format("{:<12}{:>6}{:>13.6g}{:>10}{:>10}  {}\n", report::method_title(one.method),
-                        one.level, one.time, one.step,
+    text += fmt::format("{:<{}}{:>6}{:>13.6g}{:>10}{:>10}  {}\n", report::column_title(one.column),
+                        width, one.level, one.time, one.step,
                         one.node < 0 ? "-" : std::to_string(one.node), place_of(one));
   }
   for (const report::Breakdown& one : breakdowns)
-    text += fmt::format("{} level {}: {}\n", one.method, one.level, one.message);
+    text += fmt::format("{} level {}: {}\n", one.column, one.level, one.message);
   return text;
 }
 
@@ -56,7 +60,7 @@ int exit_code_of_study(const std::vector<report::Breakdown>& breakdowns,
                        const std::string& to_go_on) {
   if (const int code = exit_code_of_study(to_go_on); code != 0) return code;
   for (const report::Breakdown& one : breakdowns) {
-    std::fputs(fmt::format("diptych: {} level {} broke down: {}\n", one.method, one.level,
+    std::fputs(fmt::format("diptych: {} level {} broke down: {}\n", one.column, one.level,
                            first_line(one.message))
                    .c_str(),
                stderr);

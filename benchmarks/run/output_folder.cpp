@@ -45,11 +45,26 @@ std::vector<fs::path> level_folders(const fs::path& directory) {
   return levels;
 }
 
-/// The folders of both methods that hold a run.
+std::optional<io::SummaryOwner> owner_of(const fs::path& run) {
+  return io::summary_owner(io::read_file((run / "summary.json").string()));
+}
+
+/// Whether it holds the run of a variant; not so a copy of another run that the user has put there.
+bool is_variant_folder(const fs::path& folder, const std::string& method) {
+  const std::string name = folder.filename().string();
+  return name.starts_with(method + "-") && is_run_folder(folder.string()) &&
+         owner_of(folder)->column == name;
+}
+
+/// The folders of both methods that hold a run, and those of their variants.
 std::vector<fs::path> runs_in(const fs::path& directory) {
   std::vector<fs::path> runs;
+  const std::vector<fs::path> folders = folders_in(directory);
   for (const std::string& method : method_menu().names()) {
     if (is_run_folder((directory / method).string())) runs.push_back(directory / method);
+    for (const fs::path& folder : folders) {
+      if (is_variant_folder(folder, method)) runs.push_back(folder);
+    }
   }
   return runs;
 }
@@ -68,10 +83,6 @@ std::vector<fs::path> all_runs(const fs::path& directory) {
     if (is_run_folder(run.string())) all.push_back(run);
   }
   return all;
-}
-
-std::optional<io::SummaryOwner> owner_of(const fs::path& run) {
-  return io::summary_owner(io::read_file((run / "summary.json").string()));
 }
 
 void remove_if_empty(const fs::path& folder) {
@@ -246,22 +257,23 @@ void OutputFolder::set_levels_aside() const {
 }
 
 void OutputFolder::ask_for(const std::vector<int>& levels,
-                           const std::vector<std::string>& methods,
+                           const std::vector<Column>& columns,
                            bool fresh) {
   if (directory_.empty()) return;
   const fs::path directory = directory_, earlier = directory / "earlier";
   for (const int level : levels) {
     const std::string name = fmt::format("level_{}", level);
-    for (const std::string& method : methods) {
-      asked_.push_back((directory / name / method).string());
+    for (const Column& column : columns) {
+      asked_.push_back((directory / name / column.name()).string());
       if (fresh) continue;
       RunOptions options;
-      options.method = method;
+      options.method = column.method;
+      options.variant = column.variant;
       options.level = level;
-      options.directory = (earlier / name / method).string();
-      if (finished_run(setup_, options)) move_run(options.directory, asked_.back());
+      options.directory = (earlier / name / column.name()).string();
+      if (finished_run(column.setup, options)) move_run(options.directory, asked_.back());
       options.directory = asked_.back();
-      if (finished_run(setup_, options)) taken_over_.push_back(asked_.back());
+      if (finished_run(column.setup, options)) taken_over_.push_back(asked_.back());
     }
     remove_if_empty(earlier / name);
   }

@@ -3,6 +3,7 @@
 /// are written, so that nothing of an earlier run is ever taken for a part of this one. Only what
 /// diptych itself has made is touched. Test: tests/command_line/output_folder_test.cpp
 
+#include "benchmarks/run/columns.hpp"
 #include "common/cases/case.hpp"
 #include "common/io/folder_lock.hpp"
 
@@ -14,8 +15,8 @@ namespace diptych::harness {
 
 /// What a command is about to put there.
 enum class OutputKind {
-  runs,       ///< of `run` and `compare`: DIR/<method>, report.html
-  levels,     ///< of `converge`: DIR/level_<L>/<method>, convergence.*, report.html
+  runs,       ///< of `run` and `compare`: DIR/<column>, report.html
+  levels,     ///< of `converge`: DIR/level_<L>/<column>, convergence.*, report.html
   study,      ///< of `study`: DIR/runs, work_precision.*
   stability,  ///< of `study --stability`: stability.csv
   atlas       ///< of `study --atlas`: DIR/runs, atlas.*
@@ -36,7 +37,7 @@ class OutputFolder {
   /// Of a convergence study: its runs are these. Those that are finished stay where they are, and
   /// are brought back from where they were set aside, unless all are to be run again.
   /// @throws base::EnvironmentError
-  void ask_for(const std::vector<int>& levels, const std::vector<std::string>& methods, bool fresh);
+  void ask_for(const std::vector<int>& levels, const std::vector<Column>& columns, bool fresh);
 
   /// Runs that lie there go on: they stay, whatever came of them.
   void go_on() { goes_on_ = true; }

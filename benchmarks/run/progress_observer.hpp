@@ -17,8 +17,8 @@ class ProgressObserver : public run::Observer {
       : setup_(setup), options_(options), history_(history) {}
 
   void begin() override {
-    progress_.emplace(fmt::format("{} level {}", options_.method, options_.level), setup_.time.end,
-                      options_.quiet, options_.schedule);
+    progress_.emplace(fmt::format("{} level {}", options_.column(), options_.level),
+                      setup_.time.end, options_.quiet, options_.schedule);
   }
   void resume() override {
     begin();

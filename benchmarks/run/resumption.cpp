@@ -37,7 +37,7 @@ std::optional<RunResult> finished_run(const cases::Case& setup,
     return std::nullopt;  // of another version, or cut off: the run is made again
   }
   const io::RunSummary& s = run.summary;
-  const bool same = s.method == options.method && s.level == options.level &&
+  const bool same = s.column() == options.column() && s.level == options.level &&
                     s.provenance.input_hash == input_hash(setup, options.measures) &&
                     s.provenance.program == program_hash();
   const bool ended = s.status == "done" || (broken_down && s.status == "breakdown");

@@ -116,7 +116,7 @@ void CaseRun::tell(const std::string& notice) const {
 
 /// Told where no progress is, too.
 void CaseRun::warn(const std::string& notice) const {
-  std::fputs(fmt::format("{} level {}: {}\n", options_.method, options_.level, notice).c_str(),
+  std::fputs(fmt::format("{} level {}: {}\n", options_.column(), options_.level, notice).c_str(),
              stderr);
 }
 
@@ -167,6 +167,7 @@ void CaseRun::archive(algebra::Archive& archive) {
 void CaseRun::identify() {
   io::RunSummary& s = result_.summary;
   s.method = options_.method;
+  s.variant = options_.variant;
   s.case_name = setup_.name;
   s.case_file = setup_.file;
   s.title = setup_.title;
@@ -284,7 +285,7 @@ RunResult attempt_case(const cases::Case& setup, const RunOptions& options) {
 RunResult run_case(const cases::Case& setup, const RunOptions& options) {
   RunResult result = attempt_case(setup, options);
   if (result.summary.status == "breakdown") {
-    throw base::BreakdownError(fmt::format("{} level {}: {}", options.method, options.level,
+    throw base::BreakdownError(fmt::format("{} level {}: {}", options.column(), options.level,
                                            result.summary.failure->message));
   }
   return result;

@@ -18,6 +18,7 @@ namespace diptych::harness {
 
 struct RunOptions {
   std::string method = "fvm";
+  std::string variant;  ///< name of the variant that the case is, see RunSummary
   int level = 0;
   int threads = 0;                  ///< 0: all processors
   std::string partition = "metis";  ///< of the body among ranks: parallel::partitioners()
@@ -32,6 +33,8 @@ struct RunOptions {
   const Schedule* schedule = nullptr;    ///< of the command that makes this run among others
   std::function<void()> before_writing;  ///< called once mesh, graph and solver stand, before the
                                          ///< folder of the run is made; may be empty
+
+  std::string column() const { return io::column_name(method, variant); }
 };
 
 struct RunResult {

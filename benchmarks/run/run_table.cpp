@@ -31,13 +31,13 @@ std::string inverted_cells_warning(const io::RunSummary& s) {
   return fmt::format(
       "  WARNING: {} level {}: from t = {:.4g} s on cells are inside out (up to {}, least cell J "
       "{:.3g}):\n  the body has passed through itself between nodes; do not use what comes after\n",
-      s.method, s.level, *s.inverted_from, s.most_inverted_cells, s.least_cell_J);
+      s.column(), s.level, *s.inverted_from, s.most_inverted_cells, s.least_cell_J);
 }
 
 std::string run_table(const io::RunSummary& s) {
   std::string text =
-      fmt::format("{} level {}: {} nodes, {} pairs ({:.3g} a node), {} unknowns a node\n", s.method,
-                  s.level, s.nodes, s.pairs, s.mean_neighbours, s.unknowns_per_node);
+      fmt::format("{} level {}: {} nodes, {} pairs ({:.3g} a node), {} unknowns a node\n",
+                  s.column(), s.level, s.nodes, s.pairs, s.mean_neighbours, s.unknowns_per_node);
   text += fmt::format(
       "  {} steps of {}, dt {:.3g} to {:.3g} s; {:.3g} s in the loop of {:.3g} s with set-up and "
       "output, {:.3g} ns per node and stage ({}{} {})\n",

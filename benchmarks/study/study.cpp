@@ -16,6 +16,18 @@ namespace diptych::harness {
 
 namespace {
 
+/// What is kept of the finest run of a column.
+struct FinestRun {
+  std::string column;
+  bool is_method = false;  ///< at the settings of the case
+  RunResult result;
+};
+
+/// Whether two runs have their values at the same places.
+bool have_the_same_nodes(const RunResult& a, const RunResult& b) {
+  return !a.final_state.u.empty() && a.graph.X == b.graph.X;
+}
+
 /// Differences of the final states of two runs on the same nodes, relative to the largest norms
 /// that errors are relative to as well.
 std::map<std::string, double> differences_of(const RunResult& a, const RunResult& b) {
@@ -28,40 +40,61 @@ std::map<std::string, double> differences_of(const RunResult& a, const RunResult
   return differences;
 }
 
-std::string run_directory(const StudyOptions& options, int level, const std::string& method) {
+/// How far the runs of the finest level are apart: one method from the other, and each variant from
+/// each method whose nodes it has.
+void add_differences(const std::vector<FinestRun>& finest, Study& study) {
+  std::vector<const FinestRun*> methods;
+  for (const FinestRun& one : finest) {
+    if (one.is_method) methods.push_back(&one);
+  }
+  if (methods.size() == 2)
+    study.differences = differences_of(methods[0]->result, methods[1]->result);
+  for (const FinestRun& one : finest) {
+    for (const FinestRun* method : methods) {
+      if (one.is_method || !have_the_same_nodes(one.result, method->result)) continue;
+      study.distances.push_back(
+          {one.column, method->column, differences_of(one.result, method->result)});
+    }
+  }
+}
+
+std::string run_directory(const StudyOptions& options, int level, const std::string& column) {
   if (options.directory.empty()) return {};
   std::filesystem::path path = options.directory;
   if (options.levels.size() > 1) path /= fmt::format("level_{}", level);
-  return (path / method).string();
+  return (path / column).string();
 }
 
 /// What the options ask of one run.
-RunOptions run_options(const StudyOptions& options, int level, const std::string& method) {
+RunOptions run_options(const StudyOptions& options, int level, const Column& column) {
+  const bool is_finest = level == options.levels.back();
   RunOptions run;
-  run.method = method;
+  run.method = column.method;
+  run.variant = column.variant;
   run.level = level;
   run.threads = options.threads;
   run.partition = options.partition;
-  run.directory = run_directory(options, level, method);
+  run.directory = run_directory(options, level, column.name());
   run.fields = options.fields;
   run.quiet = options.quiet;
-  run.shapes = options.shapes && level == options.levels.back();
-  run.scales =
-      (options.methods.size() == 2 && level == options.levels.back()) || options.keeps_checkpoints;
+  run.shapes = options.shapes && is_finest && column.variant.empty();
+  const bool is_compared = options.methods.size() == 2 || !options.variants.empty();
+  run.scales = (is_compared && is_finest) || options.keeps_checkpoints;
   run.checkpoints = options.keeps_checkpoints;
-  if (const auto found = options.checkpoints.find(method); found != options.checkpoints.end())
+  if (const auto found = options.checkpoints.find(run.column()); found != options.checkpoints.end())
     run.checkpoint = found->second;
   return run;
 }
 
-/// All methods on all levels, coarse to fine.
-std::vector<CampaignRun> plan_of(const cases::Case& setup,
+/// All columns on all levels, coarse to fine.
+std::vector<CampaignRun> plan_of(const std::vector<Column>& columns,
                                  const StudyOptions& options,
                                  OutputFolder& output) {
   std::vector<CampaignRun> plan;
   for (const int level : options.levels) {
-    for (const std::string& method : options.methods) {
-      plan.push_back({&setup, run_options(options, level, method), method, method});
+    for (const Column& column : columns) {
+      plan.push_back(
+          {&column.setup, run_options(options, level, column), column.name(), column.method});
       plan.back().options.before_writing = [&output] { output.prepare(); };
     }
   }
@@ -70,19 +103,29 @@ std::vector<CampaignRun> plan_of(const cases::Case& setup,
 
 }  // namespace
 
+const io::RunSummary* Study::run_of(const std::string& column) const {
+  const auto found = std::find_if(runs.begin(), runs.end(),
+                                  [&](const auto& run) { return run.column() == column; });
+  return found == runs.end() ? nullptr : &*found;
+}
+
 Study run_study(const cases::Case& setup, const StudyOptions& options) {
-  require_memory(setup, options.methods, options.levels);
+  Study study;
+  study.columns = method_columns(setup, options.methods);
+  study.columns.insert(study.columns.end(), options.variants.begin(), options.variants.end());
+  for (const Column& column : study.columns)
+    require_memory(column.setup, {column.method}, options.levels);
   const bool has_levels = options.levels.size() > 1;
   OutputFolder output(options.directory, setup, has_levels ? OutputKind::levels : OutputKind::runs,
                       options.force);
-  if (has_levels) output.ask_for(options.levels, options.methods, !options.resume);
+  if (has_levels) output.ask_for(options.levels, study.columns, !options.resume);
   if (options.goes_on) output.go_on();
   if (options.resume || !has_levels) output.refuse_to_replace(options.force);
-  Study study;
-  std::vector<RunResult> finest;  // those that were run now
-  const auto plan = plan_of(setup, options, output);
+  std::vector<FinestRun> finest;  // those that were run now
+  const auto plan = plan_of(study.columns, options, output);
   const auto add = [&](size_t number, CampaignResult made, const Schedule&) {
     const RunOptions& run = plan[number].options;
+    const std::string column = run.column();
     RunResult& result = made.run;
     if (result.summary.status == "breakdown") {
       study.breakdowns.push_back(breakdown_of(result.summary));
@@ -90,15 +133,15 @@ Study run_study(const cases::Case& setup, const StudyOptions& options) {
     }
     study.runs.push_back(result.summary);
     study.directories.push_back(run.directory);
-    study.histories[run.method] = result.history;
-    study.exact[run.method] = result.exact;
+    study.histories[column] = result.history;
+    study.exact[column] = result.exact;
     if (made.taken_over) study.taken_over.push_back(run.directory);
     if (made.taken_over || run.level != options.levels.back()) return;
-    if (run.shapes) study.shapes[run.method] = std::move(result.shapes);
-    finest.push_back(std::move(result));
+    if (run.shapes) study.shapes[column] = std::move(result.shapes);
+    finest.push_back({column, run.variant.empty(), std::move(result)});
   };
   if (!make_runs(plan, options.resume ? TakeOver::finished : TakeOver::nothing, add)) return study;
-  if (finest.size() == 2) study.differences = differences_of(finest[0], finest[1]);
+  add_differences(finest, study);
   output.prepare();  // where all runs were taken over
   return study;
 }
@@ -118,15 +161,15 @@ std::vector<std::string> material_lines(const cases::MaterialCase& m) {
   return lines;
 }
 
-/// Scalars of one method with the error bars that each level and those before it give.
-void add_quantities(const MethodConvergence& method, report::StudyReport& report) {
-  for (const Quantity& scalar : method.scalars) {
-    report::GridSeries series{method.method, {}, std::nullopt, formal_order(method.levels.back())};
+/// Scalars of one column with the error bars that each level and those before it give.
+void add_quantities(const ColumnConvergence& column, report::StudyReport& report) {
+  for (const Quantity& scalar : column.scalars) {
+    report::GridSeries series{column.column, {}, std::nullopt, formal_order(column.levels.back())};
     for (size_t i = 0; i < scalar.values.size(); ++i) {
       if (!std::isfinite(scalar.values[i])) continue;
-      series.estimate = estimate(method, scalar, i);
-      const double bar = error_bar(method, scalar, i);
-      series.points.push_back({method.levels[i].level, method.levels[i].spacing, scalar.values[i],
+      series.estimate = estimate(column, scalar, i);
+      const double bar = error_bar(column, scalar, i);
+      series.points.push_back({column.levels[i].level, column.levels[i].spacing, scalar.values[i],
                                std::isfinite(bar) ? bar : 0});
     }
     if (!series.points.empty())
@@ -134,12 +177,13 @@ void add_quantities(const MethodConvergence& method, report::StudyReport& report
   }
 }
 
-/// What probes and energies are drawn against: the exact solution as one of the methods met it, and
-/// the values from elsewhere.
+/// What probes and energies are drawn against: the exact solution as the first of the columns met
+/// it, and the values from elsewhere.
 report::References references_of(const cases::Case& setup, const Study& study) {
   report::References references;
-  for (const auto& [method, columns] : study.exact) {
-    if (!columns.empty()) references.exact = columns;
+  for (const Column& column : study.columns) {
+    const auto found = study.exact.find(column.name());
+    if (found != study.exact.end() && references.exact.empty()) references.exact = found->second;
   }
   for (const cases::ReferenceCase& one : setup.references)
     references.points.push_back({one.probe, one.source, one.points});
@@ -148,7 +192,7 @@ report::References references_of(const cases::Case& setup, const Study& study) {
 
 report::StudyReport report_of(const cases::Case& setup,
                               const Study& study,
-                              const std::vector<MethodConvergence>& convergence) {
+                              const std::vector<ColumnConvergence>& convergence) {
   report::StudyReport report;
   report.title = setup.title.empty() ? setup.name : setup.title;
   report.description =
@@ -161,10 +205,14 @@ report::StudyReport report_of(const cases::Case& setup,
   for (report::Breakdown& one : report.breakdowns)
     one.message = one.message.substr(0, one.message.find('\n'));
   report.differences = study.differences;
+  report.distances = study.distances;
+  for (const Column& column : study.columns) {
+    if (!column.variant.empty()) report.settings[column.name()] = base::joined(column.set);
+  }
   report.references = references_of(setup, study);
   report.shapes = study.shapes;
-  for (const MethodConvergence& method : convergence)
-    add_quantities(method, report);
+  for (const ColumnConvergence& column : convergence)
+    add_quantities(column, report);
   return report;
 }
 

@@ -14,7 +14,8 @@ using io::RunSummary;
 using report::error_of;
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr size_t fields_per_block = 4;  // of 15 columns each, after 38 for the level
+constexpr size_t columns_per_block = 5;  // of 14 columns each, after 30 for the name
+constexpr size_t fields_per_block = 4;   // of 15 columns each, after 38 for the level
 
 /// Three digits, as a decimal where that is short: 0.0594, 1.07, 452, 1.23e-04.
 std::string number(double value) {
@@ -66,6 +67,128 @@ std::vector<std::string> compared_fields(const RunSummary& sph,
   for (const auto& [field, value] : difference)
     differences.errors[field].l2 = value;
   return report::fields_of({sph, fvm, differences});
+}
+
+using Cells = std::vector<std::string>;
+
+std::string short_title(const std::string& method) {
+  return method == "fvm" ? "FVM" : report::method_title(method);
+}
+
+std::string columns_line(const std::string& name, const Cells& cells) {
+  std::string line = fmt::format("{:<30}", name.substr(0, 29));
+  for (const std::string& cell : cells)
+    line += fmt::format("{:>14}", cell);
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+
+/// A cell of each run.
+template <class Value>
+Cells cells_of(const std::vector<RunSummary>& runs, const Value& value) {
+  Cells cells;
+  for (const RunSummary& run : runs)
+    cells.push_back(value(run));
+  return cells;
+}
+
+/// The probe of this name as the run has it; empty where it has none.
+std::string probe_cell(const RunSummary& run,
+                       const std::string& name,
+                       double io::QuantitySummary::*value) {
+  for (const io::QuantitySummary& quantity : run.quantities) {
+    if (quantity.name == name) return fmt::format("{:.5g}", quantity.*value);
+  }
+  return "-";
+}
+
+/// How far the columns are from one method; empty where none is known of this field.
+std::string distance_line(const std::vector<RunSummary>& runs,
+                          const std::vector<report::ColumnDistance>& distances,
+                          const std::string& method,
+                          const std::string& field) {
+  bool has_any = false;
+  const Cells cells = cells_of(runs, [&](const RunSummary& run) -> std::string {
+    for (const report::ColumnDistance& one : distances) {
+      const auto found = one.fields.find(field);
+      if (one.column != run.column() || one.method != method || found == one.fields.end()) continue;
+      has_any = true;
+      return scientific(found->second);
+    }
+    return "";
+  });
+  const std::string name = fmt::format("from {}, {}", short_title(method), short_name(field, 18));
+  return has_any ? columns_line(name, cells) : "";
+}
+
+/// Lines of at most `width` letters, cut behind "=", "+" or "-" where there is one.
+Cells lines_of_name(std::string name, size_t width) {
+  Cells lines;
+  while (name.size() > width) {
+    const size_t sign = name.find_last_of("=+-", width - 1);
+    const size_t length = sign == name.npos ? width : sign + 1;
+    lines.push_back(name.substr(0, length));
+    name.erase(0, length);
+  }
+  lines.push_back(name);
+  return lines;
+}
+
+/// The methods, and below them the names of the variants.
+std::string columns_heading(const std::vector<RunSummary>& runs) {
+  std::string text =
+      columns_line("", cells_of(runs, [](const auto& run) { return short_title(run.method); }));
+  bool has_more = true;
+  for (size_t k = 0; has_more; ++k) {
+    has_more = false;
+    text += columns_line("", cells_of(runs, [&](const RunSummary& run) {
+                           const Cells lines = lines_of_name(run.variant, 13);
+                           has_more = has_more || lines.size() > k + 1;
+                           return k < lines.size() ? lines[k] : "";
+                         }));
+  }
+  return text + rule(30 + 14 * runs.size());
+}
+
+std::string columns_block(const std::vector<RunSummary>& runs,
+                          const std::vector<report::ColumnDistance>& distances) {
+  std::string text = columns_heading(runs);
+  const auto line = [&](const std::string& name, const auto& value) {
+    text += columns_line(name, cells_of(runs, value));
+  };
+  line("nodes", [](const RunSummary& run) { return std::to_string(run.nodes); });
+  line("pairs", [](const RunSummary& run) { return std::to_string(run.pairs); });
+  line("steps", [](const RunSummary& run) { return std::to_string(run.steps); });
+  line("time loop [s]", [](const RunSummary& run) { return number(run.loop_seconds); });
+  line("per node and stage [ns]",
+       [](const RunSummary& run) { return number(run.nanoseconds_per_node_stage); });
+  line("per node and crossing [ns]",
+       [](const RunSummary& run) { return number(run.nanoseconds_per_node_crossing); });
+  for (const std::string& field : report::fields_of(runs)) {
+    line("rel. L2 error, " + short_name(field, 14),
+         [&](const RunSummary& run) { return scientific(error_of(run, field)); });
+  }
+  for (const io::QuantitySummary& quantity : runs.front().quantities) {
+    const auto probe = [&](const std::string& name, double io::QuantitySummary::*value) {
+      line(name, [&](const RunSummary& run) { return probe_cell(run, quantity.name, value); });
+    };
+    probe(fmt::format("{} [{}], end", quantity.name.substr(0, 18), quantity.unit),
+          &io::QuantitySummary::final_value);
+    probe("  least", &io::QuantitySummary::least);
+    probe("  greatest", &io::QuantitySummary::greatest);
+  }
+  line("rel. energy residual",
+       [](const RunSummary& run) { return scientific(run.energy.relative_residual); });
+  RunSummary compared;
+  for (const report::ColumnDistance& one : distances) {
+    for (const auto& [field, value] : one.fields)
+      compared.errors[field] = {};
+  }
+  for (const char* method : {"sph", "fvm"}) {
+    for (const std::string& field : report::fields_of({compared}))
+      text += distance_line(runs, distances, method, field);
+  }
+  return text;
 }
 
 std::string convergence_block(const std::vector<RunSummary>& runs,
@@ -155,14 +278,35 @@ std::string comparison_table(const RunSummary& sph,
   return text;
 }
 
+std::string columns_table(const std::vector<RunSummary>& runs,
+                          const std::vector<report::ColumnDistance>& distances) {
+  if (runs.empty()) return "";
+  std::string text = fmt::format("{}, level {}: both methods and their variants\n",
+                                 runs.front().case_name, runs.front().level);
+  for (size_t first = 0; first < runs.size(); first += columns_per_block) {
+    const size_t last = std::min(first + columns_per_block, runs.size());
+    if (first > 0) text += "\n";
+    text += columns_block({runs.begin() + static_cast<std::ptrdiff_t>(first),
+                           runs.begin() + static_cast<std::ptrdiff_t>(last)},
+                          distances);
+  }
+  if (!distances.empty()) {
+    text +=
+        "from SPH, from FVM: at the end, at the settings of the case, relative L2; the verdict is "
+        "on "
+        "these two\n";
+  }
+  return text;
+}
+
 std::string convergence_table(const std::vector<RunSummary>& levels) {
   const std::vector<std::string> fields = report::fields_of(levels);
   std::string text;
-  for (const std::string& method : report::methods_of(levels)) {
-    const std::vector<RunSummary> runs = report::runs_of(levels, method);
+  for (const std::string& column : report::columns_of(levels)) {
+    const std::vector<RunSummary> runs = report::runs_of(levels, column);
     text +=
         fmt::format("{}{}, {}: relative L2 errors and observed orders\n", text.empty() ? "" : "\n",
-                    report::method_title(method), runs.front().case_name);
+                    report::column_title(column), runs.front().case_name);
     size_t first = 0;
     do {
       const size_t last = std::min(first + fields_per_block, fields.size());

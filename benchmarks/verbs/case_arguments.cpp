@@ -37,6 +37,13 @@ void CaseArguments::declare_force(CommandLine& line) {
   line.flag("--force", force, "replace finished results in the output folder, of another case too");
 }
 
+void CaseArguments::declare_variants(CommandLine& line) {
+  line.repeated("--with", with,
+                "[NAME:] key=value [key=value...]: a further column, a variant of the method whose "
+                "keys they are, or of both; repeatable");
+  line.flag("--no-variants", no_variants, "leave out the [[variant]] of the case file");
+}
+
 void CaseArguments::declare_partition(CommandLine& line) {
   line.option("--partition", partition,
               "how mpirun's ranks share a body: metis, slab or bisection");
@@ -94,6 +101,17 @@ harness::StudyOptions CaseArguments::study_options(const cases::Case& setup) con
   return options;
 }
 
+harness::StudyOptions CaseArguments::comparison_options(const cases::Case& setup) const {
+  harness::StudyOptions options = study_options(setup);
+  options.variants = harness::variant_columns(setup, options.methods, {with, !no_variants});
+  if (no_variants) return options;
+  for (const std::string& name : harness::overridden_variants(setup)) {
+    print(fmt::format(
+        "variant '{}' of the case is left out: --set says something of what it sets\n", name));
+  }
+  return options;
+}
+
 void declare_threads(CommandLine& line, int& threads) {
   line.count("--threads", threads, 0, parallel::most_threads,
              "how many threads; 0: OMP_NUM_THREADS, or all processors");
@@ -112,7 +130,7 @@ std::string end_of(const harness::Study& study, const std::string& folder) {
 void write_report(const cases::Case& setup,
                   const harness::Study& study,
                   const std::string& folder,
-                  const std::vector<harness::MethodConvergence>& convergence) {
+                  const std::vector<harness::ColumnConvergence>& convergence) {
   const std::string path = (std::filesystem::path(folder) / "report.html").string();
   report::write_report(path, harness::report_of(setup, study, convergence));
   print("\nreport: " + path + "\n");

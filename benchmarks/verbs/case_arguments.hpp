@@ -20,9 +20,9 @@ constexpr const char* cases_help =
 struct CaseArguments {
   std::string case_name, cases_folder, method = "both", directory, restart;
   std::string partition = "metis";
-  std::vector<std::string> overrides;
+  std::vector<std::string> overrides, with;
   int level = 0, threads = 0;
-  bool quiet = false, no_fields = false, force = false;
+  bool quiet = false, no_fields = false, force = false, no_variants = false;
 
   /// Adds `case` and --cases.
   void declare_case(CommandLine& line);
@@ -30,6 +30,8 @@ struct CaseArguments {
   void declare(CommandLine& line);
   /// Adds --force, of verbs that write results of the case.
   void declare_force(CommandLine& line);
+  /// Adds --with and --no-variants, of verbs that compare.
+  void declare_variants(CommandLine& line);
   /// Adds --partition.
   void declare_partition(CommandLine& line);
   /// Adds --restart.
@@ -49,6 +51,8 @@ struct CaseArguments {
   std::vector<int> levels(int n, int least) const;
   /// A study of one level with all that was asked.
   harness::StudyOptions study_options(const cases::Case& setup) const;
+  /// The same with the variants as further columns. @throws base::InputError
+  harness::StudyOptions comparison_options(const cases::Case& setup) const;
 };
 
 /// --threads, with its range.
@@ -67,6 +71,6 @@ std::string end_of(const harness::Study& study, const std::string& folder);
 void write_report(const cases::Case& setup,
                   const harness::Study& study,
                   const std::string& folder,
-                  const std::vector<harness::MethodConvergence>& convergence = {});
+                  const std::vector<harness::ColumnConvergence>& convergence = {});
 
 }  // namespace diptych::verbs

@@ -1,4 +1,5 @@
-/// diptych compare: both methods on the same nodes, what they cost, how far they are apart.
+/// diptych compare: both methods on the same nodes, variants beside them, what they cost, how far
+/// they are apart.
 
 #include "benchmarks/run/breakdowns.hpp"
 #include "benchmarks/run/history_differences.hpp"
@@ -13,27 +14,33 @@ namespace diptych::verbs {
 
 namespace {
 
-int compare_methods(const CaseArguments& arguments) {
-  const cases::Case setup = arguments.read();
-  auto options = arguments.study_options(setup);
-  options.shapes = true;
-  const harness::Study study = harness::run_study(setup, options);
-  if (study.runs.size() == 2) {
+/// The pair as ever, then all columns where there are more.
+void print_comparison(const cases::Case& setup, const harness::Study& study) {
+  const io::RunSummary *sph = study.run_of("sph"), *fvm = study.run_of("fvm");
+  if (sph != nullptr && fvm != nullptr) {
     std::vector<std::string> probes;
     for (const auto& probe : setup.probes)
       probes.push_back(probe.name);
-    const auto apart = harness::history_differences(
-        probes, study.histories.at(study.runs[0].method), study.histories.at(study.runs[1].method));
-    print(harness::comparison_table(study.runs[0], study.runs[1], study.differences, apart));
+    const auto apart =
+        harness::history_differences(probes, study.histories.at("sph"), study.histories.at("fvm"));
+    print(harness::comparison_table(*sph, *fvm, study.differences, apart));
+    if (study.runs.size() > 2) print("\n" + harness::columns_table(study.runs, study.distances));
     for (const auto& summary : study.runs)
       print(harness::inverted_cells_warning(summary));
   } else {  // the other one broke down, or was never begun
     for (const auto& summary : study.runs)
       print(harness::run_table(summary) + "\n");
   }
+}
+
+int compare_methods(const CaseArguments& arguments) {
+  const cases::Case setup = arguments.read();
+  auto options = arguments.comparison_options(setup);
+  options.shapes = true;
+  const harness::Study study = harness::run_study(setup, options);
+  print_comparison(setup, study);
   print_breakdowns(study);
-  if (study.runs.size() + study.breakdowns.size() == 2)
-    write_report(setup, study, options.directory);
+  if (study.has_all()) write_report(setup, study, options.directory);
   return harness::exit_code_of_study(study.breakdowns, end_of(study, options.directory));
 }
 
@@ -43,6 +50,7 @@ Action declare_compare(CommandLine& line) {
   const auto arguments = std::make_shared<CaseArguments>();
   arguments->declare(line);
   arguments->declare_force(line);
+  arguments->declare_variants(line);
   return [arguments] { return compare_methods(*arguments); };
 }
 

@@ -21,7 +21,7 @@ struct ConvergeArguments : CaseArguments {
   std::vector<std::string> quantities;
 };
 
-std::vector<harness::MethodConvergence> finished_levels(const harness::Study& study,
+std::vector<harness::ColumnConvergence> finished_levels(const harness::Study& study,
                                                         const std::vector<std::string>& columns) {
   std::vector<harness::LevelRecord> records;
   for (size_t i = 0; i < study.runs.size(); ++i) {
@@ -38,9 +38,9 @@ void show_convergence(const cases::Case& setup,
                       const harness::Study& study,
                       const std::string& folder) {
   const auto convergence = finished_levels(study, arguments.quantities);
-  for (const auto& method : convergence) {
-    print(harness::convergence_table(method.levels) + "\n");
-    const std::string table = harness::quantity_table(method);
+  for (const auto& column : convergence) {
+    print(harness::convergence_table(column.levels) + "\n");
+    const std::string table = harness::quantity_table(column);
     if (!table.empty()) print(table + "\n");
   }
   const std::string agreement = harness::agreement_table(convergence);
@@ -63,7 +63,7 @@ void show_convergence(const cases::Case& setup,
 int converge(const ConvergeArguments& arguments) {
   const std::vector<int> levels = arguments.levels(arguments.n_levels, 2);
   const cases::Case setup = arguments.read();
-  auto options = arguments.study_options(setup);
+  auto options = arguments.comparison_options(setup);
   options.fields = false;
   options.shapes = true;
   options.resume = !arguments.fresh;
@@ -82,6 +82,7 @@ Action declare_converge(CommandLine& line) {
   const auto arguments = std::make_shared<ConvergeArguments>();
   arguments->declare_with_method(line);
   arguments->declare_force(line);
+  arguments->declare_variants(line);
   line.option("--levels", arguments->n_levels, "number of levels, from --level on");
   line.flag("--fresh", arguments->fresh, "run finished levels again too");
   line.repeated("--quantity", arguments->quantities,

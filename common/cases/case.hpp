@@ -181,6 +181,14 @@ struct UnmetCase {
   functions::SourcePlace where;
 };
 
+/// [[variant]]: further settings that comparisons show as a column of their own beside the methods.
+struct VariantCase {
+  std::string name;
+  std::string method;            ///< sph or fvm; empty: a column of either
+  std::vector<std::string> set;  ///< "key=value"
+  functions::SourcePlace where;
+};
+
 /// [expect]: the pass numbers of a case, which the regression asks of every run.
 struct ExpectCase {
   bool is_given = false;
@@ -214,6 +222,7 @@ struct Case {
   FvmCase fvm;
   ExactCase exact;
   ExpectCase expect;
+  std::vector<VariantCase> variants;
 };
 
 }  // namespace diptych::cases

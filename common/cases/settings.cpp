@@ -16,7 +16,7 @@ using Settings = std::map<std::string, std::string>;
 bool may_change(const std::string& path) {
   static const std::set<std::string> keys{"time.end", "time.max_steps", "time.checkpoint_every",
                                           "time.checkpoint_seconds", "time.checkpoint_interval"};
-  return keys.count(path) > 0 || path.rfind("output.", 0) == 0;
+  return keys.count(path) > 0 || path.rfind("output.", 0) == 0 || path.rfind("variant.", 0) == 0;
 }
 
 /// On one line.

@@ -11,8 +11,8 @@ namespace diptych::cases {
 
 /// Path of each key, "material.branch.0.tau_C", with its value as the file and the overrides have
 /// it. Without those that a run may be given anew where it goes on from a checkpoint: time.end,
-/// time.max_steps, time.checkpoint_every, time.checkpoint_seconds, time.checkpoint_interval and all
-/// of [output].
+/// time.max_steps, time.checkpoint_every, time.checkpoint_seconds, time.checkpoint_interval, all of
+/// [output], and [[variant]], which a run does not know.
 /// @throws base::InputError where the text of the case is none
 std::map<std::string, std::string> lasting_settings(const Case& setup);
 

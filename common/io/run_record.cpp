@@ -278,6 +278,10 @@ void read_quality(const Section& file, RunSummary& summary) {
 
 }  // namespace
 
+std::string column_name(const std::string& method, const std::string& variant) {
+  return variant.empty() ? method : method + "-" + variant;
+}
+
 std::string to_json(const RunSummary& summary) {
   Json errors = Json::object();
   for (const auto& [field, norms] : summary.errors)
@@ -346,6 +350,7 @@ std::string to_json(const RunSummary& summary) {
       {"state_hash", summary.state_hash},
       {"provenance", provenance_json(summary.provenance)},
   };
+  if (!summary.variant.empty()) file["variant"] = summary.variant;
   if (summary.failure) file["failure"] = failure_json(*summary.failure);
   // Texts come from the user's case: bytes that are not UTF-8 become U+FFFD instead of an
   // exception.
@@ -370,6 +375,7 @@ RunSummary summary_from_json(const std::string& text, const std::string& path) {
   read_size_and_cost(file, summary);
   read_quality(file, summary);
   summary.provenance = read_provenance(file.section("provenance"));
+  if (file.has("variant")) summary.variant = file.text("variant");
   if (file.has("failure")) summary.failure = read_failure(file.section("failure"));
   return summary;
 }

@@ -51,8 +51,13 @@ struct RunFailure {
   std::optional<std::array<double, 3>> place;  ///< m, reference position of the node
 };
 
+/// What a run is called beside others: "sph", or "sph-compact" where it is of a variant of the
+/// case. Its folder has that name.
+std::string column_name(const std::string& method, const std::string& variant);
+
 struct RunSummary {
   std::string method, case_name, title;
+  std::string variant;    ///< of the case, by its name; empty: the case as it stands
   std::string case_file;  ///< absolute path of the case file, which tells cases apart
   int level = 0, dimension = 3;
   std::int64_t nodes = 0, pairs = 0;
@@ -98,13 +103,16 @@ struct RunSummary {
   std::vector<QuantitySummary> quantities;  ///< [[probe]] of the case, in its order
   std::string state_hash;
   Provenance provenance;
+
+  std::string column() const { return column_name(method, variant); }
 };
 
 /// JSON text with the key names of the contract: method, case, level, ..., steps, stages,
 /// rejected_steps, restarts, interventions{projections,resynchronisations,limited_pairs}, ...,
 /// dt{min,max}, errors{field{l1,l2,linf}}, energy{...}, momentum{linear_drift,angular_drift},
 /// involution{H,J}, min_jacobian, cells{least_J,most_inverted,inverted_from}, state_hash,
-/// provenance{...}; where the run was not finished, failure{message,time,step,node,place}.
+/// provenance{...}; where the run was not finished, failure{message,time,step,node,place}; of a
+/// variant its name.
 std::string to_json(const RunSummary& summary);
 
 /// @throws base::InputError on malformed text, a missing key, NaN
@@ -113,6 +121,7 @@ RunSummary summary_from_json(const std::string& text, const std::string& path);
 /// Whose results a summary.json is of; it need not be whole.
 struct SummaryOwner {
   std::string case_name, case_file;  ///< case_file: empty in summaries of earlier versions
+  std::string column;                ///< see RunSummary
 };
 /// Nothing where the text is no summary.
 std::optional<SummaryOwner> summary_owner(const std::string& text);

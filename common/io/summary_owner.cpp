@@ -11,7 +11,8 @@ std::optional<SummaryOwner> summary_owner(const std::string& text) {
     return found != root.end() && found->is_string() ? found->get<std::string>() : std::string();
   };
   if (!root.is_object() || word("case").empty() || word("method").empty()) return std::nullopt;
-  return SummaryOwner{word("case"), word("case_file")};
+  return SummaryOwner{word("case"), word("case_file"),
+                      column_name(word("method"), word("variant"))};
 }
 
 }  // namespace diptych::io

@@ -163,7 +163,7 @@ std::string atlas_page(const std::string& title,
   html += section("verdict", "Verdict", "<p class=\"verdict\">" + verdict + "</p>\n");
   std::string maps = legend(), reasons;
   for (const AtlasPicture& picture : pictures) {
-    const std::string heading = "<h3>" + method_mark(picture.method) + "</h3>\n";
+    const std::string heading = "<h3>" + column_mark(picture.method) + "</h3>\n";
     maps += heading + svg_of(picture);
     reasons += heading + reasons_of(picture);
   }

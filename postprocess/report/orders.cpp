@@ -42,16 +42,35 @@ double observed_order(double coarse_error,
 
 std::vector<std::string> methods_of(const std::vector<io::RunSummary>& runs) {
   std::set<std::string> names;
-  for (const io::RunSummary& run : runs)
-    names.insert(run.method);
+  for (const io::RunSummary& run : runs) {
+    if (run.variant.empty()) names.insert(run.method);
+  }
   return ordered(names, std::array{"sph", "fvm"});
 }
 
+std::vector<std::string> columns_of(const std::vector<io::RunSummary>& runs) {
+  std::vector<std::string> columns = methods_of(runs);
+  for (const io::RunSummary& run : runs) {
+    if (std::find(columns.begin(), columns.end(), run.column()) == columns.end())
+      columns.push_back(run.column());
+  }
+  return columns;
+}
+
+std::string method_of_column(const std::string& column) {
+  return column.substr(0, column.find('-'));
+}
+
+std::string variant_of_column(const std::string& column) {
+  const size_t dash = column.find('-');
+  return dash == column.npos ? "" : column.substr(dash + 1);
+}
+
 std::vector<io::RunSummary> runs_of(const std::vector<io::RunSummary>& runs,
-                                    std::string_view method) {
+                                    std::string_view column) {
   std::vector<io::RunSummary> result;
   for (const io::RunSummary& run : runs) {
-    if (run.method == method) result.push_back(run);
+    if (run.column() == column) result.push_back(run);
   }
   std::stable_sort(result.begin(), result.end(),
                    [](const io::RunSummary& a, const io::RunSummary& b) {
@@ -79,6 +98,11 @@ std::string method_title(const std::string& method) {
   if (method == "sph") return "SPH";
   if (method == "fvm") return "Finite volume";
   return method;
+}
+
+std::string column_title(const std::string& column) {
+  const std::string variant = variant_of_column(column);
+  return method_title(method_of_column(column)) + (variant.empty() ? "" : " " + variant);
 }
 
 std::string field_symbol(const std::string& field) {

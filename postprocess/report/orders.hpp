@@ -17,12 +17,20 @@ double observed_order(double coarse_error,
                       double coarse_spacing,
                       double fine_spacing);
 
-/// Methods in the order of a reader: sph, fvm, then others by name.
+/// Methods at the settings of the case in the order of a reader: sph, fvm, then others by name. A
+/// verdict is on these.
 std::vector<std::string> methods_of(const std::vector<io::RunSummary>& runs);
 
-/// Runs of one method from coarse to fine.
+/// These, then the columns of variants as they come (RunSummary::column).
+std::vector<std::string> columns_of(const std::vector<io::RunSummary>& runs);
+
+/// Runs of one column from coarse to fine.
 std::vector<io::RunSummary> runs_of(const std::vector<io::RunSummary>& runs,
-                                    std::string_view method);
+                                    std::string_view column);
+
+/// "sph" of the column "sph-compact", and "compact", which is empty where it is of no variant.
+std::string method_of_column(const std::string& column);
+std::string variant_of_column(const std::string& column);
 
 /// Fields with errors: velocity, displacement, deformation_gradient, stress, cofactor, jacobian,
 /// viscous_C, viscous_G, then others by name.
@@ -33,6 +41,9 @@ double error_of(const io::RunSummary& run, const std::string& field);
 
 /// "SPH", "Finite volume", or the name itself.
 std::string method_title(const std::string& method);
+
+/// "SPH compact" for "sph-compact"; of a method its title.
+std::string column_title(const std::string& column);
 
 /// "v", "u", "F", "P", "H", "J", "A", "S", or nothing for a field without a symbol.
 std::string field_symbol(const std::string& field);

@@ -69,9 +69,10 @@ std::string panel(const RunSummary& run, const std::vector<std::string>& fields)
           ? ""
           : fmt::format("<p class=\"warning\">this run ended as: {}</p>\n", escaped(run.status));
   return fmt::format(
-      "<article class=\"panel {}\">\n<h3>{} <small>level {}</small></h3>\n{}{}<dl>\n{}</dl>\n"
+      "<article {}>\n<h3>{} <small>level {}</small></h3>\n{}{}<dl>\n{}</dl>\n"
       "</article>\n",
-      escaped(run.method), method_mark(run.method), run.level, large, warning, rows);
+      column_classes("panel", run.column()), column_mark(run.column()), run.level, large, warning,
+      rows);
 }
 
 std::string difference_table(const StudyReport& study) {
@@ -95,7 +96,33 @@ std::string difference_table(const StudyReport& study) {
          table(heading_cell("field") + heading_cell("difference"), rows);
 }
 
-/// Errors of one method from coarse to fine with the order between neighbours.
+/// How far each variant is from each method, a row for either.
+std::string distance_table(const StudyReport& study) {
+  RunSummary apart;
+  for (const ColumnDistance& one : study.distances) {
+    for (const auto& [field, value] : one.fields)
+      apart.errors[field].l2 = value;
+  }
+  const std::vector<std::string> fields = fields_of({apart});
+  if (fields.empty()) return "";
+  std::string head = heading_cell("variant") + heading_cell("from"), rows;
+  for (const std::string& field : fields)
+    head += heading_cell(field_heading(field));
+  for (const ColumnDistance& one : study.distances) {
+    rows += fmt::format("<tr><th scope=\"row\">{}</th>{}", column_mark(one.column),
+                        cell(column_mark(one.method)));
+    for (const std::string& field : fields) {
+      const auto found = one.fields.find(field);
+      rows += cell(found == one.fields.end() ? "" : scientific_html(found->second));
+    }
+    rows += "</tr>\n";
+  }
+  return "<h3>How far the variants are from them</h3>\n<p>In the same norm. The verdict is on the "
+         "two methods alone.</p>\n" +
+         table(head, rows);
+}
+
+/// Errors of one column from coarse to fine with the order between neighbours.
 std::string order_rows(const std::vector<RunSummary>& runs,
                        const std::vector<std::string>& fields) {
   std::string rows;
@@ -120,26 +147,31 @@ std::string order_rows(const std::vector<RunSummary>& runs,
 }  // namespace
 
 std::string header_section(const StudyReport& study) {
-  std::string methods;
-  for (const std::string& method : methods_of(study.runs)) {
-    methods += fmt::format("<li>{}</li>\n", method_mark(method));
+  std::string columns;
+  for (const std::string& column : columns_of(study.runs)) {
+    const auto settings = study.settings.find(column);
+    columns += fmt::format("<li>{}{}</li>\n", column_mark(column),
+                           settings == study.settings.end()
+                               ? ""
+                               : " <small>" + escaped(settings->second) + "</small>");
   }
   return fmt::format(
       "<header>\n<p class=\"kicker\">Diptych · {}</p>\n<h1>{}</h1>\n<p class=\"lead\">{}</p>\n"
       "<ul class=\"methods\">\n{}</ul>\n{}</header>\n",
       escaped(distinct(study.runs, [](const RunSummary& run) { return run.case_name; })),
-      escaped(study.title), escaped(study.description), methods, plot_hint());
+      escaped(study.title), escaped(study.description), columns, plot_hint());
 }
 
 std::string panels_section(const StudyReport& study) {
   const std::vector<std::string> fields = fields_of(study.runs);
   std::string panels;
-  for (const std::string& method : methods_of(study.runs)) {
-    panels += panel(runs_of(study.runs, method).back(), fields);
-  }
+  for (const std::string& column : columns_of(study.runs))
+    panels += panel(runs_of(study.runs, column).back(), fields);
   if (panels.empty()) return section("panels", "Side by side", "<p>This study has no run.</p>\n");
+  const char* const classes = columns_of(study.runs).size() > 3 ? "panels many" : "panels";
   return section("panels", "Side by side",
-                 "<div class=\"panels\">\n" + panels + "</div>\n" + difference_table(study));
+                 fmt::format("<div class=\"{}\">\n", classes) + panels + "</div>\n" +
+                     difference_table(study) + distance_table(study));
 }
 
 std::string cost_section(const StudyReport& study) {
@@ -158,19 +190,18 @@ std::string cost_section(const StudyReport& study) {
 
 std::string convergence_section(const StudyReport& study) {
   const std::vector<std::string> fields = fields_of(study.runs);
-  const auto methods = methods_of(study.runs);
+  const auto columns = columns_of(study.runs);
   const bool has_levels = std::any_of(
-      methods.begin(), methods.end(),
-      [&](const std::string& method) { return runs_of(study.runs, method).size() > 1; });
+      columns.begin(), columns.end(),
+      [&](const std::string& column) { return runs_of(study.runs, column).size() > 1; });
   if (fields.empty() || !has_levels) return "";
   std::string head = heading_cell("run") + heading_cell("spacing [m]");
   for (const std::string& field : fields) {
     head += heading_cell(field_heading(field)) + heading_cell("order");
   }
   std::string rows;
-  for (const std::string& method : methods) {
-    rows += order_rows(runs_of(study.runs, method), fields);
-  }
+  for (const std::string& column : columns)
+    rows += order_rows(runs_of(study.runs, column), fields);
   return section("convergence", "Error against spacing",
                  field_choice("convergence", fields) +
                      chart("convergence-chart", "Relative error against spacing",
@@ -182,11 +213,11 @@ std::string convergence_section(const StudyReport& study) {
 
 std::string energy_section(const StudyReport& study) {
   std::string charts;
-  for (const std::string& method : methods_of(study.runs)) {
-    if (study.histories.count(method) == 0) continue;
-    charts += fmt::format("<div>\n<h3>{}</h3>\n{}</div>\n", method_mark(method),
-                          chart("energy-" + escaped(method),
-                                "Energies over time, " + escaped(method_title(method)), ""));
+  for (const std::string& column : columns_of(study.runs)) {
+    if (study.histories.count(column) == 0) continue;
+    charts += fmt::format("<div>\n<h3>{}</h3>\n{}</div>\n", column_mark(column),
+                          chart("energy-" + escaped(column),
+                                "Energies over time, " + escaped(column_title(column)), ""));
   }
   if (charts.empty()) return "";
   return section(

@@ -125,7 +125,7 @@ Json quantities_json(const StudyReport& study) {
         points.push_back(
             {{"level", p.level}, {"spacing", p.spacing}, {"value", p.value}, {"bar", p.error_bar}});
       }
-      Json entry = {{"method", one.method}, {"points", points}};
+      Json entry = {{"method", one.column}, {"points", points}};
       if (one.estimate) entry["extrapolated"] = one.estimate->extrapolated;  // NaN becomes null
       all.push_back(entry);
     }
@@ -149,19 +149,26 @@ Json prices_json(const StudyReport& study) {
   return prices;
 }
 
-std::string data_json(const StudyReport& study) {
-  Json methods = Json::array();
-  for (const std::string& method : methods_of(study.runs)) {
+/// The methods and their variants; a variant says whose it is.
+Json columns_json(const StudyReport& study) {
+  Json columns = Json::array();
+  for (const std::string& column : columns_of(study.runs)) {
     Json runs = Json::array();
-    for (const io::RunSummary& run : runs_of(study.runs, method))
+    for (const io::RunSummary& run : runs_of(study.runs, column))
       runs.push_back(run_json(run));
-    Json entry = {{"name", method}, {"title", method_title(method)}, {"runs", runs}};
-    const auto history = study.histories.find(method);
+    Json entry = {{"name", column}, {"title", column_title(column)}, {"runs", runs}};
+    if (method_of_column(column) != column) entry["method"] = method_of_column(column);
+    const auto history = study.histories.find(column);
     if (history != study.histories.end()) {
       entry["history"] = history_json(history->second, exact_others(study));
     }
-    methods.push_back(entry);
+    columns.push_back(entry);
   }
+  return columns;
+}
+
+std::string data_json(const StudyReport& study) {
+  const Json methods = columns_json(study);
   Json fields = Json::object();
   for (const std::string& field : fields_of(study.runs))
     fields[field] = field_title(field);
@@ -190,7 +197,7 @@ std::vector<io::HistoryColumn> exact_others(const StudyReport& study) {
 }
 
 std::string report_html(const StudyReport& study, const std::string& chart_script) {
-  std::string html = page_head(study.title);
+  std::string html = page_head(study.title, variant_styles(columns_of(study.runs)));
   html += header_section(study);
   html += "<main>\n";
   html += verdict_section(study) + panels_section(study) + shapes_section(study) +

@@ -27,9 +27,9 @@ struct GridPoint {
   double spacing = 0, value = 0, error_bar = 0;
 };
 
-/// A scalar of one method from coarse to fine.
+/// A scalar of one column (RunSummary::column) from coarse to fine.
 struct GridSeries {
-  std::string method;
+  std::string column;
   std::vector<GridPoint> points;
   std::optional<GridConvergence> estimate;  ///< of the finest level: three grids or more
   double formal_order = 2;                  ///< of the method as it ran
@@ -41,6 +41,12 @@ struct ReferencePoints {
   std::vector<std::array<double, 2>> points;  ///< s, unit of the probe
 };
 
+/// How far a variant is from a method at the settings of the case, on the same nodes.
+struct ColumnDistance {
+  std::string column, method;
+  std::map<std::string, double> fields;  ///< as StudyReport::differences
+};
+
 /// What the curves of both methods are held against.
 struct References {
   std::vector<io::HistoryColumn> exact;  ///< time first, names as in history.csv; may be empty
@@ -49,7 +55,7 @@ struct References {
 
 /// A run that the physics or the scheme ended before its time.
 struct Breakdown {
-  std::string method;
+  std::string column;
   int level = 0;
   double time = 0;  ///< s
   std::int64_t step = 0;
@@ -61,14 +67,16 @@ struct Breakdown {
 struct StudyReport {
   std::string title, description;
   std::vector<std::string> material;  ///< lines of text: law, constants with units, branches
-  std::vector<io::RunSummary> runs;   ///< any methods and levels, in any order; none that broke
-  std::map<std::string, std::vector<io::HistoryRow>> histories;  ///< method: finest level
+  std::vector<io::RunSummary> runs;   ///< any columns and levels, in any order; none that broke
+  std::map<std::string, std::string> settings;  ///< column of a variant: what it sets
+  std::map<std::string, std::vector<io::HistoryRow>> histories;  ///< column: finest level
   std::vector<Breakdown> breakdowns;                             ///< named before anything else
   std::map<std::string, double> differences;  ///< field: L2 between the methods at the end, over
                                               ///< its largest norm at any output time
+  std::vector<ColumnDistance> distances;
   References references;
   std::map<std::string, ShapeRecord> shapes;  ///< method: deformed surfaces of the finest level
-  /// name and unit of a scalar: its values on the levels of each method
+  /// name and unit of a scalar: its values on the levels of each column
   std::map<std::pair<std::string, std::string>, std::vector<GridSeries>> quantities;
 };
 

@@ -48,14 +48,14 @@ std::string breakdown_sentence(const Breakdown& one) {
     where += fmt::format(", ({:.5g}, {:.5g}, {:.5g}) m", X[0], X[1], X[2]);
   }
   return fmt::format("{} broke down on level {} {}: {}.",
-                     at_the_start(method_in_sentence(one.method)), one.level, where,
+                     at_the_start(column_in_sentence(one.column)), one.level, where,
                      escaped(one.message.substr(0, one.message.find('\n'))));
 }
 
 /// What the same error costs, or where only one level was run, what the runs cost.
 std::string cost_sentence(const Pair& pair, const std::string& field) {
-  const std::string a = method_in_sentence(pair.a().method),
-                    b = method_in_sentence(pair.b().method);
+  const std::string a = column_in_sentence(pair.a().method),
+                    b = column_in_sentence(pair.b().method);
   const auto price = price_of_error(pair.first, pair.second, field);
   double first = pair.a().loop_seconds, second = pair.b().loop_seconds;
   if (price) first = price->first, second = price->second;
@@ -95,8 +95,8 @@ std::string error_sentence(const Pair& pair, const std::vector<std::string>& fie
   else if (fields.size() > 1)
     others = fmt::format("; of the {} fields it errs less in {}", fields.size(), n_less);
   return fmt::format("{} errs less: on level {} its {} is off by {}, that of {} by {}{}.",
-                     at_the_start(method_in_sentence(better.method)), better.level, name,
-                     percent_html(error_of(better, field)), method_in_sentence(worse.method),
+                     at_the_start(column_in_sentence(better.method)), better.level, name,
+                     percent_html(error_of(better, field)), column_in_sentence(worse.method),
                      percent_html(error_of(worse, field)), others);
 }
 
@@ -161,7 +161,7 @@ Sentences pair_sentences(const StudyReport& study, const Pair& pair) {
 
 Sentences single_sentences(const StudyReport& study, const std::vector<RunSummary>& runs) {
   const RunSummary& finest = runs.back();
-  const std::string method = at_the_start(method_in_sentence(finest.method));
+  const std::string method = at_the_start(column_in_sentence(finest.method));
   Sentences sentences;
   const auto fields = fields_of({finest});
   if (!fields.empty() && std::isfinite(error_of(finest, fields.front()))) {
@@ -176,7 +176,7 @@ Sentences single_sentences(const StudyReport& study, const std::vector<RunSummar
     }
     if (error > too_far_apart)
       sentences.push_back(fmt::format("Too coarse to say: {} misses more than half of the {}.",
-                                      method_in_sentence(finest.method),
+                                      column_in_sentence(finest.method),
                                       escaped(field_title(field))));
     sentences.push_back(
         fmt::format("{} on level {}: the error of its {} is {}{}, for {} in the time loop.", method,
@@ -189,7 +189,7 @@ Sentences single_sentences(const StudyReport& study, const std::vector<RunSummar
   std::vector<std::string> sure, unsure;
   for (const auto& [quantity, series] : study.quantities) {
     const auto one = std::find_if(series.begin(), series.end(), [&](const GridSeries& s) {
-      return s.method == finest.method && s.points.back().error_bar > 0;
+      return s.column == finest.method && s.points.back().error_bar > 0;
     });
     if (one == series.end()) continue;
     const double scale = scale_of(study, quantity.first, quantity.second, {*one});
@@ -211,11 +211,11 @@ Sentences warnings(const StudyReport& study) {
   Sentences sentences;
   for (const Breakdown& one : study.breakdowns)
     sentences.push_back(breakdown_sentence(one));
-  for (const std::string& method : methods_of(study.runs)) {
-    const RunSummary run = runs_of(study.runs, method).back();
-    const std::string name = at_the_start(method_in_sentence(method));
+  for (const std::string& column : columns_of(study.runs)) {
+    const RunSummary run = runs_of(study.runs, column).back();
+    const std::string name = at_the_start(column_in_sentence(column));
     const bool is_told = std::any_of(study.breakdowns.begin(), study.breakdowns.end(),
-                                     [&](const Breakdown& one) { return one.method == method; });
+                                     [&](const Breakdown& one) { return one.column == column; });
     if (run.status != "done" && !is_told)
       sentences.push_back(fmt::format("{} did not come to its end on level {}: {}.", name,
                                       run.level, escaped(run.status)));
@@ -223,7 +223,7 @@ Sentences warnings(const StudyReport& study) {
       sentences.push_back(
           fmt::format("Cells of {} lie inside out from t = {} s on: what comes after "
                       "is not a body any more.",
-                      method_in_sentence(method), number_html(*run.inverted_from)));
+                      column_in_sentence(column), number_html(*run.inverted_from)));
   }
   return sentences;
 }
@@ -254,8 +254,10 @@ std::string percent_html(double part) {
                                              : scientific_html(part);
 }
 
-std::string method_in_sentence(const std::string& method) {
-  return method == "fvm" ? "finite volume" : escaped(method_title(method));
+std::string column_in_sentence(const std::string& column) {
+  std::string title = column_title(column);
+  if (method_of_column(column) == "fvm") title[0] = 'f';
+  return escaped(title);
 }
 
 std::string at_the_start(std::string sentence) {

@@ -25,8 +25,11 @@ bool agree(const GridPoint& a, const GridPoint& b);
 /// "0.35 %"
 std::string percent_html(double part);
 
-/// "finite volume", as it stands within a sentence.
-std::string method_in_sentence(const std::string& method);
+/// "finite volume", or "finite volume sbp" of a variant, as it stands within a sentence.
+std::string column_in_sentence(const std::string& column);
+
+/// Those of the methods at the settings of the case, which a verdict is on.
+std::vector<GridSeries> series_of_methods(const std::vector<GridSeries>& series);
 
 /// With a capital letter.
 std::string at_the_start(std::string sentence);
@@ -49,7 +52,8 @@ struct Pair {
 std::string why_unresolved(const std::vector<GridSeries>& series, double scale);
 
 /// Largest size that a quantity has over the run, so that one that ends near zero is not judged by
-/// its last value; of an energy or a dissipation the largest energy that there is.
+/// its last value; of an energy or a dissipation the largest energy that there is. Variants do not
+/// count.
 double scale_of(const StudyReport& study,
                 const std::string& name,
                 const std::string& unit,

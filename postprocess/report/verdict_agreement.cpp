@@ -1,6 +1,7 @@
 /// What refinement says of the quantities of two methods, in sentences.
 
 #include "postprocess/report/html.hpp"
+#include "postprocess/report/orders.hpp"
 #include "postprocess/report/verdict.hpp"
 
 #include <algorithm>
@@ -19,12 +20,14 @@ double scale_of(const StudyReport& study,
       scale = std::max(scale, std::abs(point.value));
   }
   for (const io::RunSummary& run : study.runs) {
+    if (!run.variant.empty()) continue;
     for (const io::QuantitySummary& q : run.quantities) {
       if (q.name == name) scale = std::max({scale, std::abs(q.least), std::abs(q.greatest)});
     }
   }
   if (unit != "J") return scale;
-  for (const auto& [method, rows] : study.histories) {
+  for (const auto& [column, rows] : study.histories) {
+    if (!variant_of_column(column).empty()) continue;
     for (const io::HistoryRow& row : rows) {
       scale =
           std::max(scale, row.energy.kinetic + row.energy.strain + row.energy.viscous_dissipation +
@@ -32,6 +35,14 @@ double scale_of(const StudyReport& study,
     }
   }
   return scale;
+}
+
+std::vector<GridSeries> series_of_methods(const std::vector<GridSeries>& series) {
+  std::vector<GridSeries> methods;
+  for (const GridSeries& one : series) {
+    if (variant_of_column(one.column).empty()) methods.push_back(one);
+  }
+  return methods;
 }
 
 bool agree(const GridPoint& a, const GridPoint& b) {
@@ -47,7 +58,7 @@ std::string why_unresolved(const std::vector<GridSeries>& series, double scale) 
     const std::string why = why_unresolved(one.estimate, scale, one.formal_order);
     if (why.empty()) continue;
     if (!all.empty()) all += "; ";
-    all += method_in_sentence(one.method) + " " + why;
+    all += column_in_sentence(one.column) + " " + why;
   }
   return all;
 }
@@ -64,9 +75,10 @@ struct Agreement {
 
 Agreement agreement_of(const StudyReport& study, const Pair& pair) {
   Agreement agreement;
-  for (const auto& [quantity, series] : study.quantities) {
+  for (const auto& [quantity, all] : study.quantities) {
+    const std::vector<GridSeries> series = series_of_methods(all);
     if (series.size() != 2) continue;
-    const bool same_order = series[0].method == pair.a().method;
+    const bool same_order = series[0].column == pair.a().method;
     const GridPoint& a = series[same_order ? 0 : 1].points.back();
     const GridPoint& b = series[same_order ? 1 : 0].points.back();
     if (a.level != b.level || a.level == 0) continue;
@@ -97,7 +109,7 @@ std::string nearer_sentence(const Agreement& agreement, const Pair& pair) {
       "{} is nearer to convergence: on level {} it has the narrower error bar on {} of {} "
       "quantities (there is "
       "no exact solution to measure errors by).",
-      at_the_start(method_in_sentence(first ? pair.a().method : pair.b().method)), pair.a().level,
+      at_the_start(column_in_sentence(first ? pair.a().method : pair.b().method)), pair.a().level,
       std::max(agreement.n_first, agreement.n_second), n);
 }
 

@@ -187,7 +187,7 @@ addEventListener('load', async () => {
   for (const canvas of document.querySelectorAll('.shape canvas')) {
     const n = files.length;
     canvas.parentNode.querySelector('.save').click();
-    for (let k = 0; k < 50 && files.length === n; k += 1) await wait(20);
+    for (let k = 0; k < 500 && files.length === n; k += 1) await wait(20);
     const { blob, name } = files.at(-1);
     pictures.push({ name, type: blob.type, size: blob.size });
   }

@@ -38,7 +38,8 @@ void write_bytes(const fs::path& path, const std::string& bytes) {
 std::vector<fs::path> checkpoints_in(const fs::path& directory) {
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(directory)) {
-    if (entry.path().filename().string().starts_with("checkpoint_")) found.push_back(entry.path());
+    const std::string name = entry.path().filename().string();  // unfinished ones end with .tmp
+    if (name.starts_with("checkpoint_") && name.ends_with(".hdf")) found.push_back(entry.path());
   }
   std::sort(found.rbegin(), found.rend());
   return found;

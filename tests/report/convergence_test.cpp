@@ -38,7 +38,7 @@ std::vector<LevelRecord> records() {
 TEST(Convergence, ExtrapolatesEveryScalarOfTheHistory) {
   const auto studies = convergence_of(records(), {});
   ASSERT_EQ(studies.size(), 1u);
-  const MethodConvergence& study = studies[0];
+  const ColumnConvergence& study = studies[0];
   ASSERT_EQ(study.scalars.size(), 2u) << "neither time nor momentum, nor what is zero";
   EXPECT_THAT(study.zero, ElementsAre("external work"));
   const auto g = estimate(study, study.scalars[0], 2);

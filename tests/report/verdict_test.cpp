@@ -44,6 +44,34 @@ TEST(Verdict, SaysWhichMethodErrsLessAndAtWhatCost) {
                               "seconds of SPH (12.8 s against 0.320 s)."));
 }
 
+/// A variant that errs ten times less, with quantities and energies a hundred times larger.
+TEST(Verdict, IsOnTheTwoMethodsWhateverVariantsStandBesideThem) {
+  StudyReport study = test::full_study();
+  const std::string before = verdict_text(study);
+  for (int level = 0; level < 3; ++level) {
+    io::RunSummary run = sample_run("sph", level);
+    run.variant = "compact";
+    run.quantities = study.runs.front().quantities;
+    run.quantities[0].greatest *= 100;
+    for (auto& [field, norms] : run.errors)
+      norms.l2 /= 10;
+    study.runs.push_back(run);
+  }
+  study.histories["sph-compact"] = study.histories["sph"];
+  for (io::HistoryRow& row : study.histories["sph-compact"])
+    row.energy.strain *= 100;
+  for (auto& [quantity, series] : study.quantities) {
+    series.push_back(series.front());
+    series.back().column = "sph-compact";
+    series.back().points.back().value *= 100;
+  }
+  study.distances = {{"sph-compact", "fvm", {{"velocity", 0.9}}}};
+  EXPECT_EQ(verdict_text(study), before);
+  EXPECT_THAT(columns_of(study.runs), testing::ElementsAre("sph", "fvm", "sph-compact"));
+  study.breakdowns = {{"fvm-sbp", 2, 1e-3, 7, -1, "J <= 0"}};
+  EXPECT_THAT(verdict_text(study), StartsWith("Finite volume sbp broke down on level 2"));
+}
+
 TEST(Verdict, CallsErrorsAlikeThatAreWithinAFewPercent) {
   StudyReport study = sample_study();
   study.runs = {sample_run("sph", 0), sample_run("fvm", 0)};

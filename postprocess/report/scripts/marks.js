@@ -18,6 +18,7 @@ Object.assign(plots, (() => {
     rect: [[[-d, -d], [d, -d], [d, d], [-d, d]]],
     triangle: [[[0, -1], [0.866, 0.5], [-0.866, 0.5]]],
     crossRot: diagonals,
+    cross: [[[0, -1], [0, 1]], [[-1, 0], [1, 0]]],
     star: [...diagonals, [[0, -1], [0, 1]], [[-1, 0], [1, 0]]],
   };
   const mark = (style, x, y, radius, { fill, stroke, width }) => {

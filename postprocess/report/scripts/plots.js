@@ -3,15 +3,25 @@
 'use strict';
 const plots = (() => {
   const study = JSON.parse(document.getElementById('study').textContent);
-  const shapes = { sph: 'circle', fvm: 'rectRot' };
-  const dashes = { sph: [], fvm: [7, 3] };
+  const shapes = { sph: ['circle', 'triangle', 'rect', 'star'], fvm: ['rectRot', 'crossRot', 'cross', 'triangle'] };
+  const dashes = { sph: [[], [14, 3], [14, 3, 2, 3], [10, 2]], fvm: [[7, 3], [2, 3], [7, 3, 2, 3], [4, 2]] };
   const builders = [];  // one per chart: [id, what makes its configuration with the colours of the moment]
   const painters = [];  // called whenever the page is drawn anew
   const dressers = [];  // called with every new chart
   let charts = [];
 
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
-  const colourOf = (method) => colour(shapes[method] ? method : 'other');
+  // How the columns look: a method at the settings of its case, or one of three looks of its variants.
+  const looks = new Map();
+  (study.methods || []).forEach(({ name, method = name }, i, all) => {
+    const before = all.slice(0, i).filter((other) => other.method === method).length;
+    const number = method === name ? 0 : 1 + (before % 3);
+    looks.set(name, {
+      ink: !shapes[method] ? 'other' : number ? `${method}-${number}` : method,
+      shape: shapes[method] ? shapes[method][number] : 'rect', dash: dashes[method] ? dashes[method][number] : [2, 2],
+    });
+  });
+  const colourOf = (name) => colour(looks.get(name).ink);
   const withAlpha = (hex, alpha) => hex + Math.round(255 * alpha).toString(16).padStart(2, '0');
   const usable = (x) => Number.isFinite(x) && x > 0;
 
@@ -118,11 +128,11 @@ const plots = (() => {
   // Marks on the edge of a plot are seen whole: pixels beyond the axes that a curve may use.
   const room = 8;
 
-  // A curve of a method, with its colour, dashes and marks.
+  // A curve of a column, with its colour, dashes and marks.
   const curveOf = (method, data, more = {}) => ({
     label: method.title, data, type: 'line',
     borderColor: colourOf(method.name), backgroundColor: colourOf(method.name),
-    borderDash: dashes[method.name] || [2, 2], borderWidth: 2, pointStyle: shapes[method.name] || 'rect',
+    borderDash: looks.get(method.name).dash, borderWidth: 2, pointStyle: looks.get(method.name).shape,
     clip: room, ...more,
   });
 

@@ -5,10 +5,17 @@
 #include "postprocess/report/orders.hpp"
 
 #include <fmt/format.h>
+#include <map>
 
 namespace diptych::report {
 
-std::string page_head(const std::string& title) {
+namespace {
+
+constexpr int variant_looks = 3;  // of one method; later variants have the looks of the first ones
+
+}  // namespace
+
+std::string page_head(const std::string& title, const std::string& styles) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
@@ -16,8 +23,8 @@ std::string page_head(const std::string& title) {
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
       "style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">\n"
       "<link rel=\"icon\" "
-      "href=\"data:,\">\n<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n",
-      escaped(title), style_css);
+      "href=\"data:,\">\n<title>{}</title>\n<style>\n{}{}</style>\n</head>\n<body>\n",
+      escaped(title), style_css, styles);
 }
 
 std::string page_scripts(const std::string& json,
@@ -66,14 +73,36 @@ const io::ErrorNorms* norms_of(const io::RunSummary& run, const std::string& fie
   return found == run.errors.end() ? nullptr : &found->second;
 }
 
-std::string method_mark(const std::string& method) {
-  return fmt::format("<span class=\"mark {0}\"></span>{1}", escaped(method),
-                     escaped(method_title(method)));
+std::string column_classes(const std::string& classes, const std::string& column) {
+  const std::string method = method_of_column(column);
+  if (method == column) return fmt::format("class=\"{} {}\"", classes, escaped(column));
+  return fmt::format("class=\"{} {}\" data-column=\"{}\"", classes, escaped(method),
+                     escaped(column));
+}
+
+std::string variant_styles(const std::vector<std::string>& columns) {
+  std::map<std::string, int> n_of_method;
+  std::string rules;
+  for (const std::string& column : columns) {
+    const std::string method = method_of_column(column);
+    if (method == column) continue;
+    const int number = n_of_method[method]++ % variant_looks + 1;
+    rules += fmt::format(
+        "[data-column=\"{0}\"] {{ --own: var(--{1}-{2}); }}\n"
+        ".mark[data-column=\"{0}\"] {{ clip-path: var(--shape-{1}-{2}); }}\n",
+        escaped(column), escaped(method), number);
+  }
+  return rules;
+}
+
+std::string column_mark(const std::string& column) {
+  return fmt::format("<span {}></span>{}", column_classes("mark", column),
+                     escaped(column_title(column)));
 }
 
 std::string run_head(const io::RunSummary& run) {
   return fmt::format("<th scope=\"row\">{}<span class=\"level\">level {}</span></th>",
-                     method_mark(run.method), run.level);
+                     column_mark(run.column()), run.level);
 }
 
 std::string chart(std::string_view id,

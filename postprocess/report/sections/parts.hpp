@@ -9,8 +9,8 @@
 
 namespace diptych::report {
 
-/// From the first line of a page to <body>.
-std::string page_head(const std::string& title);
+/// From the first line of a page to <body>. @param styles  below those of style.css
+std::string page_head(const std::string& title, const std::string& styles = "");
 
 /// The end of a page: its numbers, Chart.js, what draws with them.
 std::string page_scripts(const std::string& json,
@@ -34,10 +34,18 @@ std::string field_heading(const std::string& field);
 /// Null where the run has no error of the field.
 const io::ErrorNorms* norms_of(const io::RunSummary& run, const std::string& field);
 
-/// Name of a method with its mark, which has the colour and the shape of its points.
-std::string method_mark(const std::string& method);
+/// Name of a column with its mark, which has the colour and the shape of its points.
+std::string column_mark(const std::string& column);
 
-/// Method and level in one cell, which stays in sight while the rest of its row scrolls.
+/// Attributes of an element in the colours of a column: its class, after `classes`, and of a
+/// variant which one it is, for variant_styles().
+std::string column_classes(const std::string& classes, const std::string& column);
+
+/// The colours and shapes of the variants among the columns, as scripts/plots.js has them; empty
+/// where there is none.
+std::string variant_styles(const std::vector<std::string>& columns);
+
+/// Column and level in one cell, which stays in sight while the rest of its row scrolls.
 std::string run_head(const io::RunSummary& run);
 
 /// A canvas with a height of its own, a title for those who hear the page, and a caption.

@@ -21,7 +21,7 @@ struct Columns {
 };
 
 std::string row(const io::RunSummary& run, const io::QuantitySummary& q, const Columns& has) {
-  std::string html = "<tr><th scope=\"row\">" + method_mark(run.method) + "</th>" +
+  std::string html = "<tr><th scope=\"row\">" + column_mark(run.column()) + "</th>" +
                      cell(precise_html(q.final_value)) + cell(precise_html(q.least)) +
                      cell(precise_html(q.greatest));
   if (has.period) html += cell(q.n_periods > 0 ? precise_html(q.period) : "");
@@ -62,8 +62,8 @@ std::string stride_note(const StudyReport& study) {
 
 std::vector<io::RunSummary> probed_runs(const StudyReport& study) {
   std::vector<io::RunSummary> runs;
-  for (const std::string& method : methods_of(study.runs)) {
-    const io::RunSummary run = runs_of(study.runs, method).back();
+  for (const std::string& column : columns_of(study.runs)) {
+    const io::RunSummary run = runs_of(study.runs, column).back();
     const bool fits = runs.empty() || run.quantities.size() == runs.front().quantities.size();
     if (!run.quantities.empty() && fits) runs.push_back(run);
   }
@@ -99,8 +99,11 @@ std::string probes_section(const StudyReport& study) {
   const std::vector<io::RunSummary> runs = probed_runs(study);
   const std::string others = other_charts(study);
   if (runs.empty() && others.empty()) return "";
-  std::string html = methods_of(study.runs).size() > 1 ? "<p>Both methods on the finest level."
-                                                       : "<p>On the finest level.";
+  const size_t n_methods = methods_of(study.runs).size();
+  std::string html = n_methods < 2            ? "<p>On the finest level."
+                     : study.settings.empty() ? "<p>Both methods on the finest level."
+                                              : "<p>Both methods and their variants on the finest "
+                                                "level.";
   if (!runs.empty()) {
     html +=
         " Extremes, period and logarithmic decrement are of the recorded values; a probe that the "

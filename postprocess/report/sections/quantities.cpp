@@ -21,7 +21,8 @@ std::string titled(const std::pair<std::string, std::string>& quantity) {
 /// are resolved.
 std::string agreement(const StudyReport& study,
                       const std::pair<std::string, std::string>& quantity,
-                      const std::vector<GridSeries>& series) {
+                      const std::vector<GridSeries>& all) {
+  const std::vector<GridSeries> series = series_of_methods(all);
   if (series.size() != 2) return "";
   const double scale = scale_of(study, quantity.first, quantity.second, series);
   const std::string why = why_unresolved(series, scale);
@@ -33,11 +34,13 @@ std::string rows_of(const StudyReport& study,
                     const std::pair<std::string, std::string>& quantity,
                     const std::vector<GridSeries>& series) {
   std::string rows;
+  const std::vector<GridSeries> methods = series_of_methods(series);
+  const std::string last = methods.empty() ? "" : methods.back().column;
   for (const GridSeries& one : series) {
     const GridPoint& finest = one.points.back();
     const auto& e = one.estimate;
     const bool has_order = e && std::isfinite(e->order);
-    rows += "<tr><th scope=\"row\">" + titled(quantity) + "</th>" + cell(method_mark(one.method)) +
+    rows += "<tr><th scope=\"row\">" + titled(quantity) + "</th>" + cell(column_mark(one.column)) +
             cell(precise_html(finest.value)) +
             cell(finest.error_bar > 0 ? "± " + number_html(finest.error_bar) : "") +
             cell(e && std::isfinite(e->extrapolated) ? precise_html(e->extrapolated) : "") +
@@ -45,7 +48,7 @@ std::string rows_of(const StudyReport& study,
             cell(e                        ? convergence_name(e->kind)
                  : one.points.size() == 2 ? "two grids"
                                           : "") +
-            cell(&one == &series.back() ? agreement(study, quantity, series) : "") + "</tr>\n";
+            cell(one.column == last ? agreement(study, quantity, series) : "") + "</tr>\n";
   }
   return rows;
 }

@@ -50,8 +50,8 @@ std::string runs_section(const StudyReport& study) {
   for (const char* name : {"energy residual", "min <i>J</i>", "min <i>J</i> of cells", "status"}) {
     result_head += heading_cell(name);
   }
-  for (const std::string& method : methods_of(study.runs)) {
-    for (const RunSummary& run : runs_of(study.runs, method)) {
+  for (const std::string& column : columns_of(study.runs)) {
+    for (const RunSummary& run : runs_of(study.runs, column)) {
       costs += cost_row(run);
       results += result_row(run, fields);
     }

@@ -58,7 +58,7 @@ std::string shapes_section(const StudyReport& study) {
   std::string pictures;
   for (const std::string& method : methods_of(study.runs)) {
     if (study.shapes.count(method) == 0) continue;
-    pictures += fmt::format("<div>\n<h3>{}</h3>\n{}</div>\n", method_mark(method),
+    pictures += fmt::format("<div>\n<h3>{}</h3>\n{}</div>\n", column_mark(method),
                             picture(escaped(method), "Deformed body, coloured by a field"));
   }
   const bool is_solid = first.surface.dimension == 3;
