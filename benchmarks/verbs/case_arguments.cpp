@@ -9,6 +9,7 @@
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 #include "common/parallel/partition.hpp"
+#include "common/parallel/ranks.hpp"
 #include "common/parallel/thread_count.hpp"
 
 #include <cstdio>
@@ -46,7 +47,7 @@ void CaseArguments::declare_variants(CommandLine& line) {
 
 void CaseArguments::declare_partition(CommandLine& line) {
   line.option("--partition", partition,
-              "how mpirun's ranks share a body: metis, slab or bisection");
+              "how mpirun's ranks share a body: metis (default), slab or bisection");
 }
 
 void CaseArguments::declare_restart(CommandLine& line) {
@@ -92,8 +93,15 @@ harness::StudyOptions CaseArguments::study_options(const cases::Case& setup) con
   options.methods = methods();
   options.levels = {level};
   options.threads = threads;
-  parallel::partitioners().at(partition);
-  options.partition = partition;
+  if (!partition.empty()) {
+    parallel::partitioners().at(partition);
+    if (parallel::all_ranks() == nullptr) {
+      throw base::InputError(
+          "--partition has no effect on one rank; start the command with "
+          "mpirun -n N, or leave it out");
+    }
+    options.partition = partition;
+  }
   options.directory = output_folder(setup);
   options.fields = !no_fields;
   options.quiet = quiet;

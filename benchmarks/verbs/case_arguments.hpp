@@ -19,7 +19,7 @@ constexpr const char* cases_help =
 
 struct CaseArguments {
   std::string case_name, cases_folder, method = "both", directory, restart;
-  std::string partition = "metis";
+  std::string partition;  ///< empty: that of the options
   std::vector<std::string> overrides, with;
   int level = 0, threads = 0;
   bool quiet = false, no_fields = false, force = false, no_variants = false;

@@ -296,6 +296,14 @@ TEST(RanksOfARun, SayOnceWhatIsWrong) {
   }
 }
 
+TEST(RanksOfARun, ArePartitionedWhereThereAreSome) {
+  const Folder folder;
+  folder.write("case.toml", cube);
+  const Outcome outcome = shell(folder, "$diptych run case.toml --partition slab");
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("--partition has no effect on one rank"));
+}
+
 TEST(RanksOfARun, AreToldInTheSummary) {
   const Folder folder;
   folder.write("case.toml", cube);
