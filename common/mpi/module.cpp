@@ -120,15 +120,19 @@ Communicator* begin(std::string& error, const char* (*phase)()) {
             "; use the mpirun of the MPI that it was built with";
     return nullptr;
   }
-  const int patience = rank_patience();
-  if (patience > 0) {
+  const std::optional<int> patience = rank_patience();
+  if (!patience) {
+    error = "DIPTYCH_RANK_PATIENCE is no number of seconds from 0 to 1000000";
+    return nullptr;
+  }
+  if (*patience > 0) {
     if (provided < MPI_THREAD_MULTIPLE) {
       error =
           "this MPI has no MPI_THREAD_MULTIPLE, which ranks need to watch each other; set "
           "DIPTYCH_RANK_PATIENCE=0 to do without";
       return nullptr;
     }
-    watch = std::make_unique<Watch>(patience, phase);
+    watch = std::make_unique<Watch>(*patience, phase);
   }
   return &world;
 }

@@ -29,13 +29,13 @@ struct SignalsBlocked {
 
 }  // namespace
 
-int rank_patience() {
+std::optional<int> rank_patience() {
   const char* text = std::getenv("DIPTYCH_RANK_PATIENCE");
+  if (text == nullptr) return 20;
   char* end = nullptr;
-  const long seconds = text == nullptr ? 0 : std::strtol(text, &end, 10);
-  return text != nullptr && end != text && *end == '\0' && seconds >= 0 && seconds < 1000000
-             ? static_cast<int>(seconds)
-             : 20;
+  const long seconds = std::strtol(text, &end, 10);
+  if (end == text || *end != '\0' || seconds < 0 || seconds > 1000000) return std::nullopt;
+  return static_cast<int>(seconds);
 }
 
 Watch::Watch(int patience, const char* (*phase)()) : patience_(patience), phase_(phase) {

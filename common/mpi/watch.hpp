@@ -6,13 +6,14 @@
 
 #include <mpi.h>
 
+#include <optional>
 #include <thread>
 
 namespace diptych::parallel {
 
 /// Seconds without a word after which a rank is given up: DIPTYCH_RANK_PATIENCE, 20 where it is not
-/// set; 0: never.
-int rank_patience();
+/// set; 0: never. Nothing where it is no number of seconds.
+std::optional<int> rank_patience();
 
 class Watch {
  public:

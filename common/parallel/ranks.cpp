@@ -74,7 +74,7 @@ Ranks::Ranks() {
   if (launched_ranks() <= 1) return;
   std::string error;
   communicator = module().begin(error, phase);
-  if (communicator == nullptr) throw base::EnvironmentError("MPI cannot begin: " + error);
+  if (communicator == nullptr) throw base::EnvironmentError("ranks cannot begin: " + error);
   n_sharing = count_sharing(*communicator);
 }
 

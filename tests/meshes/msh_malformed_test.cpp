@@ -46,6 +46,8 @@ const BadText bad_2[] = {
     {"FileType", "2.2 0 8", "2.2 2 8", "neither 0 (ASCII) nor 1 (binary)"},
     {"DataSize", "2.2 0 8", "2.2 0 4", "data size 4"},
     {"BinaryFlagLies", "2.2 0 8", "2.2 1 8", "byte order mark"},
+    {"TagWithTwoNames", "1\n1 4 \"low\"", "2\n1 4 \"low\"\n1 4 \"side\"",
+     "physical tag 4 has two names"},
     {"NameWithoutQuotes", "\"low\"", "low", "bad.msh:6: $PhysicalNames"},
     {"NameEmpty", "\"low\"", "\"\"", "name is empty"},
     {"NameTwice", "1\n1 4 \"low\"", "2\n1 4 \"low\"\n1 5 \"low\"", "'low' is given twice"},

@@ -296,6 +296,15 @@ TEST(RanksOfARun, SayOnceWhatIsWrong) {
   }
 }
 
+TEST(RanksOfARun, HavePatienceInSeconds) {
+  const Folder folder;
+  folder.write("case.toml", cube);
+  const Outcome outcome =
+      shell(folder, "export DIPTYCH_RANK_PATIENCE=long; " + mpirun + "-n 2 $diptych run case.toml");
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("DIPTYCH_RANK_PATIENCE is no number of seconds"));
+}
+
 TEST(RanksOfARun, ArePartitionedWhereThereAreSome) {
   const Folder folder;
   folder.write("case.toml", cube);

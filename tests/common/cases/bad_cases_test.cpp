@@ -50,6 +50,9 @@ std::string after(const std::string& lines) {
   return mesh + material + time + lines;
 }  // 10 on
 
+const std::string probe =
+    "[[probe]]\nname = 'tip'\nunit = 'm'\nkind = 'point'\nat = [0, 0, 0]\nquantity = 'ux'\n";
+
 const BadCase of_form[] = {
     {"empty", "", "1:1: ", "mesh.cells is missing; write cells = [4, 4, 24]"},
     {"nul", std::string("a = \"x\0y\"", 9), "1:", "not TOML"},
@@ -72,6 +75,20 @@ const BadCase of_form[] = {
     {"quoted_path", "\"time.end\" = 1\n", "1:1: ", "unknown key"},
     {"index_as_name", "[mesh.0]\ncells = [1, 1, 1]\n", "1:", "unknown key 'mesh.0'"},
     {"table_for_list", "[boundary]\ngroup = 'a'\n", "1:1: ", "write [[boundary]]"},
+    {"number_in_tables", "probe = [3]\n" + after(""), "1:10: ", "write [[probe]]"},
+    {"group_twice", after("[[boundary]]\ngroup = ['x_min', 'x_min']\ntype = 'fixed'\n"),
+     "11:9: ", "names 'x_min' twice"},
+    {"no_motion",
+     after("[[boundary]]\ngroup = 'x_min'\ntype = 'traction'\nvalue = 'manufactured'\n"),
+     "13:9: ", "needs a motion"},
+    {"probe_without_name",
+     after("[[probe]]\nname = ''\nunit = 'm'\nkind = 'point'\nat = [0, 0, 0]\nquantity = 'ux'\n"),
+     "11:8: ", "is empty"},
+    {"probe_twice", after(probe + probe), "1", "a probe is already called 'tip'"},
+    {"out_of_plane",
+     "[mesh]\nelement = 'quadrilateral'\ncells = [2, 2]\n" + material + time +
+         "[initial]\ndeformation_gradient = [[1, 0, 0.1], [0, 1, 0], [0, 0, 1]]\n",
+     "12:", "leaves the plane"},
     {"list_for_table", "[[mesh]]\ncells = [1, 1, 1]\n", "1:", "write [mesh]"},
     {"value_for_table", "mesh = 3\n", "1:8: ", "mesh is the number 3"},
     {"flag_for_number", mesh + material + "[time]\nend = true\n", "9:7: ", "time.end is true; it"},
@@ -110,6 +127,8 @@ const BadCase of_numbers[] = {
 };
 
 const BadCase of_idle_keys[] = {
+    {"single_exact", after("[scheme]\nprecision = 'single'\nimpedance = 'exact'\n"),
+     "11:13: ", "has no exact impedance"},
     {"mesh_missing", "[mesh]\nelement = 'triangle'\nfile = 'no.msh'\n", "3:8: ", "does not exist"},
     {"mesh_kind", "[mesh]\nelement = 'triangle'\nfile = 'no.stl'\n", "3:8: ", ".msh nor a .geo"},
     {"mesh_element", "[mesh]\nfile = 'no.msh'\n", "1:1: ", "mesh.element is missing"},
