@@ -295,17 +295,15 @@ TEST_P(Methods, MixedPrecisionKeepsTheIdentities) {
   }
 }
 
-/// Share of the values that differ by more than 1e-6 of the largest.
-double share_that_differs(const std::vector<double>& one, const std::vector<double>& other) {
-  const double bound = 1e-6 * largest(one);
-  int n = 0;
+/// Largest difference of two values over the largest value.
+double largest_difference(const std::vector<double>& one, const std::vector<double>& other) {
+  double most = 0;
   for (size_t k = 0; k < one.size(); ++k)
-    n += std::abs(one[k] - other[k]) <= bound ? 0 : 1;
-  return n / static_cast<double>(one.size());
+    most = std::max(most, std::abs(one[k] - other[k]));
+  return most / largest(one);
 }
 
-/// The state in single precision: all holds to single rounding, but for the few pairs whose slopes
-/// are limited on one side of a switch in double and on the other in single.
+/// The state in single precision: all holds to single rounding.
 TEST_P(Methods, SinglePrecisionKeepsTheIdentitiesToItsRounding) {
   for (const DissipationKind& kind :
        {isotropic, limited, barth_jespersen, venkatakrishnan, plain}) {
@@ -315,8 +313,10 @@ TEST_P(Methods, SinglePrecisionKeepsTheIdentitiesToItsRounding) {
       full.evaluate();
       single.evaluate();
       EXPECT_LT(single.state.bytes(), 0.6 * static_cast<double>(full.state.bytes()));
-      EXPECT_LE(share_that_differs(results(full), results(single)),
-                limits_slopes(kind.limiter) ? 0.02 : 0);
+      // 3.1e-4 with the limiter of Barth and Jespersen, at pairs on one side of its switch in
+      // double and on the other in single; below 2.3e-7 with all others
+      const bool has_switch = kind.limiter == scheme::PairLimiter::barth_jespersen;
+      EXPECT_LE(largest_difference(results(full), results(single)), has_switch ? 1e-3 : 1e-6);
       EXPECT_NEAR(single.numerical_power(), full.numerical_power(),
                   1e-4 * std::abs(full.numerical_power()));
       EXPECT_NEAR(single.rate[0], full.rate[0], 1e-6 * full.rate[0]);
