@@ -50,6 +50,21 @@ TEST(Deformation, InverseCAndGAreThoseOfFtFAndHtH) {
   }
 }
 
+TEST(Deformation, RightTensorsAreThoseOfFtF) {
+  RandomStates random(53);
+  for (int n = 0; n < 100; ++n) {
+    const auto X = deformation_of(random.deformation_gradient(3));
+    const auto right = physics::right_tensors(X.F);
+    const Mat3 F = algebra::to_eigen(X.F), C = F.transpose() * F;
+    const Mat3 G = C.determinant() * C.inverse().transpose();
+    EXPECT_LT(distance(algebra::to_eigen(right.C), C), 1e-13 * C.norm());
+    EXPECT_LT(distance(algebra::to_eigen(right.G), G), 1e-11 * G.norm());
+    // condition number of C up to 3^4, of G up to 3^8
+    EXPECT_LT(distance(algebra::to_eigen(right.inverse_C) * C, Mat3::Identity()), 1e-12);
+    EXPECT_LT(distance(algebra::to_eigen(right.inverse_G) * G, Mat3::Identity()), 1e-11);
+  }
+}
+
 TEST(MaxwellBranch, EnergyIsASumOverEigenvaluesAndNeverNegative) {
   RandomStates random(52);
   const auto sum = [](const Vec3& x) { return (x.array() - 1 - x.array().log()).sum(); };
