@@ -2,8 +2,10 @@
 
 #include "common/base/registry.hpp"
 #include "common/closure/closure_repair.hpp"
+#include "common/closure/summation_by_parts.hpp"
 #include "common/scheme/graph/classify_rows.hpp"
 #include "fvm/cell_stencil.hpp"
+#include "fvm/sbp_cells_graph.hpp"
 #include "fvm/sbp_graph.hpp"
 #include "fvm/sbp_operator.hpp"
 #include "meshes/cell_shares.hpp"
@@ -71,13 +73,19 @@ const std::vector<std::string>& stencil_names() {
 
 scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) {
   const Stencil stencil = stencils().at(options.stencil);
-  if (stencil == Stencil::sbp) return sbp_graph(mesh, options.order);
+  if (stencil == Stencil::sbp) {
+    return meshes::is_undistorted_block(mesh) ? sbp_graph(mesh, options.order)
+                                              : sbp_graph_of_cells(mesh);
+  }
   return graph_of_cells(
       mesh, stencil == Stencil::edge ? meshes::Quadrature::vertex : meshes::Quadrature::exact);
 }
 
 Operators operators_of(const meshes::Mesh& mesh, const Options& options) {
   if (stencils().at(options.stencil) != Stencil::sbp) return {};
+  if (!meshes::is_undistorted_block(mesh))
+    return {fmt::format("sbp: order 2 on the cells around {} nodes", mesh.n_nodes()),
+            {closure::sign_notice}};
   const std::vector<SbpLines> lines = sbp_lines(mesh, options.order);
   Operators operators{lines_text(lines), {}};
   for (const SbpLines& line : lines) {

@@ -95,6 +95,34 @@ std::vector<Place> exact_places(CellType type) {
   return places;
 }
 
+/// Of simplices, and of the triangle of a prism, Gauss points of squares and cubes that are
+/// collapsed onto them.
+std::vector<Place> fine_places(CellType type) {
+  const double g = std::sqrt(0.6);
+  const Place line[3] = {
+      {Vec3(-g, 0, 0), 5. / 9}, {Vec3(0, 0, 0), 8. / 9}, {Vec3(g, 0, 0), 5. / 9}};
+  const bool is_flat = dimension_of(type) == 2;
+  std::vector<Place> places;
+  for (int k = 0; k < (is_flat ? 1 : 3); ++k) {
+    for (const Place& y : line) {
+      for (const Place& x : line) {
+        Vec3 xi(x.xi[0], y.xi[0], is_flat ? 0 : line[k].xi[0]);
+        double weight = x.weight * y.weight * (is_flat ? 1 : line[k].weight);
+        if (type == CellType::triangle || type == CellType::prism ||
+            type == CellType::tetrahedron) {
+          const double s = (1 + xi[0]) / 2, t = (1 + xi[1]) / 2 * (1 - s);
+          weight *= (1 - s) / 4;
+          const double u = (1 + xi[2]) / 2 * (1 - s - t);
+          if (type == CellType::tetrahedron) weight *= (1 - s - t) / 2;
+          xi = Vec3(s, t, type == CellType::tetrahedron ? u : xi[2]);
+        }
+        places.push_back({xi, weight});
+      }
+    }
+  }
+  return places;
+}
+
 /// Reference coordinates and, per node, the nodes at the other ends of its edges.
 void place_nodes(CellType type, ReferenceCell& cell) {
   switch (type) {
@@ -138,6 +166,11 @@ ReferenceCell make_reference_cell(CellType type) {
   }
   for (const Place& place : exact_places(type)) {
     QuadraturePoint& point = cell.exact.emplace_back();
+    point.weight = place.weight;
+    evaluate(type, cell, place.xi, point);
+  }
+  for (const Place& place : fine_places(type)) {
+    QuadraturePoint& point = cell.fine.emplace_back();
     point.weight = place.weight;
     evaluate(type, cell, place.xi, point);
   }

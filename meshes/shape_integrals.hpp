@@ -36,6 +36,9 @@ struct ReferenceCell {
   std::array<Vec3, max_cell_nodes> nodes{};  ///< reference coordinates
   std::vector<QuadraturePoint> vertex;       ///< point q is node q
   std::vector<QuadraturePoint> exact;
+  /// Gauss points, three a direction: integrates cubics of X on planes, quadratics in space,
+  /// exactly.
+  std::vector<QuadraturePoint> fine;
   /// The nodes joined to each node by an edge (dimension of them), right-handed.
   std::array<std::array<int, 3>, max_cell_nodes> edges{};
 

@@ -158,10 +158,6 @@ double error_bar(const ColumnConvergence& study, const Quantity& quantity, size_
                                     {quantity.values[1], quantity.values[0]});
 }
 
-double formal_order(const io::RunSummary& run) {
-  return run.graph_operators.empty() ? 2 : 3;
-}
-
 double order_of_error(const ColumnConvergence& study, const Quantity& quantity, size_t level) {
   if (level == 0) return nothing;
   return report::observed_order(quantity.values[level - 1], quantity.values[level],

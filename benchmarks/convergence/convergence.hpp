@@ -5,7 +5,9 @@
 
 #include "common/io/run_record.hpp"
 #include "postprocess/report/grid_convergence.hpp"
+#include "postprocess/report/orders.hpp"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,14 +58,14 @@ double error_bar(const ColumnConvergence& study, const Quantity& quantity, size_
 /// Scalars of one column for a terminal of 100 columns; empty where there are none.
 std::string quantity_table(const ColumnConvergence& study);
 
-/// The order that a method as it ran is said to have in v and u: 3 where it sums by parts with the
-/// pair (4, 2), else 2.
-double formal_order(const io::RunSummary& run);
+using report::formal_order;
 
 /// Both methods, at the settings of the case, on the finest level: difference of each scalar
 /// against the sum of both error bars, where both methods resolve it (report::why_unresolved).
 /// Empty where there is nothing to compare.
-std::string agreement_table(const std::vector<ColumnConvergence>& studies);
+/// @param causes  quantity: why the methods are apart on it ([[apart]] of the case)
+std::string agreement_table(const std::vector<ColumnConvergence>& studies,
+                            const std::map<std::string, std::string>& causes = {});
 
 /// One line per column ("method": sph, fvm, or sph-compact for a variant), quantity and level, with
 /// the order and the estimate of the levels so far.

@@ -126,7 +126,8 @@ std::string tex_scalars(const ColumnConvergence& study) {
 std::string agreement_line(const ColumnConvergence& first,
                            const Quantity& one,
                            const ColumnConvergence& second,
-                           const Quantity& other) {
+                           const Quantity& other,
+                           const std::map<std::string, std::string>& causes) {
   const double difference = std::abs(one.values.back() - other.values.back());
   const double bars = error_bar(first, one, one.values.size() - 1) +
                       error_bar(second, other, other.values.size() - 1);
@@ -141,6 +142,10 @@ std::string agreement_line(const ColumnConvergence& first,
   };
   look_at(second, other);
   look_at(first, one);
+  if (verdict == "APART") {
+    const auto cause = causes.find(one.name);
+    verdict += cause == causes.end() ? ": the case has no [[apart]] for it" : ": " + cause->second;
+  }
   return fmt::format("{:<32} {:>10.2e} {:>10.2e}  {}\n",
                      (one.name + " [" + one.unit + "]").substr(0, 32), difference, bars, verdict);
 }
@@ -167,7 +172,8 @@ std::string quantity_table(const ColumnConvergence& study) {
   return text;
 }
 
-std::string agreement_table(const std::vector<ColumnConvergence>& columns) {
+std::string agreement_table(const std::vector<ColumnConvergence>& columns,
+                            const std::map<std::string, std::string>& causes) {
   std::vector<const ColumnConvergence*> methods;
   for (const ColumnConvergence& column : columns) {
     if (column.levels.back().variant.empty()) methods.push_back(&column);
@@ -178,7 +184,7 @@ std::string agreement_table(const std::vector<ColumnConvergence>& columns) {
   std::string lines;
   for (const Quantity& one : first.scalars) {
     for (const Quantity& other : second.scalars) {
-      if (other.name == one.name) lines += agreement_line(first, one, second, other);
+      if (other.name == one.name) lines += agreement_line(first, one, second, other, causes);
     }
   }
   if (lines.empty()) return "";

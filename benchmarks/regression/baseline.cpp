@@ -64,6 +64,7 @@ class Reader {
   [[noreturn]] void wrong(const char* key, const char* what) const {
     throw base::InputError(fmt::format("{}: '{}' must be {}", where_, key, what));
   }
+  bool has(const char* key) const { return json_.contains(key); }
   void only(std::initializer_list<const char*> known) const {
     for (const auto& item : json_.items()) {
       if (std::find(known.begin(), known.end(), item.key()) == known.end())
@@ -118,10 +119,16 @@ RegressBaseline baseline_from(const Reader& reader) {
   const Reader methods = reader.object("methods");
   for (const auto& item : methods.json().items()) {
     const Reader method(item.value(), methods.where() + ": " + item.key());
-    method.only({"state", "canary", "errors", "quantities"});
-    b.methods[item.key()] = {method.text("state"), figures_from(method.object("canary")),
+    method.only({"state", "canary", "errors", "quantities", "unmet"});
+    b.methods[item.key()] = {method.text("state"),
+                             figures_from(method.object("canary")),
                              figures_from(method.object("errors")),
-                             figures_from(method.object("quantities"))};
+                             figures_from(method.object("quantities")),
+                             {}};
+    if (!method.has("unmet")) continue;
+    const Reader unmet = method.object("unmet");
+    for (const auto& figure : unmet.json().items())
+      b.methods[item.key()].unmet[figure.key()] = unmet.number(figure.key().c_str());
   }
   return b;
 }
@@ -150,6 +157,8 @@ std::string to_json(const RegressBaseline& b) {
                                {"canary", figures_json(where, figures.canary)},
                                {"errors", figures_json(where, figures.errors)},
                                {"quantities", figures_json(where, figures.quantities)}};
+    for (const auto& [name, excess] : figures.unmet)
+      json["methods"][method]["unmet"][name] = finite(where + ": " + name, excess);
   }
   return with_figures_in_line(json.dump(1));
 }

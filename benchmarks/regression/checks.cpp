@@ -24,6 +24,30 @@ void append(std::vector<RegressCheck>& to, const std::vector<RegressCheck>& chec
   to.insert(to.end(), checks.begin(), checks.end());
 }
 
+/// What is asked of a method against what was not met when it was recorded.
+std::vector<RegressCheck> asked_checks(const MethodFigures& recorded,
+                                       const MethodMeasurement& now) {
+  std::vector<RegressCheck> checks = now.asked;
+  for (RegressCheck& check : checks) {
+    const auto known = recorded.unmet.find(check.figure);
+    if (check.verdict != Verdict::failed || known == recorded.unmet.end()) continue;
+    if (!std::isfinite(check.measured)) continue;
+    if (check.measured <= check.bound * known->second * (1 + known_growth)) {
+      check.verdict = Verdict::known;
+    } else {
+      check.note += fmt::format("{}not met when it was recorded, by less: {:.4g} times the bound",
+                                check.note.empty() ? "" : "; ", known->second);
+    }
+  }
+  for (const auto& [name, excess] : recorded.unmet) {
+    const bool is_measured = std::any_of(checks.begin(), checks.end(),
+                                         [&](const auto& one) { return one.figure == name; });
+    if (!is_measured)
+      checks.push_back(failure(reference_check, name, "was recorded as not met, is not measured"));
+  }
+  return checks;
+}
+
 }  // namespace
 
 double AgreementFigure::excess() const {
@@ -102,6 +126,7 @@ std::vector<RegressCheck> checks_of(const MethodFigures& recorded,
   append(checks,
          compare_figures("quantities", recorded.quantities, now.figures.quantities, sqrt_eps));
   append(checks, now.conservation);
+  append(checks, asked_checks(recorded, now));
   return checks;
 }
 
@@ -116,8 +141,13 @@ std::vector<RegressCheck> agreement_checks(const RegressBaseline& recorded,
     const auto known = recorded.disagreement.find(name);
     if (check.verdict == Verdict::failed && known != recorded.disagreement.end()) {
       check = checked("agreement", name, figure.excess(), known->second * (1 + known_growth), note);
-      if (check.verdict == Verdict::met)
+      if (check.verdict == Verdict::met) {
         check = {check.name, name, Verdict::known, check.measured, 1, note};
+        const auto why = now.explanations.find(name);
+        check.note += why != now.explanations.end()
+                          ? "; " + why->second
+                          : "; the case does not say why: add [[apart]] with the measured cause";
+      }
     }
     checks.push_back(check);
   }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace diptych::harness {
 
@@ -87,7 +88,18 @@ std::vector<RegressCheck> judged_by(const UnmetCase& unmet,
                                     const std::string& prefix,
                                     const io::RunSummary& run,
                                     std::vector<RegressCheck> checks) {
-  if (all_met(checks)) {
+  const auto is_of_entry = [&](const RegressCheck& check) {
+    return unmet.figure.empty() || check.figure == prefix + unmet.figure;
+  };
+  std::vector<RegressCheck> concerned;
+  std::copy_if(checks.begin(), checks.end(), std::back_inserter(concerned), is_of_entry);
+  if (concerned.empty()) {  // of a run that was stopped, or of a figure that no bound is on
+    checks.push_back(failure(
+        expect_check, prefix + "unmet",
+        fmt::format("{}'{}' was not judged", functions::prefix(unmet.where), unmet.figure)));
+    return checks;
+  }
+  if (all_met(concerned)) {
     return {failure(expect_check, prefix + "unmet",
                     fmt::format("{}the pass numbers are met now: remove this entry ({})",
                                 functions::prefix(unmet.where), unmet.because))};
@@ -95,7 +107,7 @@ std::vector<RegressCheck> judged_by(const UnmetCase& unmet,
   const auto endings = ending_checks(prefix, run, unmet.stops, unmet.by_step);
   if (!all_met(endings)) return endings;
   for (RegressCheck& check : checks) {
-    if (check.verdict != Verdict::failed) continue;
+    if (check.verdict != Verdict::failed || !is_of_entry(check)) continue;
     check.verdict = Verdict::known;
     check.note += (check.note.empty() ? "" : "; ") + unmet.because;
   }

@@ -7,6 +7,7 @@
 #include "benchmarks/run/backends.hpp"
 #include "benchmarks/run/breakdowns.hpp"
 #include "benchmarks/run/interruption.hpp"
+#include "benchmarks/run/judgement.hpp"
 #include "benchmarks/run/menus.hpp"
 #include "benchmarks/run/provenance.hpp"
 #include "benchmarks/run/run_case.hpp"
@@ -124,15 +125,6 @@ double floor_of(const std::string& unit, const NaturalScales& natural, double en
   return 0;
 }
 
-/// Largest energy that the body has held, or that was brought in.
-double energy_scale(const std::vector<io::HistoryRow>& history) {
-  double scale = 0;
-  for (const io::HistoryRow& row : history)
-    scale = std::max({scale, row.energy.kinetic + std::abs(row.energy.strain),
-                      std::abs(row.energy.external_work)});
-  return scale;
-}
-
 constexpr const char* fall_of_viscous = "fall of viscous dissipation";
 constexpr const char* fall_of_numerical = "fall of numerical dissipation";
 
@@ -144,13 +136,13 @@ double fall_of(const std::vector<io::HistoryRow>& history, double io::EnergySumm
     if (!std::isfinite(change)) return std::numeric_limits<double>::quiet_NaN();
     fall = std::max(fall, -change);
   }
-  const double scale = energy_scale(history);
+  const double scale = largest_energy(history);
   return scale > 0 ? fall / scale : fall;
 }
 
 void add_quantities(const RunResult& run, const NaturalScales& natural, RegressFigures& figures) {
   const io::RunSummary& s = run.summary;
-  const double energy = energy_scale(run.history);
+  const double energy = largest_energy(run.history);
   const auto exact = [&](const char* name, std::int64_t n) {
     figures[name] = {static_cast<double>(n), static_cast<double>(n)};
   };
@@ -324,6 +316,31 @@ void add_agreement(const cases::Case& setup,
   if (measurement.agreement.empty()) measurement.no_agreement = "no level 1 of both methods";
 }
 
+void add_asked(RegressCheck check, MethodMeasurement& now) {
+  if (check.verdict == Verdict::failed && std::isfinite(check.measured))
+    now.figures.unmet[check.figure] = check.measured / check.bound;
+  now.asked.push_back(std::move(check));
+}
+
+/// The bound of [bounds] on level 0.
+void ask_dissipation(const cases::Case& setup, const RunResult& run, MethodMeasurement& now) {
+  if (!setup.bounds.numerical_dissipation) return;
+  add_asked(checked(dissipation_check, "numerical share", numerical_share(run.history),
+                    *setup.bounds.numerical_dissipation),
+            now);
+}
+
+/// The uncertainties that references state, on the finest level.
+void ask_references(const RunResult& run, MethodMeasurement& now) {
+  for (const io::ReferenceSummary& one : run.summary.references) {
+    if (!one.uncertainty) continue;
+    add_asked(checked(reference_check, one.name + ", reference", one.greatest, *one.uncertainty,
+                      fmt::format("to {:.4g} s on level {}, {}", one.until, run.summary.level,
+                                  one.source)),
+              now);
+  }
+}
+
 RunOptions quiet_options(const std::string& method, int level, int threads) {
   RunOptions options;
   options.method = method;
@@ -346,6 +363,8 @@ RegressMeasurement measure_regress(const std::string& case_file,
   const cases::Case canary =
       harness::read_case(case_file, overriding(overriding(size.set, {"time.cfl=0.3"}), overrides));
   RegressMeasurement measurement;
+  for (const cases::ApartCase& one : setup.apart)
+    measurement.explanations[one.quantity] = one.because;
   std::map<std::string, NaturalScales> natural;  // of each method
   std::vector<CampaignRun> plan;
   for (const std::string& method : method_menu().names()) {
@@ -374,12 +393,14 @@ RegressMeasurement measure_regress(const std::string& case_file,
       return;
     }
     records.push_back(record_of(setup, run));
+    if (s.level + 1 == size.levels) ask_references(run, now);
     if (s.level > 0) return;
-    const double rounding = field_rounding(natural[s.method], energy_scale(run.history));
+    const double rounding = field_rounding(natural[s.method], largest_energy(run.history));
     add_errors(s, rounding, now.figures.errors);
     add_quantities(run, natural[s.method], now.figures.quantities);
     now.conservation = conservation_of(setup, run);
-    energy = std::max(energy, energy_scale(run.history));
+    ask_dissipation(setup, run, now);
+    energy = std::max(energy, largest_energy(run.history));
   };
   if (!make_runs(plan, TakeOver::nothing, add)) return measurement;
   if (size.levels < 2) {

@@ -1,6 +1,7 @@
 #include "benchmarks/run/case_observers.hpp"
 
 #include "common/run/quantities.hpp"
+#include "common/run/references.hpp"
 #include "meshes/cell_checks.hpp"
 
 #include <filesystem>
@@ -95,6 +96,7 @@ void CaseObservers::give(RunResult& result) {
   result.history = history_.take_rows();
   result.steps = steps_.take_rows();
   summary.quantities = run::quantities_of(setup_.probes, result.history, result.steps);
+  summary.references = run::references_of(setup_, result.history, result.steps);
   result.exact = exact_.columns();
   if (shapes_) result.shapes = shapes_->record();
   if (!scales_) return;

@@ -34,6 +34,8 @@ constexpr double cell_bytes = 30;
 constexpr double volume_corner = 70;  ///< of a cell that carries pressure
 constexpr double volume_node = 60;    ///< of a node of such
 constexpr double class_pair = 650;    ///< of rows that stand for many
+constexpr double solve_node = 600;    ///< while operators of any nodes are made to sum by parts
+constexpr double solve_pair = 8;
 
 struct Lattice {
   int dimension = 3;
@@ -104,6 +106,19 @@ double pairs_of_lines(const Lattice& lattice, int order) {
     pairs += of_line * lattice.nodes() / n;
   }
   return pairs;
+}
+
+/// Whether operators sum by parts on nodes that are no lattice (notes 4.5).
+bool sums_anywhere(const cases::Case& setup, const std::string& method) {
+  const bool sums = method == "sph" ? setup.sph.gradient == "sbp" : setup.fvm.stencil == "sbp";
+  return sums && (is_simplex(setup.mesh.element) || setup.mesh.perturbation != 0 ||
+                  !setup.mesh.file.empty());
+}
+
+/// Neighbours of a node of a large mesh within two rings of edges.
+double two_rings(const std::string& element, int dimension) {
+  if (is_simplex(element)) return dimension == 3 ? 64 : 18;
+  return dimension == 3 ? 24 : 12;
 }
 
 /// Nodes that a row of finite volumes reaches along a line.
@@ -205,7 +220,10 @@ double bytes_of(const cases::Case& setup,
   const double corners = size.cells * corners_of_cell(setup.mesh);
   const double volumes = has_volumes ? volume_corner * corners + volume_node * size.nodes : 0;
   const double geometry = n_class_pairs > 0 ? class_pair * n_class_pairs : stored * size.pairs;
-  return volumes + node * size.nodes + cell_bytes * size.cells + costs.pair * size.pairs + geometry;
+  const double solve =
+      sums_anywhere(setup, method) ? solve_node * size.nodes + solve_pair * size.pairs : 0;
+  return solve + volumes + node * size.nodes + cell_bytes * size.cells + costs.pair * size.pairs +
+         geometry;
 }
 
 /// Rows of a lattice differ within this many nodes of the boundary: C_ab holds what corrects both
@@ -270,6 +288,8 @@ MemoryEstimate estimate_memory(const cases::Case& setup, const std::string& meth
     const Support support = support_of(lattice, radius, exact ? 1 : 0.5);
     size.pairs = particle_pairs(lattice, support);
     is_regular = is_regular && (!support.is_touched || exact);
+  } else if (sums_anywhere(setup, method)) {
+    size.pairs = size.nodes * two_rings(setup.mesh.element, lattice.dimension);
   } else if (setup.fvm.stencil == "sbp") {
     size.pairs = pairs_of_lines(lattice, setup.fvm.order);
   } else {
@@ -295,6 +315,7 @@ MemoryEstimate estimate_memory(const cases::Case& setup,
     const bool all = setup.fvm.stencil == "integral" && !is_simplex(setup.mesh.element);
     const double of_simplices = d == 3 ? 14 : 6, of_boxes = d == 3 ? 6 : 4;
     const double around = all                              ? std::pow(3, d) - 1
+                          : sums_anywhere(setup, method)   ? two_rings(setup.mesh.element, d)
                           : is_simplex(setup.mesh.element) ? of_simplices
                                                            : of_boxes * reach_of(setup.fvm);
     size.pairs = size.nodes * around;

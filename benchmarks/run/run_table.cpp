@@ -1,5 +1,7 @@
 #include "benchmarks/run/run_table.hpp"
 
+#include "benchmarks/terminal/reference_table.hpp"
+
 #include <fmt/format.h>
 
 namespace diptych::harness {
@@ -80,6 +82,10 @@ std::string run_table(const io::RunSummary& s) {
   text += fmt::format(" J; residual {:.1e}\n", s.energy.relative_residual);
   for (const io::QuantitySummary& quantity : s.quantities)
     text += "  " + quantity_line(quantity) + "\n";
+  for (const io::ReferenceSummary& one : s.references) {
+    text += fmt::format("  {} against {}: off by at most {:.3g} (at {:.4g} s), {}\n", one.name,
+                        one.source, one.greatest, one.greatest_at, uncertainty_verdict(one));
+  }
   text += fmt::format("  status {}, least J {} (cells {}), state {}\n", s.status,
                       least_text(s.min_jacobian), least_text(s.least_cell_J), s.state_hash);
   return text + inverted_cells_warning(s);

@@ -12,7 +12,7 @@ packages_micro="libbenchmark-dev"
 packages_instructions="valgrind"
 packages_format="clang-format-14"
 packages_fuzz="clang-14 libclang-rt-14-dev libomp-14-dev"
-packages_coverage="gcovr"
+packages_coverage="llvm-14"
 packages_package="dpkg-dev file" # which CPack asks what is a program
 packages_bare="mmdebstrap ca-certificates"
 

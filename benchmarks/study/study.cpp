@@ -190,6 +190,13 @@ report::References references_of(const cases::Case& setup, const Study& study) {
   return references;
 }
 
+std::map<std::string, std::string> causes_of(const cases::Case& setup) {
+  std::map<std::string, std::string> causes;
+  for (const cases::ApartCase& one : setup.apart)
+    causes[one.quantity] = one.because;
+  return causes;
+}
+
 report::StudyReport report_of(const cases::Case& setup,
                               const Study& study,
                               const std::vector<ColumnConvergence>& convergence) {
@@ -210,6 +217,7 @@ report::StudyReport report_of(const cases::Case& setup,
     if (!column.variant.empty()) report.settings[column.name()] = base::joined(column.set);
   }
   report.references = references_of(setup, study);
+  report.causes = causes_of(setup);
   report.shapes = study.shapes;
   for (const ColumnConvergence& column : convergence)
     add_quantities(column, report);

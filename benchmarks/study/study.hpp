@@ -64,6 +64,9 @@ report::StudyReport report_of(const cases::Case& setup,
                               const Study& study,
                               const std::vector<ColumnConvergence>& convergence = {});
 
+/// Why the methods are apart on a quantity, as the case says ([[apart]]).
+std::map<std::string, std::string> causes_of(const cases::Case& setup);
+
 /// Law, constants and branches as lines of text.
 std::vector<std::string> material_lines(const cases::MaterialCase& material);
 

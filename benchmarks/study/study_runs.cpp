@@ -19,8 +19,9 @@ namespace diptych::harness {
 namespace {
 
 /// Repetitions go round the curves, level by level.
+/// @param cases  of each curve
 std::vector<CampaignRun> plan_of(const StudyRequest& request,
-                                 const std::vector<cases::Case>& cases,
+                                 const std::vector<const cases::Case*>& cases,
                                  const std::vector<WorkCurve>& curves) {
   const StudyOptions& study = request.run;
   const std::filesystem::path folder = std::filesystem::path(study.directory) / "runs";
@@ -28,7 +29,7 @@ std::vector<CampaignRun> plan_of(const StudyRequest& request,
   for (const int level : study.levels) {
     for (int repetition = 1; repetition <= request.repeats; ++repetition) {
       for (size_t curve = 0; curve < curves.size(); ++curve) {
-        const cases::Case& setup = cases[curve / study.methods.size()];
+        const cases::Case& setup = *cases[curve];
         const std::string name = curves[curve].name(), method = curves[curve].method;
         RunOptions options;
         options.method = method;
@@ -90,11 +91,15 @@ StudyRuns runs_of_study(const StudyRequest& request,
                         const std::vector<cases::Case>& cases,
                         OutputFolder& output) {
   StudyRuns runs;
-  for (const Variant& variant : variants) {
-    for (const std::string& method : request.run.methods)
-      runs.curves.push_back({variant.label, method, {}});
+  std::vector<const cases::Case*> of_curves;
+  for (size_t i = 0; i < variants.size(); ++i) {
+    for (const std::string& method : request.run.methods) {
+      if (!variants[i].method.empty() && variants[i].method != method) continue;
+      runs.curves.push_back({variants[i].label, method, {}});
+      of_curves.push_back(&cases[i]);
+    }
   }
-  std::vector<CampaignRun> plan = plan_of(request, cases, runs.curves);
+  std::vector<CampaignRun> plan = plan_of(request, of_curves, runs.curves);
   // of an exact solution the first run tells whether what was asked makes sense: nothing is
   // written before
   const bool is_asked_first = has_exact(cases.front());

@@ -20,6 +20,7 @@
 #include "common/parallel/for_chunks.hpp"
 #include "common/time/integrator.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace diptych::harness {
@@ -76,6 +77,10 @@ void study_stability(const StudyRequest& asked) {
     throw base::InputError(
         "--quantity has no effect with --stability, which shows limits; remove it");
   }
+  if (!request.run.variants.empty()) {
+    throw base::InputError(
+        "--with has no effect with --stability; --vary gives the limits of variants");
+  }
   if (request.integrators.empty()) request.integrators = time::integrator_menu().names();
   for (const std::string& integrator : request.integrators)
     time::integrator_menu().at(integrator);
@@ -124,11 +129,22 @@ void show_errors(const StudyRequest& request, const cases::Case& setup, const St
                work_precision_html(title, runs.curves, runs.field, machine));
 }
 
+/// Variants of either method that share a name share a row.
+std::vector<Variant> one_of_each_label(const std::vector<Variant>& variants) {
+  std::vector<Variant> rows;
+  for (const Variant& variant : variants) {
+    const bool is_there = std::any_of(
+        rows.begin(), rows.end(), [&](const Variant& row) { return row.label == variant.label; });
+    if (!is_there) rows.push_back(variant);
+  }
+  return rows;
+}
+
 void show_quantities(const StudyRequest& request,
                      const cases::Case& setup,
                      const std::vector<Variant>& variants,
                      const StudyRuns& runs) {
-  const VariantStudy study{runs.curves, variants,
+  const VariantStudy study{runs.curves, one_of_each_label(variants),
                            chosen_quantities(setup, request.quantities, runs)};
   const std::string title =
       fmt::format("Quantities: {}", setup.title.empty() ? setup.name : setup.title);
@@ -142,7 +158,9 @@ void show_quantities(const StudyRequest& request,
 }  // namespace
 
 std::vector<report::Breakdown> study_variants(const StudyRequest& asked) {
-  const auto variants = variants_of(asked.variations);
+  auto variants = variants_of(asked.variations);
+  for (Variant& one : variants_of_columns(asked.run.variants))
+    variants.push_back(std::move(one));
   const auto cases = cases_of(asked, variants);
   const cases::Case& setup = cases.front();
   const StudyRequest request = checked(asked, setup);

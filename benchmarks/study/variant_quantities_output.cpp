@@ -92,6 +92,7 @@ std::vector<std::string> varied_keys(const VariantStudy& study) {
 }
 
 std::string setting(const Variant& variant, size_t key) {
+  if (key >= variant.overrides.size()) return "";  // of --with, beside those that vary
   const std::string& text = variant.overrides[key];
   return text.substr(text.find('=') + 1);
 }

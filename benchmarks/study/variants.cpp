@@ -50,11 +50,19 @@ std::vector<Variant> variants_of(const std::vector<std::string>& variations) {
   return variants;
 }
 
+std::vector<Variant> variants_of_columns(const std::vector<Column>& columns) {
+  std::vector<Variant> variants;
+  for (const Column& column : columns)
+    variants.push_back({column.variant, {}, column.method, column.set});
+  return variants;
+}
+
 cases::Case case_of_variant(const std::string& path,
                             const std::vector<std::string>& overrides,
                             const Variant& variant) {
   std::vector<std::string> all = overrides;
   all.insert(all.end(), variant.overrides.begin(), variant.overrides.end());
+  all.insert(all.end(), variant.set.begin(), variant.set.end());
   return harness::read_case(path, all);
 }
 

@@ -6,11 +6,13 @@
 #include "benchmarks/run/case_mesh.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/menus.hpp"
+#include "benchmarks/terminal/reference_table.hpp"
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 #include "common/parallel/partition.hpp"
 #include "common/parallel/ranks.hpp"
 #include "common/parallel/thread_count.hpp"
+#include "common/run/references.hpp"
 
 #include <cstdio>
 #include <filesystem>
@@ -128,6 +130,15 @@ void declare_threads(CommandLine& line, int& threads) {
 void print_breakdowns(const harness::Study& study) {
   const std::string table = harness::breakdown_table(study.breakdowns);
   if (!table.empty()) print(table + "\n");
+}
+
+void print_references(const cases::Case& setup, const harness::Study& study) {
+  const std::string table = harness::reference_table(study.runs);
+  if (!table.empty()) print("\n" + table);
+  const std::string changed = run::changed_scene(setup.overrides);
+  if (setup.references.empty() || changed.empty()) return;
+  print(fmt::format("\nvalues from elsewhere: not held against, --set {} makes it another scene\n",
+                    changed));
 }
 
 std::string end_of(const harness::Study& study, const std::string& folder) {

@@ -39,6 +39,7 @@ int compare_methods(const CaseArguments& arguments) {
   options.shapes = true;
   const harness::Study study = harness::run_study(setup, options);
   print_comparison(setup, study);
+  print_references(setup, study);
   print_breakdowns(study);
   if (study.has_all()) write_report(setup, study, options.directory);
   return harness::exit_code_of_study(study.breakdowns, end_of(study, options.directory));

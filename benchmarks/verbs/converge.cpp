@@ -43,8 +43,9 @@ void show_convergence(const cases::Case& setup,
     const std::string table = harness::quantity_table(column);
     if (!table.empty()) print(table + "\n");
   }
-  const std::string agreement = harness::agreement_table(convergence);
+  const std::string agreement = harness::agreement_table(convergence, harness::causes_of(setup));
   if (!agreement.empty()) print(agreement + "\n");
+  print_references(setup, study);
   for (const auto& summary : study.runs)
     print(harness::inverted_cells_warning(summary));
   print_breakdowns(study);

@@ -21,7 +21,16 @@ struct StudyArguments : CaseArguments {
   int n_levels = 3;
   bool stability = false, fresh = false, atlas = false, coarse = false;
   std::string before;  ///< of an atlas
+
+  /// With the variants of --with; those of the case file too, where nothing else varies.
+  harness::StudyOptions compared_options() const;
 };
+
+harness::StudyOptions StudyArguments::compared_options() const {
+  CaseArguments arguments = *this;
+  arguments.no_variants = no_variants || stability || !request.variations.empty();
+  return arguments.comparison_options(arguments.read());
+}
 
 /// An atlas says itself what varies and what is judged.
 void check_atlas(const StudyArguments& arguments) {
@@ -29,7 +38,8 @@ void check_atlas(const StudyArguments& arguments) {
   const bool has_others = arguments.stability || !request.variations.empty() ||
                           !request.quantities.empty() || !request.field.empty() ||
                           !request.integrators.empty() ||
-                          request.repeats != harness::StudyRequest::by_default;
+                          request.repeats != harness::StudyRequest::by_default ||
+                          !arguments.with.empty() || arguments.no_variants;
   if (arguments.atlas && has_others) {
     throw base::InputError(
         "--atlas goes with --set, --level, --method, --coarse, --before, --fresh and --out: its "
@@ -62,7 +72,7 @@ int study(const StudyArguments& arguments) {
   harness::StudyRequest request = arguments.request;
   request.case_file = arguments.file();
   request.overrides = arguments.overrides;
-  request.run = arguments.study_options(harness::read_case(request.case_file));
+  request.run = arguments.compared_options();
   request.run.resume = !arguments.fresh;
   if (arguments.stability) {
     harness::study_stability(request);
@@ -81,6 +91,7 @@ Action declare_study(CommandLine& line) {
   harness::StudyRequest& request = arguments->request;
   arguments->declare_with_method(line);
   arguments->declare_force(line);
+  arguments->declare_variants(line);
   line.repeated("--vary", request.variations,
                 "KEY=VALUE,VALUE: a run for every value, all combinations; repeatable");
   line.option("--levels", arguments->n_levels, "number of levels, from --level on");

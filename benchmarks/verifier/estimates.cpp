@@ -6,6 +6,7 @@
 #include "postprocess/report/grid_convergence.hpp"
 #include "postprocess/report/orders.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -15,19 +16,24 @@ namespace {
 
 /// A column of one sequence on its three finest levels.
 struct Estimate {
-  double finest = 0;
+  std::string method;
+  double finest = 0, scale = 0;  ///< scale: its largest size on any level
+  double formal_order = 2;
   report::GridConvergence convergence;
 };
 
 std::optional<Estimate> estimate_of(const VerificationSequence& sequence, size_t column) {
   std::vector<double> spacings, values;
+  double scale = 0;
   for (const VerificationRow& row : sequence.rows) {
     spacings.push_back(row.summary.spacing);
     values.push_back(row.value[column]);
+    scale = std::max(scale, std::abs(row.value[column]));
   }
   const auto convergence = report::finest_convergence(spacings, values);
   if (!convergence) return std::nullopt;
-  return Estimate{values.back(), *convergence};
+  return Estimate{sequence.method, values.back(), scale,
+                  report::formal_order(sequence.rows.back().summary), *convergence};
 }
 
 /// Five digits: more than an error bar of a per mille leaves.
@@ -43,8 +49,17 @@ std::vector<std::string> line_of(const std::string& method, const Estimate& e) {
           number_text(c.extrapolated, value_format)};
 }
 
-/// "yes, 0.3 of the bars"
+/// "yes, 0.3 of the bars"; a verdict needs that both methods resolve the value.
 std::string agreement(const Estimate& a, const Estimate& b) {
+  const double scale = std::max(a.scale, b.scale);
+  std::string unresolved;
+  for (const Estimate* one : {&a, &b}) {
+    const std::string why = report::why_unresolved(one->convergence, scale, one->formal_order);
+    if (why.empty()) continue;
+    unresolved += fmt::format("{}{} {}", unresolved.empty() ? "unresolved: " : "; ",
+                              one->method == "fvm" ? "FVM" : "SPH", why);
+  }
+  if (!unresolved.empty()) return unresolved;
   const double difference = std::abs(a.finest - b.finest);
   const double bars = a.convergence.error_bar + b.convergence.error_bar;
   if (difference == 0) return "yes";

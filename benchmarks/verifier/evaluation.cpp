@@ -16,14 +16,18 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
+/// Letters and digits, '_' for what is neither.
+std::string plain_name(const std::string& text) {
+  std::string name;
+  for (const char c : text)
+    name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return name;
+}
+
 /// A probe "tip displacement" as tip_displacement (at the end), tip_displacement_least, _greatest;
 /// where it oscillates _period, _amplitude, _mean, _decrement, else these are no numbers.
 void add_quantity(const io::QuantitySummary& quantity, std::map<std::string, double>& numbers) {
-  std::string name;
-  for (const char c : quantity.name) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
-    name += plain ? c : '_';
-  }
+  const std::string name = plain_name(quantity.name);
   const bool swings = quantity.n_periods > 0;
   numbers[name] = quantity.final_value;
   numbers[name + "_least"] = quantity.least;
@@ -32,6 +36,14 @@ void add_quantity(const io::QuantitySummary& quantity, std::map<std::string, dou
   numbers[name + "_amplitude"] = swings ? quantity.amplitude : nothing;
   numbers[name + "_mean"] = swings ? quantity.mean : nothing;
   numbers[name + "_decrement"] = quantity.decrement.value_or(nothing);
+}
+
+/// A reference of the probe "tip x" as tip_x_off (largest distance), tip_x_off_rms, tip_x_off_end.
+void add_reference(const io::ReferenceSummary& one, std::map<std::string, double>& numbers) {
+  const std::string name = plain_name(one.name) + "_off";
+  numbers[name] = one.greatest;
+  numbers[name + "_rms"] = one.rms;
+  numbers[name + "_end"] = one.at_end;
 }
 
 /// The numbers of a run under the names that columns use.
@@ -66,6 +78,8 @@ std::map<std::string, double> numbers_of(const VerificationTable& table,
   numbers["least_cell_J"] = run.least_cell_J;
   for (const io::QuantitySummary& quantity : run.quantities)
     add_quantity(quantity, numbers);
+  for (const io::ReferenceSummary& one : run.references)
+    add_reference(one, numbers);
   return numbers;
 }
 

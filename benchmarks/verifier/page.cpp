@@ -188,8 +188,11 @@ constexpr const char* of_literature =
     "Extrapolated values, orders and error bars come from the three finest levels (Richardson; the "
     "grid convergence index,\nGCI, is the bar over the finest value; where values oscillate or "
     "diverge no order stands and the bar is three times\ntheir range). \"agree\": whether |SPH - "
-    "FVM| on the finest level is within the sum of both bars. Energies are those at\nthe end. "
-    "Flop are counted as 147 a pair update (benchmarks/probes/work_counts.hpp).";
+    "FVM| on the finest level is within the sum of both bars, where each method shows an order "
+    "within\n"
+    "0.5 of its own and a bar of at most 5 % of the largest value; else \"unresolved\", and why. "
+    "Energies are those "
+    "at the end.\nFlop are counted as 147 a pair update (benchmarks/probes/work_counts.hpp).";
 
 /// As a block of code in Markdown.
 std::string indented(const std::string& text) {

@@ -116,11 +116,12 @@ struct ProbeCase {
   std::string column() const { return name + " [" + unit + "]"; }
 };
 
-/// [[reference]]: values of a probe from elsewhere, which a report draws as points.
+/// [[reference]]: values of a probe from elsewhere, which runs are held against.
 struct ReferenceCase {
   std::string probe;                          ///< name of a probe of the case
   std::string source;                         ///< where they are from
-  std::vector<std::array<double, 2>> points;  ///< s, unit of the probe
+  std::vector<std::array<double, 2>> points;  ///< s, unit of the probe, in the order of time
+  std::optional<double> uncertainty;          ///< of all of them, unit of the probe
 };
 
 /// [scheme]
@@ -175,6 +176,7 @@ struct BoundCase {
 /// [[expect.unmet]]: who does not meet the pass numbers today, and how the run ends until then.
 struct UnmetCase {
   std::string method, variant;  ///< variant: one of expect.variants, or empty
+  std::string figure;           ///< the one bound that does not hold; empty: whichever do not
   std::string stops;            ///< part of the message that stops the run; empty: it ends
   std::int64_t by_step = 0;     ///< at the latest; 0: at any
   std::string because;
@@ -199,6 +201,17 @@ struct ExpectCase {
   std::vector<UnmetCase> unmet;
 };
 
+/// [[apart]]: a quantity on which the methods differ by more than their error bars, and why.
+struct ApartCase {
+  std::string quantity;  ///< a probe, an energy, "min jacobian"
+  std::string because;
+};
+
+/// [bounds]: what the regression asks of both methods at the size of the baseline.
+struct BoundsCase {
+  std::optional<double> numerical_dissipation;  ///< share of the largest energy
+};
+
 struct Case {
   std::string name;  ///< folder or file name of the case
   std::string file;  ///< absolute path; of a copy that a run left, that of its original
@@ -221,6 +234,8 @@ struct Case {
   SphCase sph;
   FvmCase fvm;
   ExactCase exact;
+  BoundsCase bounds;
+  std::vector<ApartCase> apart;
   ExpectCase expect;
   std::vector<VariantCase> variants;
 };

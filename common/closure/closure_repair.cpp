@@ -24,11 +24,12 @@ ClosureRepair repair_closure_pairs(scheme::PairGraph& graph,
   if (result.before <= limits.closure) return result;
   PairCorrection correction(graph, k);
   const AffinePart affine_part(graph.X);
+  const NullPart remove_affine_part = [&](Field& r) { affine_part.remove(r); };
   const FieldOperator S = [&](const Field& in, Field& out) { correction.apply_S(in, out); };
   const FieldOperator inverse = [&](const Field& r, Field& z) { correction.precondition(r, z); };
   for (int pass = 0; pass < most_passes && !(result.after <= limits.closure); ++pass) {
     const SolveLimits left{0.5 * limits.closure, limits.iterations - result.iterations};
-    result.iterations += conjugate_gradients(S, inverse, affine_part, unit, left, gap, y);
+    result.iterations += conjugate_gradients(S, inverse, remove_affine_part, unit, left, gap, y);
     std::vector<Vec3> C_before = graph.C;
     correction.change(y, graph.C);
     gap = closure_gap(graph);

@@ -11,9 +11,6 @@ namespace {
 /// Below this many nodes a loop is too short to be worth the start of threads.
 constexpr size_t least_parallel = 8192;
 
-/// Steps without progress after which the system has no solution, or round-off is reached.
-constexpr int patience = 500;
-
 /// Sum of what work(begin, end) gives for the chunks of [0, n), with the same bits for every number
 /// of threads.
 template <class T, class Work>
@@ -100,14 +97,14 @@ void AffinePart::remove(Field& r) const {
 
 int conjugate_gradients(const FieldOperator& S,
                         const FieldOperator& precondition,
-                        const AffinePart& affine_part,
+                        const NullPart& remove_null_part,
                         const std::vector<double>& unit,
                         const SolveLimits& limits,
                         Field r,
                         Field& y) {
   const size_t n = r.size();
   y.assign(n, Vec3::Zero());
-  affine_part.remove(r);
+  remove_null_part(r);
   Field z(n, Vec3::Zero()), Sp(n);
   precondition(r, z);
   Field p = z;
@@ -115,7 +112,7 @@ int conjugate_gradients(const FieldOperator& S,
   Field best_y = y;
   double residual = greatest(r, unit), best = residual;
   int step = 0, best_step = 0;
-  while (step < limits.steps && residual > limits.residual && step < best_step + patience) {
+  while (step < limits.steps && residual > limits.residual && step < best_step + limits.patience) {
     S(p, Sp);
     const Vec3 alpha = quotient(rz, dot(p, Sp));
     for_each_node(n, [&](std::int64_t begin, std::int64_t end) {
@@ -124,7 +121,7 @@ int conjugate_gradients(const FieldOperator& S,
         r[a] -= alpha.cwiseProduct(Sp[a]);
       }
     });
-    affine_part.remove(r);
+    remove_null_part(r);
     precondition(r, z);
     const Vec3 rz_next = dot(r, z);
     const Vec3 beta = quotient(rz_next, rz);
@@ -146,6 +143,7 @@ int conjugate_gradients(const FieldOperator& S,
 }
 
 double greatest(const Field& r, const std::vector<double>& unit) {
+  const auto per_unit = static_cast<std::int64_t>(r.size() / unit.size());
   struct Largest {
     double value = 0;
     Largest& operator+=(const Largest& other) {
@@ -157,7 +155,8 @@ double greatest(const Field& r, const std::vector<double>& unit) {
                                 [&](std::int64_t begin, std::int64_t end) {
                                   Largest result;
                                   for (std::int64_t a = begin; a < end; ++a)
-                                    result.value = std::max(result.value, r[a].norm() * unit[a]);
+                                    result.value =
+                                        std::max(result.value, r[a].norm() * unit[a / per_unit]);
                                   return result;
                                 })
       .value;

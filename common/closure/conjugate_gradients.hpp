@@ -1,7 +1,7 @@
 #pragma once
-/// Conjugate gradients for the singular systems of the closure repair: S y = r with S symmetric
-/// positive semi-definite and zero on affine fields. The three components of the fields have the
-/// same S and run side by side, each with its own step lengths.
+/// Conjugate gradients for the singular systems of the closure repair and of summation by parts:
+/// S y = r with S symmetric positive semi-definite and zero on polynomial fields. The three
+/// components of the fields have the same S and run side by side, each with its own step lengths.
 /// Test: tests/graphs/closure_repair_test.cpp.
 
 #include "common/algebra/vectors.hpp"
@@ -36,9 +36,14 @@ class AffinePart {
   Mat3 inverse_ = Mat3::Identity();
 };
 
+/// Takes out of a field what S does not see.
+using NullPart = std::function<void(Field& r)>;
+
 struct SolveLimits {
   double residual = 0;  ///< greatest |r_a| unit_a to stop below
   int steps = 0;
+  /// Steps without progress after which the system has no solution, or round-off is reached.
+  int patience = 500;
 };
 
 /// Solves from y = 0 until max_a |r_a| unit_a <= limits.residual, or until that stops falling (a
@@ -46,13 +51,13 @@ struct SolveLimits {
 /// @return steps taken
 int conjugate_gradients(const FieldOperator& S,
                         const FieldOperator& precondition,
-                        const AffinePart& affine_part,
+                        const NullPart& remove_null_part,
                         const std::vector<double>& unit,
                         const SolveLimits& limits,
                         Field r,
                         Field& y);
 
-/// max_a |r_a| unit_a
+/// max_a |r_a| unit_a, r with the same number of entries for each unit
 double greatest(const Field& r, const std::vector<double>& unit);
 
 }  // namespace diptych::closure

@@ -1,11 +1,12 @@
 #include "common/closure/spline_levels.hpp"
 
-#include "common/closure/conjugate_gradients.hpp"
+#include "common/closure/spline_sums.hpp"
 #include "common/parallel/for_each.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <random>
 
 namespace diptych::closure {
 
@@ -52,51 +53,60 @@ struct Cluster {
   double Omega = 0;
 };
 
-/// grid[first...] += w r over the splines of a node, value = {x, y, z} per direction.
-DIPTYCH_CLONES void spread_nodes(const std::int32_t* begin,
-                                 const std::int32_t* end,
-                                 const SplineLevels::NodeSplines* splines,
-                                 const SplineLevels::Index& n,
-                                 int n_z,
-                                 const Vec3* r,
-                                 Four* grid) {
-  for (; begin != end; ++begin) {
-    const SplineLevels::NodeSplines& s = splines[*begin];
-    const Four field = algebra::load_three(r[*begin]);
-    for (int k = 0; k < n_z; ++k) {
-      for (int j = 0; j < 3; ++j) {
-        const Four w = s.value[2][k] * s.value[1][j] * field;
-        Four* g = grid + s.first + (static_cast<std::int64_t>(k) * n[1] + j) * n[0];
-        for (int i = 0; i < 3; ++i)
-          g[i] += s.value[0][i] * w;
-      }
-    }
-  }
-}
-
-/// z += the splines of nodes [begin, end).
-DIPTYCH_CLONES void gather_nodes(std::int64_t begin,
-                                 std::int64_t end,
-                                 const SplineLevels::NodeSplines* splines,
-                                 const SplineLevels::Index& n,
-                                 int n_z,
-                                 const Four* grid,
-                                 Vec3* z) {
-  for (std::int64_t a = begin; a < end; ++a) {
-    const SplineLevels::NodeSplines& s = splines[a];
-    Four sum = algebra::load_three(z[a]);
-    for (int k = 0; k < n_z; ++k) {
-      for (int j = 0; j < 3; ++j) {
-        const Four* g = grid + s.first + (static_cast<std::int64_t>(k) * n[1] + j) * n[0];
-        sum += s.value[2][k] * s.value[1][j] *
-               (s.value[0][0] * g[0] + s.value[0][1] * g[1] + s.value[0][2] * g[2]);
-      }
-    }
-    algebra::store_three(z[a].data(), sum);
-  }
-}
-
 }  // namespace
+
+SplineLevels::SplineLevels(const scheme::PairGraph& graph,
+                           const std::vector<double>& k,
+                           const std::vector<Mat3>& inverse,
+                           const std::vector<double>& h)
+    : SplineLevels(graph, k, inverse) {
+  node_slopes_.resize(graph.X.size());
+  for_each_node(graph.X.size(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      const Splines s = splines_at(levels_.front(), graph.X[a]);
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j)
+          node_slopes_[a].value[i][j] = h[a] / 3 * s.slope[i][j];
+      }
+    }
+  });
+}
+
+void SplineLevels::scale_to(const FieldOperator& S) {
+  const size_t per_node = node_slopes_.empty() ? 1 : 1 + static_cast<size_t>(dimension_);
+  Field z(node_splines_.size() * per_node), S_z(z.size());
+  std::mt19937 engine(1);
+  const auto sign = [&] { return (engine() & 1U) != 0 ? 1.0 : -1.0; };
+  const auto energy_of = [&] {  // over the square of the field
+    S(z, S_z);
+    double energy = 0, square = 0;
+    for (size_t i = 0; i < z.size(); ++i) {
+      energy += z[i].dot(S_z[i]);
+      square += z[i].squaredNorm();
+    }
+    return std::array{energy, energy / square};
+  };
+  for (Vec3& noise : z)
+    noise = Vec3(sign(), sign(), sign());
+  const double largest = energy_of()[1];
+  for (size_t l = 0; l < levels_.size(); ++l) {
+    Level& level = levels_[l];
+    double expected = 0;
+    for (std::int64_t i = 0; i < level.size(); ++i) {
+      level.grid[i] = Four{};
+      if (!(level.diagonal[i] > 0)) continue;
+      expected += 3 * level.diagonal[i];
+      for (int c = 0; c < 3; ++c)
+        level.grid[i][c] = sign();
+    }
+    std::fill(z.begin(), z.end(), Vec3::Zero());
+    prolong(l, z);
+    const auto [measured, relative] = energy_of();
+    const bool is_felt = expected > 0 && relative > felt_energy * largest;
+    for (double& diagonal : level.diagonal)
+      diagonal *= is_felt ? measured / expected : 0;
+  }
+}
 
 SplineLevels::SplineLevels(const scheme::PairGraph& graph,
                            const std::vector<double>& k,
@@ -297,8 +307,13 @@ void SplineLevels::add(const std::vector<Vec3>& r, std::vector<Vec3>& z) {
     std::fill_n(level.grid.data(), level.grid.size(), Four{});
   Level& finest = levels_.front();
   visit_layers([&](const std::int32_t* begin, const std::int32_t* end) {
-    spread_nodes(begin, end, node_splines_.data(), finest.n, per_direction_z_, r.data(),
-                 finest.grid.data());
+    if (node_slopes_.empty()) {
+      spread_nodes(begin, end, node_splines_.data(), finest.n, per_direction_z_, r.data(),
+                   finest.grid.data());
+    } else {
+      spread_nodes_with_slopes(begin, end, node_splines_.data(), node_slopes_.data(), finest.n,
+                               dimension_, r.data(), finest.grid.data());
+    }
   });
   for (size_t l = 1; l < levels_.size(); ++l) {
     for_each_child(levels_[l - 1], levels_[l], [&](std::int64_t f, std::int64_t c, double w) {
@@ -316,9 +331,26 @@ void SplineLevels::add(const std::vector<Vec3>& r, std::vector<Vec3>& z) {
       level.grid[f] += w * levels_[l + 1].grid[c];
     });
   }
-  for_each_node(z.size(), [&](std::int64_t begin, std::int64_t end) {
-    gather_nodes(begin, end, node_splines_.data(), finest.n, per_direction_z_, finest.grid.data(),
-                 z.data());
+  prolong(0, z);
+}
+
+/// z += the splines of a level, with the factors that its grid holds.
+void SplineLevels::prolong(size_t level, std::vector<Vec3>& z) {
+  for (size_t l = level; l-- > 0;) {
+    std::fill_n(levels_[l].grid.data(), levels_[l].grid.size(), Four{});
+    for_each_child(levels_[l], levels_[l + 1], [&](std::int64_t f, std::int64_t c, double w) {
+      levels_[l].grid[f] += w * levels_[l + 1].grid[c];
+    });
+  }
+  const Level& finest = levels_.front();
+  for_each_node(node_splines_.size(), [&](std::int64_t begin, std::int64_t end) {
+    if (node_slopes_.empty()) {
+      gather_nodes(begin, end, node_splines_.data(), finest.n, per_direction_z_, finest.grid.data(),
+                   z.data());
+    } else {
+      gather_nodes_with_slopes(begin, end, node_splines_.data(), node_slopes_.data(), finest.n,
+                               dimension_, finest.grid.data(), z.data());
+    }
   });
 }
 

@@ -9,10 +9,17 @@
 /// so quadratic B-splines (C^1) on grids of spacing H, 2H, 4H, ... carry the additive
 /// preconditioner of Bramble, Pasciak and Xu (1990):
 ///   z = D^-1 r + sum_levels P D_level^-1 P^T r.
+///
+/// The operator of quadratic_correction.hpp measures how far a field is from a cubic: multipliers
+/// (y, Y h) = (phi, h grad phi / 3) do nothing where phi is one. The same splines, with their
+/// gradients, carry its smooth modes; what their energy is beside that of their curvature is
+/// measured, level by level, on sums of all splines with random signs.
 /// Test: tests/graphs/closure_repair_test.cpp (steps stay bounded when the grid is refined).
 
 #include "common/algebra/field.hpp"
 #include "common/algebra/four.hpp"
+#include "common/closure/conjugate_gradients.hpp"
+#include "common/closure/spline_sums.hpp"
 #include "common/scheme/graph/pair_graph.hpp"
 
 #include <array>
@@ -21,24 +28,24 @@
 
 namespace diptych::closure {
 
-using algebra::Four;
-using algebra::Mat3;
-using algebra::Vec3;
-
 class SplineLevels {
  public:
-  using Index = std::array<int, 3>;
-  /// The splines of the finest level that a node feels, as add() reads them.
-  struct NodeSplines {
-    std::int64_t first = 0;  ///< index of the lowest spline
-    double value[3][3];      ///< by direction
-  };
+  using Index = SplineIndex;
 
   /// @param k       [n_pairs] weights of the repair
   /// @param inverse [n_nodes] inverse second moments of the rows, see repair_closure_pairs
   SplineLevels(const scheme::PairGraph& graph,
                const std::vector<double>& k,
                const std::vector<Mat3>& inverse);
+  /// For multipliers with gradients: fields hold 1 + dimension vectors a node.
+  /// @param h [n_nodes] spacings  [m]
+  SplineLevels(const scheme::PairGraph& graph,
+               const std::vector<double>& k,
+               const std::vector<Mat3>& inverse,
+               const std::vector<double>& h);
+
+  /// Makes the energy of each level that of S.
+  void scale_to(const FieldOperator& S);
 
   /// z += sum_levels P D^-1 P^T r
   void add(const std::vector<Vec3>& r, std::vector<Vec3>& z);
@@ -69,6 +76,7 @@ class SplineLevels {
                   double Omega,
                   const Eigen::Matrix<double, 6, 6> T[2]) const;
   void leave_out_unfelt(Level& level);
+  void prolong(size_t level, std::vector<Vec3>& z);
   /// Calls visit(fine, coarse, weight) for the two-scale relation 1/4 (1 3 3 1) in each direction.
   template <class Visit>
   void for_each_child(const Level& fine, const Level& coarse, const Visit& visit) const;
@@ -78,6 +86,7 @@ class SplineLevels {
   Vec3 lower_ = Vec3::Zero();
   std::vector<Level> levels_;
   std::vector<NodeSplines> node_splines_;  ///< [n_nodes] on the finest level
+  std::vector<NodeSlopes> node_slopes_;    ///< [n_nodes], empty without gradients
   /// Nodes by the layer of the finest grid that they are in; three layers apart they share no
   /// spline.
   std::vector<std::int32_t> by_layer_;

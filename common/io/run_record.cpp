@@ -45,6 +45,18 @@ Json quantity_json(const QuantitySummary& quantity) {
   return json;
 }
 
+Json references_json(const std::vector<ReferenceSummary>& references) {
+  Json all = Json::object();
+  for (const ReferenceSummary& one : references) {
+    Json json = {{"probe", one.probe}, {"source", one.source},     {"times", one.n_times},
+                 {"until", one.until}, {"greatest", one.greatest}, {"greatest_at", one.greatest_at},
+                 {"rms", one.rms},     {"at_end", one.at_end}};
+    if (one.uncertainty) json["uncertainty"] = *one.uncertainty;
+    all[one.name] = json;
+  }
+  return all;
+}
+
 Json cells_json(const RunSummary& summary) {
   Json json = {{"least_J", summary.least_cell_J}, {"most_inverted", summary.most_inverted_cells}};
   if (summary.inverted_from) json["inverted_from"] = *summary.inverted_from;
@@ -247,6 +259,26 @@ std::vector<QuantitySummary> read_quantities(const Section& section) {
   return quantities;
 }
 
+std::vector<ReferenceSummary> read_references(const Section& section) {
+  std::vector<ReferenceSummary> references;
+  for (const std::string& name : section.keys()) {
+    const Section entry = section.section(name);
+    ReferenceSummary one;
+    one.name = name;
+    one.probe = entry.text("probe");
+    one.source = entry.text("source");
+    one.n_times = entry.large_count("times");
+    one.until = entry.number("until");
+    one.greatest = entry.number("greatest");
+    one.greatest_at = entry.number("greatest_at");
+    one.rms = entry.number("rms");
+    one.at_end = entry.number("at_end");
+    if (entry.has("uncertainty")) one.uncertainty = entry.number("uncertainty");
+    references.push_back(std::move(one));
+  }
+  return references;
+}
+
 void read_quality(const Section& file, RunSummary& summary) {
   const Section graph = file.section("graph");
   summary.graph_closure = graph.number("closure");
@@ -350,6 +382,7 @@ std::string to_json(const RunSummary& summary) {
       {"state_hash", summary.state_hash},
       {"provenance", provenance_json(summary.provenance)},
   };
+  if (!summary.references.empty()) file["references"] = references_json(summary.references);
   if (!summary.variant.empty()) file["variant"] = summary.variant;
   if (summary.failure) file["failure"] = failure_json(*summary.failure);
   // Texts come from the user's case: bytes that are not UTF-8 become U+FFFD instead of an
@@ -375,6 +408,7 @@ RunSummary summary_from_json(const std::string& text, const std::string& path) {
   read_size_and_cost(file, summary);
   read_quality(file, summary);
   summary.provenance = read_provenance(file.section("provenance"));
+  if (file.has("references")) summary.references = read_references(file.section("references"));
   if (file.has("variant")) summary.variant = file.text("variant");
   if (file.has("failure")) summary.failure = read_failure(file.section("failure"));
   return summary;

@@ -41,6 +41,22 @@ struct QuantitySummary {
   std::optional<double> decrement;  ///< logarithmic, a period; from two periods on
 };
 
+/// How far a probe is from values from elsewhere ([[reference]] of the case), at their times.
+struct ReferenceSummary {
+  std::string name;  ///< of the probe; "tip (2)" where it is the second one of that probe
+  std::string probe, source;
+  std::int64_t n_times = 0;           ///< instants at which both are known
+  double until = 0;                   ///< s, the last of them
+  double greatest = 0;                ///< largest |run - reference|, unit of the probe
+  double greatest_at = 0;             ///< s
+  double rms = 0;                     ///< root mean square of run - reference
+  double at_end = 0;                  ///< run - reference at the last instant
+  std::optional<double> uncertainty;  ///< that the reference states, unit of the probe
+
+  /// Whether the run is within the stated uncertainty at every instant.
+  bool is_inside() const { return uncertainty && greatest <= *uncertainty; }
+};
+
 /// Why a run has the status "breakdown" (with time, step, node and place where they are known) or
 /// "failed" (full disk, no memory, an expression without a value).
 struct RunFailure {
@@ -99,8 +115,9 @@ struct RunSummary {
   // of the cells of the mesh, at the output times: deformed over reference volume
   double least_cell_J = 1;
   std::int64_t most_inverted_cells = 0;
-  std::optional<double> inverted_from;      ///< s, the first output time with such cells
-  std::vector<QuantitySummary> quantities;  ///< [[probe]] of the case, in its order
+  std::optional<double> inverted_from;       ///< s, the first output time with such cells
+  std::vector<QuantitySummary> quantities;   ///< [[probe]] of the case, in its order
+  std::vector<ReferenceSummary> references;  ///< [[reference]] that the run has a time of
   std::string state_hash;
   Provenance provenance;
 
@@ -111,8 +128,9 @@ struct RunSummary {
 /// rejected_steps, restarts, interventions{projections,resynchronisations,limited_pairs}, ...,
 /// dt{min,max}, errors{field{l1,l2,linf}}, energy{...}, momentum{linear_drift,angular_drift},
 /// involution{H,J}, min_jacobian, cells{least_J,most_inverted,inverted_from}, state_hash,
-/// provenance{...}; where the run was not finished, failure{message,time,step,node,place}; of a
-/// variant its name.
+/// provenance{...}; where the case has values from elsewhere references{name{probe,source,times,
+/// until,greatest,greatest_at,rms,at_end,uncertainty}}; where the run was not finished,
+/// failure{message,time,step,node,place}; of a variant its name.
 std::string to_json(const RunSummary& summary);
 
 /// @throws base::InputError on malformed text, a missing key, NaN

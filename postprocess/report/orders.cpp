@@ -40,6 +40,10 @@ double observed_order(double coarse_error,
   return std::log(coarse_error / fine_error) / std::log(coarse_spacing / fine_spacing);
 }
 
+double formal_order(const io::RunSummary& run) {
+  return run.graph_operators.empty() ? 2 : 3;
+}
+
 std::vector<std::string> methods_of(const std::vector<io::RunSummary>& runs) {
   std::set<std::string> names;
   for (const io::RunSummary& run : runs) {

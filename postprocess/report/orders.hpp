@@ -17,6 +17,10 @@ double observed_order(double coarse_error,
                       double coarse_spacing,
                       double fine_spacing);
 
+/// The order that a method as it ran is said to have in v and u: 3 where it sums by parts with the
+/// pair (4, 2), else 2.
+double formal_order(const io::RunSummary& run);
+
 /// Methods at the settings of the case in the order of a reader: sph, fvm, then others by name. A
 /// verdict is on these.
 std::vector<std::string> methods_of(const std::vector<io::RunSummary>& runs);

@@ -75,6 +75,7 @@ struct StudyReport {
                                               ///< its largest norm at any output time
   std::vector<ColumnDistance> distances;
   References references;
+  std::map<std::string, std::string> causes;  ///< quantity: why the methods are apart on it
   std::map<std::string, ShapeRecord> shapes;  ///< method: deformed surfaces of the finest level
   /// name and unit of a scalar: its values on the levels of each column
   std::map<std::pair<std::string, std::string>, std::vector<GridSeries>> quantities;

@@ -69,6 +69,7 @@ namespace {
 struct Agreement {
   std::vector<std::string> within, beyond;  ///< names
   std::vector<std::string> unresolved;      ///< names with the reason, HTML
+  std::vector<std::string> causes;          ///< of those beyond, with names, HTML
   size_t n_first = 0, n_second = 0;  ///< of those judged: where that method has the narrower bar
   size_t n_judged() const { return within.size() + beyond.size(); }
 };
@@ -88,7 +89,14 @@ Agreement agreement_of(const StudyReport& study, const Pair& pair) {
       agreement.unresolved.push_back(escaped(quantity.first + " (" + why + ")"));
       continue;
     }
-    (agree(a, b) ? agreement.within : agreement.beyond).push_back(quantity.first);
+    const bool is_within = agree(a, b);
+    (is_within ? agreement.within : agreement.beyond).push_back(quantity.first);
+    if (!is_within) {
+      const auto cause = study.causes.find(quantity.first);
+      agreement.causes.push_back(
+          escaped(quantity.first + ": " +
+                  (cause == study.causes.end() ? "the case does not say why" : cause->second)));
+    }
     if (a.error_bar < b.error_bar) ++agreement.n_first;
     if (b.error_bar < a.error_bar) ++agreement.n_second;
   }
@@ -131,6 +139,8 @@ std::vector<std::string> agreement_sentences(const StudyReport& study,
         fmt::format("They agree within their error bars on {} of {} quantities, but not on {}.",
                     n_within, n, names_html(agreement.beyond)));
   }
+  if (!agreement.causes.empty())
+    sentences.push_back(fmt::format("They are apart on {}.", fmt::join(agreement.causes, "; ")));
   if (n > 0 && !has_errors) sentences.insert(sentences.begin(), nearer_sentence(agreement, pair));
   if (!agreement.unresolved.empty()) {
     const std::string sentence = fmt::format(

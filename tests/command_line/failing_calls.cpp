@@ -6,6 +6,9 @@
 ///                          one fails with ENOSPC; "kill": the process is killed instead
 ///   DIPTYCH_FAIL_FROM=1    and every later one too, as on a disk that stays full
 ///   DIPTYCH_FAIL_COUNT=F   the number of calls is written to the file F at the end
+/// Linked into a test it fails the calls that the test asks for (failing_calls.hpp).
+
+#include "tests/command_line/failing_calls.hpp"
 
 #include <atomic>
 #include <cerrno>
@@ -33,11 +36,20 @@ long number_of(const char* name) {
 
 enum class Fate { good, fail, half };
 
+/// What is asked.
+struct Asked {
+  long at = number_of("DIPTYCH_FAIL_AT");
+  bool goes_on = number_of("DIPTYCH_FAIL_FROM") != 0;
+  const char* as = std::getenv("DIPTYCH_FAIL_AS");
+};
+Asked& asked() {
+  static Asked of_environment;
+  return of_environment;
+}
+
 /// Of the next call.
 Fate next_call(bool is_write) {
-  static const long at = number_of("DIPTYCH_FAIL_AT");
-  static const bool goes_on = number_of("DIPTYCH_FAIL_FROM") != 0;
-  static const char* as = std::getenv("DIPTYCH_FAIL_AS");
+  const auto& [at, goes_on, as] = asked();
   const long call = ++n_calls;
   if (is_short.exchange(false)) {
     errno = ENOSPC;
@@ -82,6 +94,19 @@ bool makes_files(int flags) {
 }
 
 }  // namespace
+
+namespace diptych::tests {
+
+void fail_call(long at, const char* as) {
+  asked() = {at, false, as};
+  n_calls = 0;
+  is_short = false;
+}
+long n_calls_made() {
+  return n_calls;
+}
+
+}  // namespace diptych::tests
 
 extern "C" {
 

@@ -50,6 +50,70 @@ TEST(VariantColumns, StandBesideTheMethodsOfAComparison) {
   EXPECT_TRUE(std::filesystem::exists(out / "sph-before" / "summary.json")) << "no variant's";
 }
 
+TEST(VariantColumns, AreCurvesOfAStudyWhereNothingElseVaries) {
+  const Folder folder;
+  folder.write("case.toml", small_case("A strip") +
+                                "[[variant]]\nname = \"integral\"\nset = [\"fvm.stencil="
+                                "integral\"]\n");
+  const std::string study =
+      "study case.toml --levels 1 --repeats 1 --quiet --threads 1 --quantity 'kinetic energy' ";
+  const auto outcome = diptych(folder, study + "--out out " + wide);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  const std::string number = " +[0-9.e+]+";
+  EXPECT_THAT(outcome.text, AllOf(ContainsRegex("as it stands" + number + number + "\n"),
+                                  ContainsRegex("integral +-" + number + "\n"),
+                                  ContainsRegex("wide" + number + " +-\n")));
+  const auto varied = diptych(folder, study + "--out varied --vary time.cfl=0.2,0.4");
+  EXPECT_EQ(varied.exit_code, 0) << varied.text;
+  EXPECT_THAT(varied.text, AllOf(HasSubstr("cfl=0.4"), Not(HasSubstr("integral"))));
+  const auto refused = diptych(folder, "study case.toml --stability " + wide);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.text, HasSubstr("--with has no effect with --stability"));
+}
+
+TEST(References, AreToldOfEveryColumnWithTheirUncertainty) {
+  const Folder folder;
+  folder.write("case.toml", small_case("A strip") + R"(
+[[probe]]
+name = "tip"
+unit = "m"
+at = [0.1, 0]
+quantity = "ux"
+
+[[reference]]
+probe = "tip"
+value = 0
+time = 0
+uncertainty = 1e-6
+source = "at rest"
+
+[[reference]]
+probe = "tip"
+file = "tip.csv"
+column = "far"
+relative_uncertainty = 0.01
+source = "invented"
+)");
+  folder.write("tip.csv", "t,near,far\n0,0,1\n5e-4,0,1\n");
+  const auto outcome = diptych(folder, "compare case.toml --quiet --out out " + wide);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr("tip, +-1e-06: at rest\n"),
+                                  ContainsRegex("  sph-wide +0 +0 .* met\n"),
+                                  HasSubstr("tip (2), +-0.01: invented\n"),
+                                  ContainsRegex("  fvm +0 +1 .*NOT met, 1e\\+02 times\n")));
+  const auto summary = summary_in(folder.path() / "out" / "fvm");
+  ASSERT_EQ(summary.references.size(), 2u);
+  EXPECT_TRUE(summary.references[0].is_inside());
+  EXPECT_EQ(summary.references[1].name, "tip (2)");
+  EXPECT_EQ(*summary.references[1].uncertainty, 0.01);
+  EXPECT_THAT(text_of(folder.path() / "out" / "report.html"),
+              HasSubstr("<strong>not met</strong>"));
+  const auto other =
+      diptych(folder, "compare case.toml --quiet --out other --set parameters.E=1e6");
+  EXPECT_THAT(other.text, AllOf(Not(HasSubstr("at rest")),
+                                HasSubstr("--set parameters.E=1e6 makes it another scene")));
+}
+
 TEST(VariantColumns, AreTakenOverAsTheMethodsAre) {
   const Folder folder;
   const std::string converge =

@@ -3,12 +3,10 @@
 /// number of nodes; rows that are translates of each other; refusals.
 
 #include "common/base/error.hpp"
-#include "common/scheme/graph/dissipation_area.hpp"
 #include "meshes/renumber.hpp"
 #include "sph/sph_graph.hpp"
 #include "tests/graphs/graph_checks.hpp"
-
-#include <Eigen/Dense>
+#include "tests/graphs/sbp_checks.hpp"
 
 #include <algorithm>
 #include <gmock/gmock.h>
@@ -37,49 +35,6 @@ meshes::Mesh sheared(const std::array<int, 3>& cells) {
   for (Vec3& X : mesh.nodes)
     X = map * X;
   return mesh;
-}
-
-/// Largest error of the gradient of a polynomial of this degree with random coefficients, over its
-/// largest value.
-double gradient_error(const scheme::PairGraph& graph, int degree) {
-  std::mt19937 engine(4);
-  std::normal_distribution<double> normal;
-  Vec3 direction(normal(engine), normal(engine), graph.dimension == 3 ? normal(engine) : 0);
-  Vec3 other(normal(engine), normal(engine), graph.dimension == 3 ? normal(engine) : 0);
-  std::vector<Vec3> v(graph.X.size(), Vec3::Zero());
-  for (size_t a = 0; a < v.size(); ++a)
-    v[a][0] = std::pow(direction.dot(graph.X[a]), degree - 1) * other.dot(graph.X[a]);
-  double worst = 0, largest = 0;
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
-    const double s = direction.dot(graph.X[a]), t = other.dot(graph.X[a]);
-    Vec3 exact = std::pow(s, degree - 1) * other;
-    if (degree > 1) exact += (degree - 1) * std::pow(s, degree - 2) * t * direction;
-    largest = std::max(largest, exact.norm());
-    worst = std::max(worst, (gradient(graph, v, a).row(0).transpose() - exact).norm());
-  }
-  return worst / largest;
-}
-
-/// Largest error of the force of a stress that is linear in X, over its divergence.
-double divergence_error(const scheme::PairGraph& graph) {
-  const Mat3 by[3] = {Mat3::Random(), Mat3::Random(),
-                      graph.dimension == 3 ? Mat3(Mat3::Random()) : Mat3(Mat3::Zero())};
-  std::vector<Mat3> P(graph.X.size());
-  Vec3 divergence = Vec3::Zero();
-  for (int i = 0; i < graph.dimension; ++i)
-    divergence += by[i].col(i);
-  for (size_t a = 0; a < P.size(); ++a) {
-    P[a] = Mat3::Zero();
-    for (int i = 0; i < 3; ++i)
-      P[a] += graph.X[a][i] * by[i];
-  }
-  // 1/2 sum_b (P_a C_ab - P_b C_ba) is Omega_a Div P - P_a A_aN_a with the sign of (18a) turned
-  double worst = 0;
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
-    const Vec3 T = -force(graph, P, a) + P[a] * -graph.boundary_area[a];
-    worst = std::max(worst, (-T - graph.Omega[a] * divergence).norm() / graph.Omega[a]);
-  }
-  return worst / divergence.norm();
 }
 
 using NamedGraphs = std::vector<std::pair<std::string, scheme::PairGraph>>;
@@ -175,43 +130,6 @@ TEST(SphSbp, DoesNotDependOnTheNumberingOfTheMesh) {
   }
 }
 
-/// Least eigenvalue, in c/h, of the symmetric part of what the jumps of linear reconstructions
-/// dissipate (notes 4.4): with areas s_ab sum_b s_ab (v_b - v_a - 1/2 (G_a + G_b) X_ab)/Omega_a.
-double least_dissipation(const scheme::PairGraph& graph) {
-  const auto n = static_cast<int>(graph.n_nodes());
-  Eigen::MatrixXd G[3], D = Eigen::MatrixXd::Zero(n, n);
-  for (Eigen::MatrixXd& by : G)
-    by = Eigen::MatrixXd::Zero(n, n);
-  for (int a = 0; a < n; ++a) {
-    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-      for (int i = 0; i < 3; ++i) {
-        const double weight = 0.5 * graph.C[p][i] / graph.Omega[a];
-        G[i](a, graph.neighbour[p]) += weight;
-        G[i](a, a) -= weight;
-      }
-    }
-  }
-  for (int a = 0; a < n; ++a) {
-    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-      const std::int32_t b = graph.neighbour[p];
-      const Vec3 X_ab = graph.X[b] - graph.X[a], S = 0.5 * (graph.C[p] - graph.C[graph.reverse[p]]);
-      const double area = scheme::dissipation_area(S, X_ab, graph.dissipation_metric);
-      D(a, a) += area;
-      D(a, b) -= area;
-      for (int i = 0; i < 3; ++i)
-        D.row(a) += 0.5 * area * X_ab[i] * (G[i].row(a) + G[i].row(b));
-    }
-  }
-  Eigen::VectorXd scale(n);
-  for (int a = 0; a < n; ++a)
-    scale[a] = 1 / std::sqrt(graph.Omega[a]);
-  const Eigen::MatrixXd symmetric =
-      0.5 * scale.asDiagonal() * (D + D.transpose()) * scale.asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .minCoeff();
-}
-
 /// Why only nearest neighbours dissipate.
 TEST(SphSbp, DissipatesBetweenNearestNeighboursWhereItsSignIsNearlyKnown) {
   scheme::PairGraph graph = sph::build_graph(
@@ -239,11 +157,6 @@ TEST(SphSbp, SaysWhatItTakesAndWhatToUseInstead) {
   EXPECT_THAT(refusal(cube, summing(0.75)), AllOf(HasSubstr("kappa = 0.75"), HasSubstr("1.2")));
   EXPECT_THAT(refusal(block(CellType::hexahedron, {1, 6, 6}), summing(1.2)),
               AllOf(HasSubstr("refine"), HasSubstr("corrected")));
-  EXPECT_THAT(refusal(test_box(CellType::tetrahedron, 3, 0), summing(1.2)),
-              AllOf(HasSubstr("sph.gradient = \"sbp\""), HasSubstr("is a tetrahedron"),
-                    HasSubstr("sph.gradient = \"corrected\"")));
-  EXPECT_THAT(refusal(test_box(CellType::hexahedron, 5, 0.2), summing(1.2)),
-              HasSubstr("of a spacing off"));
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ class Expectation : public testing::Test {
     run.failure = io::RunFailure{message, 0.1, step, {}, {}};
   }
   void knows(const std::string& stops, std::int64_t by_step) {
-    expect.unmet = {{"sph", "", stops, by_step, "bulk pressure", {}}};
+    expect.unmet = {{"sph", "", "", stops, by_step, "bulk pressure", {}}};
   }
   RegressRow row() const {
     return {"mould", "sph", expectation_checks(expect, {"sph", ""}, run, history)};
@@ -86,6 +86,21 @@ TEST_F(Expectation, ThatEndsWhileWrongIsKnownWhereTheCaseSaysSo) {
   EXPECT_EQ(count(Verdict::known), 1U);
   stop("2 cells are inside out", 9);
   EXPECT_EQ(code(), base::ExitCode::breakdown);
+}
+
+TEST_F(Expectation, OfOneFigureLeavesTheOthersAsked) {
+  knows("", 0);
+  expect.unmet[0].figure = "least J";
+  run.min_jacobian = 0.4;
+  EXPECT_EQ(code(), base::ExitCode::done);
+  EXPECT_EQ(count(Verdict::known), 1U);
+  run.energy.relative_residual = 0.5;
+  EXPECT_EQ(code(), base::ExitCode::bound_not_met) << "another bound does not hold";
+  run.min_jacobian = 0.6;
+  EXPECT_THAT(regress_table({row()}), HasSubstr("met now: remove this entry"));
+  expect.unmet[0].figure = "least K";
+  EXPECT_EQ(code(), base::ExitCode::bound_not_met);
+  EXPECT_THAT(regress_table({row()}), HasSubstr("'least K' was not judged"));
 }
 
 TEST_F(Expectation, ThatIsMetInSpiteOfAnEntryAsksToRemoveIt) {

@@ -4,6 +4,7 @@
 
 #include "benchmarks/regression/report.hpp"
 #include "benchmarks/run/case_list.hpp"
+#include "benchmarks/run/menus.hpp"
 #include "common/base/error.hpp"
 
 #include <gtest/gtest.h>
@@ -95,6 +96,12 @@ TEST(RegressAgreement, IsBoundedByTheErrorBarsAndKnownOnesMayNotGrow) {
   EXPECT_THAT(fired(agreement_checks(recorded, now)), Contains("agreement"));
   recorded.disagreement["E"] = 1.5;
   EXPECT_EQ(agreement_checks(recorded, now).at(0).verdict, Verdict::known);
+  EXPECT_THAT(regress_table({{"c", "both", agreement_checks(recorded, now)}}),
+              HasSubstr("add [[apart]]"));
+  now.explanations["E"] = "SPH swings late";
+  EXPECT_EQ(agreement_checks(recorded, now).at(0).verdict, Verdict::known);
+  EXPECT_THAT(regress_table({{"c", "both", agreement_checks(recorded, now)}}),
+              HasSubstr("apart: E 1.5 of 1 (sph 1, fvm 1.3; SPH swings late)"));
   recorded.disagreement["E"] = 1.49;
   EXPECT_THAT(fired(agreement_checks(recorded, now)), Contains("agreement"));
   now.agreement["E"] = {1.0, 1.1, 0.2};
@@ -103,6 +110,53 @@ TEST(RegressAgreement, IsBoundedByTheErrorBarsAndKnownOnesMayNotGrow) {
   EXPECT_THAT(fired(agreement_checks(recorded, now)), Contains("agreement"));
   now.agreement.clear();
   EXPECT_THAT(fired(agreement_checks(recorded, now)), Contains("agreement"));
+}
+
+TEST(RegressDissipation, IsBoundedByEveryShippedCase) {
+  for (const ListedCase& entry : listed_cases("")) {
+    const cases::Case setup = harness::read_case(entry.file);
+    const bool by_holds = std::any_of(
+        setup.expect.holds.begin(), setup.expect.holds.end(),
+        [](const auto& bound) { return bound.figure.starts_with("numerical ") && bound.at_most; });
+    const bool is_to_be_stopped = !setup.expect.stops.empty();
+    EXPECT_TRUE(setup.bounds.numerical_dissipation || by_holds || is_to_be_stopped)
+        << entry.name << ": add [bounds] numerical_dissipation";
+  }
+}
+
+/// A method whose run is off a reference by so many times its uncertainty.
+MethodMeasurement off_by(double times) {
+  MethodMeasurement now;
+  now.figures = small_baseline().methods.at("sph");
+  now.asked = {checked(reference_check, "tip, reference", 0.5 * times, 0.5, "Doe 1999")};
+  return now;
+}
+
+TEST(RegressReference, ThatWasMetMustStayMetAndWhatWasNotMayNotGrow) {
+  const MethodFigures met = small_baseline().methods.at("sph");
+  MethodFigures unmet = met;
+  unmet.unmet["tip, reference"] = 2;
+  EXPECT_THAT(fired(checks_of(met, off_by(0.9), true)), IsEmpty());
+  EXPECT_THAT(fired(checks_of(met, off_by(1.1), true)), Contains("reference"));
+  EXPECT_THAT(fired(checks_of(met, off_by(nan), true)), Contains("reference"));
+  EXPECT_THAT(fired(checks_of(unmet, off_by(nan), true)), Contains("reference"));
+  EXPECT_THAT(fired(checks_of(unmet, off_by(2.1), true)), Contains("reference"));
+  const auto known = checks_of(unmet, off_by(2), true);
+  EXPECT_THAT(fired(known), IsEmpty());
+  EXPECT_THAT(regress_table({{"c", "sph", known}}),
+              HasSubstr("not met: tip, reference 1 of 0.5 (Doe 1999)"));
+  EXPECT_THAT(fired(checks_of(unmet, off_by(0.9), true)), IsEmpty()) << "met by now";
+  MethodMeasurement gone = off_by(2);
+  gone.asked.clear();
+  EXPECT_THAT(fired(checks_of(unmet, gone, true)), Contains("reference")) << "not measured";
+}
+
+TEST(RegressBaselineFile, KeepsWhatIsNotMet) {
+  RegressBaseline b = small_baseline();
+  b.methods["sph"].unmet["numerical share"] = 5.0 / 3;
+  const RegressBaseline c = baseline_from_json(to_json(b), "small.json");
+  EXPECT_EQ(c.methods.at("sph").unmet, b.methods["sph"].unmet);
+  EXPECT_TRUE(c.methods.at("fvm").unmet.empty());
 }
 
 TEST(RegressBaselineFile, KeepsEveryBit) {

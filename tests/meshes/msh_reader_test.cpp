@@ -1,8 +1,12 @@
+#include "common/base/error.hpp"
 #include "meshes/gmsh.hpp"
 #include "meshes/msh/contents.hpp"
 #include "tests/meshes/mesh_measures.hpp"
 
 #include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
 
 namespace diptych::meshes {
 namespace {
@@ -160,6 +164,27 @@ TEST(MshReader, MissingFileAndFolderAreNamed) {
             std::string::npos);
   EXPECT_NE(message(DIPTYCH_TEST_DIR).find("not a regular file"), std::string::npos);
   EXPECT_NE(message("/dev/zero").find("not a regular file"), std::string::npos);
+  // a file as a folder, and a name that no file system takes
+  const std::string file = DIPTYCH_TEST_DIR "/meshes/block_41.msh";
+  EXPECT_NE(message(file + "/a.msh").find("cannot be opened: Not a directory"), std::string::npos);
+  EXPECT_NE(message(std::string(5000, 'a')).find("File name too long"), std::string::npos);
+}
+
+/// One with nothing but a size: what it says is not read.
+TEST(MshReader, AFileThatLeavesNoMemoryForTheMeshIsRefusedUnread) {
+  const std::string path = testing::TempDir() + "diptych_large.msh";
+  std::ofstream(path) << "$MeshFormat\n";
+  std::filesystem::resize_file(path, std::uintmax_t{1} << 42);
+  try {
+    read_msh(path);
+    ADD_FAILURE() << "accepted";
+  } catch (const base::EnvironmentError& error) {
+    EXPECT_NE(
+        std::string(error.what()).find("4398046511104 bytes; a mesh file of more than a quarter"),
+        std::string::npos)
+        << error.what();
+  }
+  std::filesystem::remove(path);
 }
 
 }  // namespace

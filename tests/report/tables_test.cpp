@@ -3,6 +3,7 @@
 #include "benchmarks/terminal/tables.hpp"
 
 #include "benchmarks/run/history_differences.hpp"
+#include "benchmarks/terminal/reference_table.hpp"
 #include "tests/report/sample_study.hpp"
 
 #include <gtest/gtest.h>
@@ -113,6 +114,29 @@ TEST(ConvergenceTable, ListsRunsWithoutErrors) {
   io::RunSummary run = sample_run("sph", 0);
   run.errors.clear();
   EXPECT_THAT(convergence_table({run}), ContainsRegex("\n +0 +0.2500 +125 +0.0800\n"));
+}
+
+TEST(ReferenceTable, SaysOfEachRunWhetherItIsWithinTheUncertainty) {
+  io::RunSummary sph = sample_run("sph", 0), fvm = sample_run("fvm", 0);
+  EXPECT_EQ(reference_table({sph, fvm}), "");
+  io::ReferenceSummary one;
+  one.name = one.probe = "tip";
+  one.source = "Doe 1999";
+  one.greatest = 0.5;
+  one.greatest_at = 0.25;
+  one.until = 2;
+  one.uncertainty = 0.01;
+  sph.references = {one};
+  one.greatest = 0.01;
+  fvm.references = {one};
+  fvm.variant = "sbp";
+  const std::string text = reference_table({sph, fvm});
+  EXPECT_THAT(text, HasSubstr("tip, +-0.01: Doe 1999\n"));
+  EXPECT_THAT(text, ContainsRegex("  sph +0 +0.5 +0.25 +0 +0 +2  NOT met, 50 times\n"));
+  EXPECT_THAT(text, ContainsRegex("  fvm-sbp +0 +0.01 .* met\n"));
+  expect_fits_a_terminal(text);
+  one.uncertainty.reset();
+  EXPECT_EQ(uncertainty_verdict(one), "none stated");
 }
 
 }  // namespace

@@ -74,6 +74,21 @@ TEST(QuotedNumbers, OfAllPagesAreThoseOfTheGeneratedTables) {
   EXPECT_GT(count, 20) << "the pages have lost their quotes";
 }
 
+/// In the cases that are shipped; of those of users regress only says so.
+TEST(Disagreements, AreExplainedInTheirCases) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(root / "benchmarks/baselines")) {
+    const std::string name = entry.path().stem().string();
+    const std::string text = text_of(root / "benchmarks/cases" / name / "case.toml");
+    const nlohmann::json baseline = baseline_of(name);
+    for (const auto& [quantity, bars] : baseline["disagreement"].items()) {
+      ++count;
+      EXPECT_THAT(text, HasSubstr("[[apart]]\nquantity = \"" + quantity + "\"")) << name;
+    }
+  }
+  EXPECT_GT(count, 10);
+}
+
 /// The text of `text = \"\"\"...\"\"\"` or `note = ...` of a table's file; empty where it has none.
 std::string text_of_key(const std::string& toml, const std::string& key) {
   const std::string open = "\n" + key + " = \"\"\"\n";

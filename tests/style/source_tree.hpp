@@ -62,7 +62,7 @@ inline const std::map<std::string, std::set<std::string>>& permitted_rooms() {
         {"common/exact", exact},
         {"common/cases", cases},
         {"common/run", run},
-        {"meshes", algebra},
+        {"meshes", with(algebra, {"common/parallel"})},
         {"sph", graph},
         {"fvm", graph},
         {"postprocess", with(algebra, {"common/io"})},
@@ -187,7 +187,7 @@ inline const std::vector<Library>& libraries() {
       {R"(linux/.*\.h)", R"(meshes/geo/jail\.cpp)"},
       {R"(fmt/.*)", ".*"},
       {R"(Eigen/.*)",
-       R"(common/algebra/vectors\.hpp|common/closure/(class|closure)_repair\.cpp|)"
+       R"(common/algebra/vectors\.hpp|common/closure/\w+\.cpp|)"
        R"((sph|fvm|meshes|tests/graphs|common/(run|exact|cases|functions))/.*\.cpp)"},
       {R"(hdf5\.h)", "(tests/)?common/io/.*"},
       {R"(toml\+\+/.*)", "common/cases/.*"},

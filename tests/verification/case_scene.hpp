@@ -36,13 +36,6 @@ inline std::string text_of(const std::string& key, const std::string& text) {
   return key + "=\"" + text + "\"";
 }
 
-/// The step of tests whose bounds hold for errors in time or rounding of so many steps of it.
-inline std::string usual_step(const std::string& integrator) {
-  return std::string("time.cfl=") + (integrator == "leapfrog"  ? "1.2"
-                                     : integrator == "ssp-rk2" ? "0.6"
-                                                               : "0.8");
-}
-
 /// Relative L2 distance of velocities or of deformations, the larger of both.
 inline double distance(const scheme::Snapshot& a, const scheme::Snapshot& b) {
   double v = 0, v_scale = 0, F = 0, F_scale = 0;

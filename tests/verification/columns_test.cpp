@@ -1,6 +1,6 @@
 /// The bending and the twisting column with four cells across against histories of spectral
-/// elements (tests/reference/README.md): how far two points of the top are off, at most, with every
-/// operator.
+/// elements (benchmarks/cases/bending-column-reference/README.md): how far two points of the top
+/// are off, at most, with every operator.
 
 #include "benchmarks/run/menus.hpp"
 #include "benchmarks/run/run_case.hpp"
@@ -18,18 +18,18 @@ namespace {
 using algebra::Vec3;
 
 struct Scene {
-  const char* file;  ///< of the reference
+  const char* name;  ///< of the case with the reference
   const char* text;  ///< what differs in the case
   const char* end;
   int frames;
 };
 
-const Scene bending{"column_bending.csv", R"(
+const Scene bending{"bending-column-reference", R"(
 [initial]
 velocity = ["10*z/6", 0, 0]
 )",
                     "0.6", 60};
-const Scene twisting{"column_twisting.csv", R"(
+const Scene twisting{"twisting-column-reference", R"(
 [[material.branch]]
 beta_C = 1
 beta_G = 1
@@ -79,8 +79,9 @@ std::string probes() {
 }
 
 /// Rows of a table of numbers below its headings.
-std::vector<std::vector<double>> table(const std::string& file) {
-  std::ifstream in(std::string(DIPTYCH_TEST_DIR) + "/reference/" + file);
+std::vector<std::vector<double>> table(const std::string& name) {
+  std::ifstream in(std::string(DIPTYCH_SOURCE_DIR) + "/benchmarks/cases/" + name +
+                   "/reference.csv");
   std::vector<std::vector<double>> rows;
   std::string line;
   std::getline(in, line);
@@ -122,7 +123,7 @@ TEST_P(Columns, AreAsFarOffAsTheirOperatorsAre) {
       cases::case_from_text(std::string(column) + e.scene->text + probes(), "column", set, menus()),
       options);
   ASSERT_EQ(run.summary.status, "done");
-  const auto reference = table(e.scene->file);
+  const auto reference = table(e.scene->name);
   ASSERT_EQ(run.history.size(), static_cast<size_t>(e.scene->frames) + 1);
   double worst = 0;
   for (size_t i = 0; i < run.history.size(); ++i) {

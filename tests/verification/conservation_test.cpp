@@ -42,7 +42,6 @@ class Conservation : public testing::TestWithParam<std::tuple<const char*, const
  protected:
   std::string method() const { return std::get<0>(GetParam()); }
   std::string integrator() const { return text_of("time.integrator", std::get<1>(GetParam())); }
-  std::string usual_step() const { return tests::usual_step(std::get<1>(GetParam())); }
 };
 INSTANTIATE_TEST_SUITE_P(
     All,
@@ -72,11 +71,10 @@ TEST_P(Conservation, SpinningBodiesKeepMomenta) {
        {Body{"spinning-cube", "[3, 3, 3]", tumbling, "\"1/6\""},
         Body{"spinning-cube-ve2", "[3, 3, 3]", tumbling, "0"},
         Body{"spinning-square", "[4, 4]", "[\"7-omega*y\",\"omega*x-3\"]", "\"1/6\""}}) {
-    Scene scene =
-        scene_of_case(method(), body.name,
-                      {integrator(), usual_step(), std::string("mesh.cells=") + body.cells,
-                       std::string("initial.velocity=") + body.velocity,
-                       std::string("scheme.face_correction=") + body.correction});
+    Scene scene = scene_of_case(method(), body.name,
+                                {integrator(), std::string("mesh.cells=") + body.cells,
+                                 std::string("initial.velocity=") + body.velocity,
+                                 std::string("scheme.face_correction=") + body.correction});
     const Drift drift = drift_over(*scene.solver, 10000, 1e9);
     EXPECT_LE(drift.linear, 1e-13) << body.name;
     EXPECT_LE(drift.angular, 1e-12) << body.name;

@@ -23,16 +23,19 @@ void PrintTo(const Expectation& e, std::ostream* out) {
   *out << e.name << " " << e.boundary << " " << e.method;
 }
 
-std::vector<io::RunSummary> runs_of(const Expectation& e) {
+/// Coarse to fine. @param set  beside the boundary and the size
+std::vector<io::RunSummary> runs_of(const Expectation& e,
+                                    const std::vector<int>& levels,
+                                    const std::vector<std::string>& set = {}) {
   const bool solid = std::string(e.name).find("3d") != std::string::npos;
-  const auto setup =
-      cases::read_case(harness::find_case(e.name),
-                       {std::string("boundary.0.type=") + e.boundary,
-                        solid ? "mesh.cells=[6, 6, 6]" : "mesh.cells=[14, 14]", "output.frames=2",
-                        "time.cfl=0.8"});  // of the residual below: an error in time
+  std::vector<std::string> overrides{std::string("boundary.0.type=") + e.boundary,
+                                     solid ? "mesh.cells=[6, 6, 6]" : "mesh.cells=[14, 14]",
+                                     "output.frames=2"};
+  overrides.insert(overrides.end(), set.begin(), set.end());
+  const auto setup = cases::read_case(harness::find_case(e.name), overrides);
   harness::StudyOptions options;
   options.methods = {e.method};
-  options.levels = {0, 1};
+  options.levels = levels;
   options.threads = 1;
   options.quiet = true;
   return harness::run_study(setup, options).runs;
@@ -42,7 +45,7 @@ class Manufactured : public testing::TestWithParam<Expectation> {};
 
 TEST_P(Manufactured, Converges) {
   const Expectation& e = GetParam();
-  const auto runs = runs_of(e);
+  const auto runs = runs_of(e, {0, 1});
   const auto order = [&](const char* field) {
     return std::log2(runs[0].errors.at(field).l2 / runs[1].errors.at(field).l2);
   };
@@ -63,8 +66,10 @@ TEST_P(Manufactured, Converges) {
     }
   }
   // Work of the body force, of tractions and of moving boundaries enters the budget: what is left
-  // is the error of the time integration, third order in dt.
-  EXPECT_LE(std::abs(runs[1].energy.relative_residual), 2e-5);
+  // is the error of the time integration, third order in dt: up to 8.2e-5 at the default step.
+  const auto fine_steps = runs_of(e, {1}, {"time.cfl=0.8"});
+  EXPECT_LE(std::abs(fine_steps[0].energy.relative_residual), 2e-5);
+  EXPECT_LE(std::abs(runs[1].energy.relative_residual), 1e-4);
   EXPECT_GT(std::abs(runs[1].energy.external_work), 0.1 * runs[1].energy.kinetic);
 }
 

@@ -23,14 +23,17 @@ SectionEntry fvm_section() {
   const auto keys =
       SectionKeys<FvmCase>("fvm")
           .key("stencil", &FvmCase::stencil,
-               as(KeyType::name, {"-", any,
-                                  "Pair areas by nodal quadrature (edge), by 2 int N_a grad N_b dV "
-                                  "(integral), or from operators that sum by parts along the lines "
-                                  "of nodes (sbp), on boxes of hexahedra or quadrilaterals.",
-                                  "\"sbp\""}))
+               as(KeyType::name,
+                  {"-", any,
+                   "Pair areas by nodal quadrature (edge), by 2 int N_a grad N_b dV "
+                   "(integral), or from operators that sum by parts (sbp): along the "
+                   "lines of nodes of boxes of hexahedra or quadrilaterals, elsewhere "
+                   "over two rings of cells of a body with plane sides.",
+                   "\"sbp\""}))
           .key("order", &FvmCase::order,
                {"-", between(2, 6),
-                "With stencil = \"sbp\", order of the derivatives inside: 2 (the edge stencil), 4 "
+                "With stencil = \"sbp\" on a box, order of the derivatives inside: 2 (the edge "
+                "stencil), 4 "
                 "or 6; half of it at boundaries. On lines of fewer than 8 (4) or 12 nodes (6) it "
                 "falls to the next. 6 takes scheme.limiter = \"sign-preserving\" or none of the "
                 "reconstruction.",

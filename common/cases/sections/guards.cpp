@@ -5,14 +5,16 @@ namespace diptych::cases {
 SectionEntry guards_section() {
   const auto keys =
       SectionKeys<GuardsCase>("guards")
-          .key("energy_residual", &GuardsCase::energy_residual,
-               {"-", above(0),
-                "The run is stopped (code 3) where the energy that the budget does not account for "
-                "is more than this share of the largest energy so far, at an output instant or "
-                "50 steps after the last judgement. Not judged in the first 20 steps of a body at "
-                "rest. Needs "
-                "scheme.energy_budget.",
-                "0.02"})
+          .key(
+              "energy_residual", &GuardsCase::energy_residual,
+              {"-", above(0),
+               "The run is stopped (code 3) where the energy that the budget does not account for, "
+               "or that numerical dissipation has given to the body, is more than this share of "
+               "the largest energy so far, at an output instant or "
+               "50 steps after the last judgement. Not judged in the first 20 steps of a body at "
+               "rest. Needs "
+               "scheme.energy_budget.",
+               "0.02"})
           .key("involution", &GuardsCase::involution,
                {"-", above(0),
                 "The run is stopped (code 3) where |H - cof F| or |J - det F| of a node is more "

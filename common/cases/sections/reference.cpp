@@ -19,20 +19,50 @@ namespace fs = std::filesystem;
 
 constexpr size_t most_bytes = size_t{16} << 20;  // 400 000 points
 
-/// The numbers of one line. @return false where it does not hold two finite ones
-bool read_pair(std::string_view line, std::array<double, 2>& pair) {
-  const size_t comma = line.find(',');
-  if (comma == std::string_view::npos) return false;
-  const std::array cells{line.substr(0, comma), line.substr(comma + 1)};
-  for (size_t i = 0; i < 2; ++i) {
-    const size_t first = cells[i].find_first_not_of(" \t");
-    const size_t last = cells[i].find_last_not_of(" \t\r");
-    if (first == std::string_view::npos) return false;
-    const char *begin = cells[i].data() + first, *end = cells[i].data() + last + 1;
-    const auto result = std::from_chars(begin, end, pair[i]);
-    if (result.ec != std::errc() || result.ptr != end || !std::isfinite(pair[i])) return false;
+std::vector<std::string_view> cells_of(std::string_view line) {
+  std::vector<std::string_view> cells;
+  while (true) {
+    const size_t comma = line.find(',');
+    const std::string_view cell = line.substr(0, comma);
+    const size_t first = cell.find_first_not_of(" \t\r"), last = cell.find_last_not_of(" \t\r");
+    cells.push_back(first == std::string_view::npos ? std::string_view()
+                                                    : cell.substr(first, last + 1 - first));
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
   }
-  return true;
+}
+
+/// @return false where the cell holds no finite number
+bool read_number(std::string_view cell, double& number) {
+  const auto result = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+  return result.ec == std::errc() && result.ptr == cell.data() + cell.size() &&
+         std::isfinite(number);
+}
+
+/// Which columns of a file are read: the first, times, and the one of the values.
+struct FileColumns {
+  size_t n = 2, value = 1;
+};
+
+FileColumns columns_of(const std::string& heading, const SectionValues& section) {
+  if (!section.has("column")) return {};
+  const std::string wanted = section.text("column");
+  std::vector<std::string> names;
+  for (const std::string_view name : cells_of(heading))
+    names.emplace_back(name);
+  const auto found = std::find(names.begin() + 1, names.end(), wanted);
+  if (found == names.end()) {
+    section.fail("column", fmt::format("= '{}' is no column of the file behind its first{}",
+                                       shown(wanted), base::suggestion(wanted, names)));
+  }
+  return {names.size(), static_cast<size_t>(found - names.begin())};
+}
+
+/// The time and the value of one line. @return false where it does not hold them
+bool read_pair(std::string_view line, const FileColumns& columns, std::array<double, 2>& pair) {
+  const std::vector<std::string_view> cells = cells_of(line);
+  return cells.size() == columns.n && read_number(cells[0], pair[0]) &&
+         read_number(cells[columns.value], pair[1]);
 }
 
 std::vector<std::array<double, 2>> points_of_file(const fs::path& path,
@@ -44,14 +74,21 @@ std::vector<std::array<double, 2>> points_of_file(const fs::path& path,
   std::istringstream file(bounded_file(path.string(), most_bytes, "a file of values"));
   std::vector<std::array<double, 2>> points;
   std::string line;
+  FileColumns columns;
   for (int number = 1; std::getline(file, line); ++number) {
+    if (number == 1) columns = columns_of(line, section);
     if (number == 1 || line.find_first_not_of(" \t\r") == std::string::npos) continue;
     std::array<double, 2> pair{};
-    if (!read_pair(line, pair)) {
+    if (!read_pair(line, columns, pair)) {
       throw base::InputError(
-          fmt::format("{}:{}: '{}' is not a time (s) and a value; write two "
-                      "numbers with a comma between them",
-                      path.string(), number, shown(line)));
+          section.has("column")
+              ? fmt::format("{}:{}: '{}' is not a line of {} cells with a time (s) in the first "
+                            "and a value in '{}'",
+                            path.string(), number, shown(line), columns.n,
+                            shown(section.text("column")))
+              : fmt::format("{}:{}: '{}' is not a time (s) and a value; write two "
+                            "numbers with a comma between them",
+                            path.string(), number, shown(line)));
     }
     points.push_back(pair);
   }
@@ -61,6 +98,22 @@ std::vector<std::array<double, 2>> points_of_file(const fs::path& path,
   }
   std::sort(points.begin(), points.end());
   return points;
+}
+
+/// In the unit of the probe; nothing where none is stated.
+std::optional<double> uncertainty_of(const SectionValues& section, const ReferenceCase& reference) {
+  if (section.has("uncertainty")) {
+    section.refuse("relative_uncertainty",
+                   "has no effect with reference.uncertainty; remove one of the two");
+    return section.number("uncertainty");
+  }
+  if (!section.has("relative_uncertainty")) return std::nullopt;
+  double greatest = 0;
+  for (const auto& point : reference.points)
+    greatest = std::max(greatest, std::abs(point[1]));
+  if (greatest == 0)
+    section.fail("relative_uncertainty", "is a share of values that are all 0; use uncertainty");
+  return section.number("relative_uncertainty") * greatest;
 }
 
 ReferenceCase read_reference(const SectionValues& section,
@@ -81,8 +134,10 @@ ReferenceCase read_reference(const SectionValues& section,
       section.refuse(name, "has no effect with reference.file; remove one of the two");
     reference.points = points_of_file((folder / section.text("file")).lexically_normal(), section);
   } else {
+    section.refuse("column", "has no effect without reference.file; remove it");
     reference.points = {{section.number("time"), section.number("value")}};
   }
+  reference.uncertainty = uncertainty_of(section, reference);
   return reference;
 }
 
@@ -98,6 +153,18 @@ SectionKeys<ReferenceCase> reference_keys() {
             "CSV file beside the case file: a line of names, then lines of time (s) and value (in "
             "the unit of the probe).",
             "\"reference.csv\"", "or reference.value"})
+      .key("column", KeyType::text,
+           optional({"-", any, "Of a file with further columns: the name above the values.",
+                     "\"x0 [m]\"", "with reference.file, optional"}))
+      .key("uncertainty", KeyType::number,
+           optional(
+               {"that of the probe", above(0),
+                "How far the values may be from the truth, all of them: what runs are asked to be "
+                "within.",
+                "0.005", "optional"}))
+      .key("relative_uncertainty", KeyType::number,
+           optional({"-", above(0), "The same as a share of the largest of their sizes.", "0.02",
+                     "optional"}))
       .key("source", KeyType::text,
            {"-", any, "Where they are from, as the report shall name it.",
             "\"solids4foam/solid-benchmarks\"", "required"});
@@ -106,14 +173,19 @@ SectionKeys<ReferenceCase> reference_keys() {
 }  // namespace
 
 SectionEntry reference_section() {
-  return {{"reference", true,
-           "Values of a probe from elsewhere (literature, another code): the report draws them as "
-           "points beside the curves of both methods."},
-          reference_keys().keys(),
-          [](Reading& reading, Case& setup) {
-            for (const SectionValues& entry : reading.entries("reference"))
-              setup.references.push_back(read_reference(entry, setup.probes, reading.folder));
-          }};
+  return {
+      {"reference", true,
+       "Values of a probe from elsewhere (literature, another code). Every run says how far it is "
+       "from them at their times, between its output times along straight lines (or they "
+       "along theirs, where they have more times than the run), and whether it is within the "
+       "uncertainty that they state; the report draws them beside the curves. A run whose "
+       "material, parameters, initial state, boundary, load or body was changed by an override "
+       "is not held against them."},
+      reference_keys().keys(),
+      [](Reading& reading, Case& setup) {
+        for (const SectionValues& entry : reading.entries("reference"))
+          setup.references.push_back(read_reference(entry, setup.probes, reading.folder));
+      }};
 }
 
 }  // namespace diptych::cases

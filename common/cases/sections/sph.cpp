@@ -21,14 +21,16 @@ SectionEntry sph_section() {
                 "Repair of the pseudo-areas at the boundary so that they close: "
                 "-1/2 sum_b (C_ab - C_ba) = A_a N_a.",
                 "false"})
-          .key("gradient", &SphCase::gradient,
-               as(KeyType::name,
-                  {"-", any,
-                   "Pair areas from the kernel's gradient corrected to first order (corrected), or "
-                   "by its least change to operators that sum by parts (sbp), exact for quadratics "
-                   "up to the boundary: on boxes of hexahedra or quadrilaterals with three nodes a "
-                   "line or more, with kappa above 1, in spacings of each line.",
-                   "\"sbp\""}));
+          .key(
+              "gradient", &SphCase::gradient,
+              as(KeyType::name,
+                 {"-", any,
+                  "Pair areas from the kernel's gradient corrected to first order (corrected), or "
+                  "by its least change to operators that sum by parts (sbp), exact for quadratics "
+                  "up to the boundary, with kappa above 1: on boxes of hexahedra or quadrilaterals "
+                  "with three nodes a line or more, in spacings of each line, and on any nodes of "
+                  "a body with plane sides.",
+                  "\"sbp\""}));
   return {
       {"sph", false, "What only SPH needs."}, keys.keys(), [keys](Reading& reading, Case& setup) {
         const SectionValues section = reading.section("sph");

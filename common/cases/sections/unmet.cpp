@@ -15,6 +15,11 @@ SectionKeys<UnmetCase> unmet_keys() {
       .key("variant", &UnmetCase::variant,
            {"-", any, "The entry of expect.variants; empty: the case as it stands.",
             "\"sph.kappa=0.75\""})
+      .key("figure", &UnmetCase::figure,
+           {"-", any,
+            "The figure of expect.holds that is not met, where all others are; empty: whichever "
+            "are not.",
+            "\"numerical share\""})
       .key("stops", &UnmetCase::stops,
            {"-", any,
             "Until they are met the run is stopped (code 3) with this text in its message; empty: "
@@ -49,6 +54,8 @@ SectionEntry unmet_section() {
               UnmetCase unmet = keys.read(entry);
               unmet.where = entry.where();
               check_variant(entry, setup, unmet);
+              if (!unmet.stops.empty())
+                entry.refuse("figure", "has no effect with stops; remove it");
               if (unmet.stops.empty())
                 entry.refuse("by_step", "has no effect without stops; remove it");
               setup.expect.unmet.push_back(unmet);

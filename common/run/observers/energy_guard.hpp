@@ -1,6 +1,7 @@
 #pragma once
-/// Stops a run whose energy budget does not close: an unstable run makes energy of nothing long
-/// before a J or a value shows it. Test: tests/common/run/guards_test.cpp
+/// Stops a run whose energy budget does not close, or whose numerical dissipation gives energy in
+/// place of taking it: an unstable run makes energy of nothing long before a J or a value shows it.
+/// Test: tests/common/run/guards_test.cpp
 
 #include "common/run/energy_record.hpp"
 #include "common/run/observers/observer.hpp"
@@ -12,7 +13,8 @@ namespace diptych::run {
 class EnergyGuard : public Observer {
  public:
   /// @param initial       of the body at t = 0
-  /// @param threshold     largest admissible |residual| as a share of the largest energy so far
+  /// @param threshold     largest admissible |residual|, and dissipation below zero, as a share of
+  ///                      the largest energy so far
   /// @param least_energy  J, what rounding makes of the energies: a body that holds no more is at
   ///                      rest, and as much of any residual is not judged
   EnergyGuard(const scheme::Balance& initial, double threshold, double least_energy)

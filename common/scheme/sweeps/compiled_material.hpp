@@ -3,6 +3,7 @@
 /// strain-rate sweep and of the energy budget. Included by the file of each material (run/models)
 /// and by tests.
 
+#include "common/algebra/positive_lanes.hpp"
 #include "common/algebra/versions.hpp"
 #include "common/physics/wave_speeds.hpp"
 #include "common/scheme/body/material_model.hpp"
@@ -61,44 +62,48 @@ DIPTYCH_INLINE double power_of_old_forces(const Body<Dim>& body,
   return algebra::lane_sum(outer + algebra::load(body.graph.Omega.data() + b * n_lanes) * inner);
 }
 
-/// Whether stored internal variables are symmetric positive definite; false of NaN.
-DIPTYCH_INLINE auto are_positive_definite(const SymmetricTensor<Lanes>& A) {
+/// Keeps the lanes in which stored internal variables are symmetric positive definite.
+DIPTYCH_INLINE void keep_positive_definite(const SymmetricTensor<Lanes>& A,
+                                           algebra::PositiveLanes& sound) {
   const Lanes minor = A(0, 0) * A(1, 1) - A(0, 1) * A(0, 1);
-  const Lanes determinant = A(2, 2) * minor - A(1, 2) * (A(0, 0) * A(1, 2) - A(0, 1) * A(0, 2)) +
-                            A(0, 2) * (A(0, 1) * A(1, 2) - A(1, 1) * A(0, 2));
-  return (A(0, 0) > 0) & (minor > 0) & (determinant > 0);
+  sound.keep(A(0, 0));
+  sound.keep(minor);
+  sound.keep(A(2, 2) * minor - A(1, 2) * (A(0, 0) * A(1, 2) - A(0, 1) * A(0, 2)) +
+             A(0, 2) * (A(0, 1) * A(1, 2) - A(1, 1) * A(0, 2)));
 }
 
 /// Nodes of block b that the evaluation begins with as sound ones: J > 0 where it is evolved, the
-/// internal variables positive definite.  [mask of lanes]
+/// internal variables positive definite.
 template <int Dim, bool has_H>
-DIPTYCH_INLINE auto sound_before(const Body<Dim>& body, std::int64_t b) {
-  auto is_sound = Lanes{} == 0.0;
-  if (body.options.unknowns != Unknowns::F) is_sound &= body.J.get(b, 0) > -1;
+DIPTYCH_INLINE algebra::PositiveLanes sound_before(const Body<Dim>& body, std::int64_t b) {
+  algebra::PositiveLanes sound;
+  if (body.options.unknowns != Unknowns::F) sound.keep(body.J.get(b, 0) + 1.0);
   for (int k = 0; k < body.options.n_branches; ++k) {
     const auto branch = stored_branch<Dim, has_H>(body, b, k);
-    is_sound &= are_positive_definite(branch.A);
-    if constexpr (has_H) is_sound &= are_positive_definite(branch.S);
+    keep_positive_definite(branch.A, sound);
+    if constexpr (has_H) keep_positive_definite(branch.S, sound);
   }
-  return is_sound;
+  return sound;
 }
 
 /// Leaves word of nodes that the evaluation did not begin with as sound ones: what they began with
 /// is overwritten. J, or F where J follows from it, is no number there from now on.
 template <int Dim>
-void mark_bad(Body<Dim>& body, std::int64_t b, const Lanes& is_bad) {
+void mark_bad(Body<Dim>& body, std::int64_t b, const algebra::PositiveLanes& sound) {
   BlockField& field = body.options.unknowns == Unknowns::F ? body.F : body.J;
-  field.put(b, 0, field.get(b, 0) + (is_bad > 0 ? Lanes{} + __builtin_nan("") : Lanes{}));
+  for (int lane = 0; lane < n_lanes; ++lane) {
+    if (!sound.at(lane)) field.set(b * n_lanes + lane, 0, __builtin_nan(""));
+  }
 }
 
 /// And ends with as sound ones: J > 0; dF/dt, P and, where a step ends, u finite. What is not a
-/// number in F, H or internal variables is none in P, velocities in dF/dt.  [mask of lanes]
+/// number in F, H or internal variables is none in P, velocities in dF/dt.
 template <int Dim>
-DIPTYCH_INLINE auto sound_after(const StrainRateSweep<Dim>& sweep,
-                                std::int64_t b,
-                                const Lanes (&L)[Dim * Dim],
-                                const Lanes& J,
-                                const Tensor<Lanes>& P) {
+DIPTYCH_INLINE algebra::PositiveLanes sound_after(const StrainRateSweep<Dim>& sweep,
+                                                  std::int64_t b,
+                                                  const Lanes (&L)[Dim * Dim],
+                                                  const Lanes& J,
+                                                  const Tensor<Lanes>& P) {
   Lanes sum{};  // not finite where one of them is not
   for (int k = 0; k < Dim * Dim; ++k)
     sum += L[k] + P(k / Dim, k % Dim);
@@ -106,7 +111,9 @@ DIPTYCH_INLINE auto sound_after(const StrainRateSweep<Dim>& sweep,
     for (int i = 0; i < Dim; ++i)
       sum += sweep.body.u.get(b, i);
   }
-  return (J > 0) & (sum - sum == 0);  // comparisons with NaN are false
+  algebra::PositiveLanes sound;
+  sound.keep(J + (sum - sum));  // J, or NaN
+  return sound;
 }
 
 /// What the strain-rate sweep does with a block once its dF/dt is known: H and J (18c,d) with F,
@@ -150,10 +157,11 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
           });
   if (!body.cells.empty()) response.Sigma_J -= model.material.volumetric_stress(X.J);
   const Tensor<Lanes> P = physics::piola_stress<has_H>(response, X);
-  const auto is_sound = was_sound & sound_after<Dim>(sweep, b, L, X.J, P);
-  totals.n_bad += is_sound ? Lanes{} : Lanes{} + 1.0;
-  const Lanes was_bad = was_sound ? Lanes{} : Lanes{} + 1.0;
-  if (__builtin_expect(algebra::lane_sum(was_bad) > 0, 0)) mark_bad(body, b, was_bad);
+  if (__builtin_expect(!sound_after<Dim>(sweep, b, L, X.J, P).all(), 0)) totals.is_sound = false;
+  if (__builtin_expect(!was_sound.all(), 0)) {
+    totals.is_sound = false;
+    mark_bad(body, b, was_sound);
+  }
   write_records(body, b, X, response, P);
   const double rho_R = model.rho_R;
   const auto speeds = physics::speed_bounds(response, X, rho_R, has_H, Material::has_W_FJ);

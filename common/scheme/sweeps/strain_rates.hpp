@@ -14,7 +14,7 @@ namespace diptych::scheme {
 /// What the blocks of a chunk add up.
 struct BlockTotals {
   algebra::Lanes least_J = algebra::Lanes{} + 1e300;
-  algebra::Lanes n_bad{};          ///< nodes that are not sound (compiled_material.hpp)
+  bool is_sound = true;            ///< every node is (compiled_material.hpp)
   double viscous_dissipation = 0;  ///< J, of the step that ends here
   double old_power = 0;            ///< W, see StrainRateSweep
 };

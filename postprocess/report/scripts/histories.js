@@ -54,12 +54,15 @@
     borderColor: colour('ink'), backgroundColor: colour('ink'), borderDash: [2, 4], borderWidth: 1.75,
     pointRadius: 0, pointStyle: 'line', order: -9, clip: room,
   }] : []);
+  // Many of them are a history: a line without marks.
+  const isHistory = (points) => points.length > 20;
   const referencePoints = (probe) => study.references.filter((one) => one.probe === probe)
     .map(({ points }, i, all) => ({
-      label: all.length > 1 ? `reference ${i + 1}` : 'reference', type: 'line', showLine: false,
+      label: all.length > 1 ? `reference ${i + 1}` : 'reference', type: 'line',
+      ...(isHistory(points) ? { borderDash: [6, 3] } : { showLine: false }),
       data: points.map(([x, y]) => ({ x, y })),
-      borderColor: colour('ink'), backgroundColor: colour('ink'), borderWidth: 2,
-      pointRadius: 6, pointHoverRadius: 8, pointHitRadius: 10, pointStyle: ['crossRot', 'star', 'triangle'][i % 3], order: -10, clip: room,
+      borderColor: colour('ink'), backgroundColor: colour('ink'), borderWidth: isHistory(points) ? 1.75 : 2,
+      pointRadius: isHistory(points) ? 0 : 6, pointHoverRadius: 8, pointHitRadius: 10, pointStyle: ['crossRot', 'star', 'triangle'][i % 3], order: -10, clip: room,
     }));
 
   // Both methods in one picture; pointing tells all values at the nearest instant that has any.

@@ -81,6 +81,33 @@ std::string sources(const StudyReport& study, const std::string& probe) {
   return text.empty() ? "" : text + ".";
 }
 
+/// Whether a run is within the uncertainty of a reference.
+std::string inside(const io::ReferenceSummary& one) {
+  if (!one.uncertainty) return "no uncertainty stated";
+  if (one.is_inside()) return "met";
+  return "<strong>not met</strong>, " + number_html(one.greatest / *one.uncertainty) + " times";
+}
+
+/// How far each column is from the values beside the curves of a probe, on its finest level.
+std::string distances(const std::vector<io::RunSummary>& runs, const std::string& probe) {
+  std::string rows;
+  for (const io::RunSummary& run : runs) {
+    for (const io::ReferenceSummary& one : run.references) {
+      if (one.probe != probe) continue;
+      rows += "<tr><th scope=\"row\">" + column_mark(run.column()) + "</th>" +
+              cell(number_html(one.greatest)) + cell(number_html(one.greatest_at)) +
+              cell(number_html(one.rms)) + cell(number_html(one.at_end)) +
+              cell(one.uncertainty ? number_html(*one.uncertainty) : "") + cell(inside(one)) +
+              "</tr>\n";
+    }
+  }
+  if (rows.empty()) return "";
+  return table(heading_cell("off the reference") + heading_cell("at most") +
+                   heading_cell("at [s]") + heading_cell("rms") + heading_cell("at the end") +
+                   heading_cell("its uncertainty") + heading_cell("within it"),
+               rows);
+}
+
 /// Energies and momenta over time with those of the exact solution.
 std::string other_charts(const StudyReport& study) {
   std::string html;
@@ -117,7 +144,7 @@ std::string probes_section(const StudyReport& study) {
     html += fmt::format(
         "<div>\n<h3>{}</h3>\n{}{}</div>\n", title,
         chart(fmt::format("probe-{}", k), title + " over time", sources(study, quantity.name)),
-        numbers(runs, k));
+        numbers(runs, k) + distances(runs, quantity.name));
   }
   return section("probes", runs.empty() ? "Against the exact solution" : "What the probes saw",
                  html + others + "</div>\n");

@@ -2,6 +2,7 @@
 
 #include "common/algebra/lanes.hpp"
 
+#include "common/algebra/positive_lanes.hpp"
 #include "common/algebra/tensor.hpp"
 #include "tests/common/physics/random_states.hpp"
 
@@ -94,6 +95,29 @@ TEST(Lanes, CofactorAndInverseAgreeWithTheScalarOnes) {
       EXPECT_NEAR(H(k / 3, k % 3)[i], H_i(k / 3, k % 3), four_ulp * to_eigen(H_i).norm());
     for (int k = 0; k < 6; ++k)
       EXPECT_NEAR(B.s[k][i], B_i.s[k], four_ulp * to_eigen(B_i).norm());
+  }
+}
+
+TEST(Lanes, ArePositiveWhereAllValuesAre) {
+  Lanes good, bad;
+  for (int i = 0; i < n_lanes; ++i) {
+    good[i] = 1e-300;
+    bad[i] = i + 1;
+  }
+  for (const double value : {0.0, -0.0, -1.0, std::nan("")}) {
+    for (int i = 0; i < n_lanes; ++i) {
+      Lanes one = bad;
+      one[i] = value;
+      PositiveLanes positive;
+      EXPECT_TRUE(positive.all());
+      positive.keep(good);
+      EXPECT_TRUE(positive.all());
+      positive.keep(one);
+      EXPECT_FALSE(positive.all());
+      positive.keep(good);  // what was lost stays lost
+      for (int k = 0; k < n_lanes; ++k)
+        EXPECT_EQ(positive.at(k), k != i) << value;
+    }
   }
 }
 

@@ -221,6 +221,82 @@ const BadCase of_functions[] = {
     {"reserved", "[functions.t]\ntype = 'zener_mode'\n", "1:", "already has a meaning"},
 };
 
+const std::string on_x = "[[boundary]]\ntype = \"fixed\"\n";
+const std::string mean_u = "[[probe]]\nname = \"u\"\nunit = \"m\"\nkind = \"mean\"\n";
+
+const BadCase of_types[] = {
+    {"group_number", after(on_x + "group = 5\n"), "12:9: ",
+     "boundary.0.group is the number 5; it takes name or list of names, as in group = [\"x_min\", "
+     "\"y_min\"]"},
+    {"group_of_number", after(on_x + "group = [\"x_min\", 5]\n"), "12:9: ",
+     "boundary.0.group is a list of 2; it takes name or list of names, as in group = [\"x_min\", "
+     "\"y_min\"]"},
+    {"group_empty_name", after(on_x + "group = [\"\"]\n"),
+     "12:9: ", "boundary.0.group holds an empty name; name a group of the mesh"},
+    {"group_none", after(on_x + "group = []\n"),
+     "12:9: ", "boundary.0.group is empty; name a group of the mesh, as in group = \"x_min\""},
+    {"group_twice", after(on_x + "group = [\"x_min\", \"x_min\"]\n"),
+     "12:9: ", "boundary.0.group names 'x_min' twice"},
+    {"text_number", "title = 5\n",
+     "1:9: ", "title is the number 5; it takes text, as in title = \"swinging cube, P mode\""},
+    {"text_control", "title = \"a\\u0007\"\n", "1:9: ", "title holds control characters"},
+    {"flag_text", after("[output]\nfields = \"yes\"\n"),
+     "11:10: ", "output.fields is the text 'yes'; it takes true or false, as in fields = false"},
+    {"list_number", "[mesh]\ncells = 4\n",
+     "2:9: ", "mesh.cells is the number 4; it takes list of integers, as in cells = [4, 4, 24]"},
+    {"list_long", "[mesh]\ncells = [1, 2, 3, 4, 5]\n",
+     "2:9: ", "mesh.cells has 5 entries; in this 3-D case it takes 3"},
+    {"integer_half", "[mesh]\ncells = [1.5, 1, 1]\n",
+     "2:10: ", "mesh.cells is the number 1.5; it takes list of integers, as in cells = [4, 4, 24]"},
+    {"integer_huge", mesh + material + "[time]\nend = 1\nmax_steps = 1e30\n",
+     "10:13: ", "time.max_steps is the number 1e+30; it takes integer, as in max_steps = 1000"},
+    {"section_number", "mesh = 5\n", "1:8: ", "mesh is the number 5; write [mesh]"},
+    {"section_list", "[[mesh]]\ncells = [1, 1, 1]\n", "1:1: ", "mesh is a list of 1; write [mesh]"},
+    {"list_section", after("[boundary]\ngroup = \"x_min\"\n"),
+     "10:1: ", "boundary is a table; write [[boundary]]"},
+    {"date", mesh + material + "[time]\nend = 1979-05-27\n",
+     "9:7: ", "time.end is a date or time; it takes number, as in end = \"1.25*2*pi/omega\""},
+    {"name_of_column",
+     after("[[probe]]\nname = \"a/b\"\nunit = \"m\"\nkind = \"mean\"\nquantity = \"ux\"\n"),
+     "11:8: ",
+     "probe.0.name = 'a/b' holds one of []/ and cannot be part of the header of a column"},
+    {"name_empty",
+     after("[[probe]]\nname = \"\"\nunit = \"m\"\nkind = \"mean\"\nquantity = \"ux\"\n"),
+     "11:8: ", "probe.0.name is empty; give it a text for the column's header"},
+    {"probe_twice", after(mean_u + "quantity = \"ux\"\n" + mean_u + "quantity = \"uy\"\n"),
+     "15:1: ", "a probe is already called 'u' (line 10); rename one"},
+    {"probe_at", after(mean_u + "quantity = \"ux\"\nat = [0, 0, 0]\n"),
+     "15:6: ", "probe.0.at has no effect on kind = \"mean\"; remove it"},
+    {"probe_direction", after(mean_u + "quantity = \"ux\"\ndirection = [0, 0, 1]\n"),
+     "15:13: ", "probe.0.direction has no effect on kind = \"mean\"; remove it"},
+    {"probe_field", after(mean_u + "quantity = \"ux\"\n[parameters]\nmises = 1\n"), "10:1: ",
+     "'mises' is a field in the quantities of probes; rename the parameter or function 'mises'"},
+    {"reaction_quantity",
+     after("[[probe]]\nname = \"R\"\nunit = \"N\"\nkind = \"reaction\"\nquantity = \"ux\"\n"),
+     "14:12: ", "probe.0.quantity has no effect on kind = \"reaction\"; remove it"},
+    {"point_group",
+     after("[[probe]]\nname = \"R\"\nunit = \"m\"\nkind = \"point\"\nquantity = \"ux\"\nat = [0, "
+           "0, 0]\ngroup = \"x_min\"\n"),
+     "16:9: ", "probe.0.group has no effect on kind = \"point\"; remove it"},
+    {"text_flag", "title = true\n",
+     "1:9: ", "title is true; it takes text, as in title = \"swinging cube, P mode\""},
+    {"text_off", "title = false\n",
+     "1:9: ", "title is false; it takes text, as in title = \"swinging cube, P mode\""},
+    {"menu_number", "[mesh]\nelement = 5\n", "2:11: ",
+     "mesh.element is the number 5; it takes name (hexahedron, tetrahedron, quadrilateral, "
+     "triangle), as in element = \"tetrahedron\""},
+    {"names_number", after("[expect]\nvariants = 5\n"), "11:12: ",
+     "expect.variants is the number 5; it takes list of texts, as in variants = "
+     "[\"sph.kappa=0.75\"]"},
+    {"unmet_variant",
+     after("[expect]\nvariants = [\"a\"]\n[[expect.unmet]]\nmethod = \"sph\"\nvariant = "
+           "\"b\"\nbecause = \"c\"\n"),
+     "14:11: ", "= 'b' is none of expect.variants"},
+    {"unmet_step",
+     after("[expect]\n[[expect.unmet]]\nmethod = \"sph\"\nby_step = 3\nbecause = \"c\"\n"),
+     "13:11: ", "has no effect without stops; remove it"},
+};
+
 void PrintTo(const BadCase& bad, std::ostream* stream) {
   *stream << bad.name;
 }
@@ -233,7 +309,26 @@ INSTANTIATE_TEST_SUITE_P(Form, BadCases, testing::ValuesIn(of_form), name_of);
 INSTANTIATE_TEST_SUITE_P(Numbers, BadCases, testing::ValuesIn(of_numbers), name_of);
 INSTANTIATE_TEST_SUITE_P(IdleKeys, BadCases, testing::ValuesIn(of_idle_keys), name_of);
 INSTANTIATE_TEST_SUITE_P(Material, BadCases, testing::ValuesIn(of_material), name_of);
+INSTANTIATE_TEST_SUITE_P(Types, BadCases, testing::ValuesIn(of_types), name_of);
 INSTANTIATE_TEST_SUITE_P(Functions, BadCases, testing::ValuesIn(of_functions), name_of);
+
+TEST(Overrides, OfAListNameAnEntryThatIsThere) {
+  const std::string two =
+      after("[[probe]]\nname = \"u\"\nunit = \"m\"\nkind = \"mean\"\nquantity = \"ux\"\n");
+  EXPECT_EQ(case_from_text(two, "case.toml", {"probe.0.name=\"w\""}).probes[0].name, "w");
+  const auto refusal = [&](const std::string& entry) -> std::string {
+    try {
+      case_from_text(two, "case.toml", {"probe." + entry + ".name=\"w\""});
+      return "accepted";
+    } catch (const base::InputError& error) {
+      return error.what();
+    }
+  };
+  for (const char* entry : {"1", "12345678901234567890"})
+    EXPECT_THAT(refusal(entry), HasSubstr("is no entry of this list; it has 1")) << entry;
+  for (const char* entry : {"first", "-1", "1a", " "})
+    EXPECT_THAT(refusal(entry), HasSubstr("unknown key 'probe.")) << entry;
+}
 
 }  // namespace
 }  // namespace diptych::cases

@@ -50,6 +50,33 @@ TEST_F(CaseReferences, AreOneValueOrAFileInTheOrderOfTime) {
   EXPECT_THAT(file.references[0].points, ElementsAre(Point{0.25, 2}, Point{0.5, -1e-3}));
 }
 
+TEST_F(CaseReferences, AreAColumnOfAFileByItsName) {
+  const std::string csv = "t,x0 [m],x1 [m]\n0,1,2\n1,3,-4\n";
+  const Case read_case =
+      read("probe = 'tip'\nfile = 'values.csv'\ncolumn = 'x1 [m]'\nsource = 's'\n", csv);
+  EXPECT_THAT(read_case.references[0].points, ElementsAre(Point{0, 2}, Point{1, -4}));
+  const std::string file = "probe = 'tip'\nfile = 'values.csv'\nsource = 's'\n";
+  EXPECT_THAT(refusal(file + "column = 'x2 [m]'\n", csv), HasSubstr("is no column of the file"));
+  EXPECT_THAT(refusal(file + "column = 't'\n", csv), HasSubstr("is no column of the file"));
+  EXPECT_THAT(refusal(file + "column = 'x1 [m]'\n", "t,x0 [m],x1 [m]\n0,1\n"),
+              HasSubstr("values.csv:2: '0,1' is not a line of 3 cells"));
+  EXPECT_THAT(refusal("probe = 'tip'\nvalue = 1\ntime = 1\nsource = 's'\ncolumn = 'u'\n"),
+              HasSubstr("has no effect without reference.file"));
+}
+
+TEST_F(CaseReferences, StateTheirUncertaintyInTheirUnitOrAsAShare) {
+  const std::string value = "probe = 'tip'\nvalue = -2\ntime = 1\nsource = 's'\n";
+  EXPECT_FALSE(read(value).references[0].uncertainty);
+  EXPECT_EQ(read(value + "uncertainty = 0.1\n").references[0].uncertainty, 0.1);
+  EXPECT_EQ(read(value + "relative_uncertainty = 0.1\n").references[0].uncertainty, 0.2);
+  EXPECT_THAT(refusal(value + "uncertainty = 0\n"), HasSubstr("reference.0.uncertainty"));
+  EXPECT_THAT(refusal(value + "uncertainty = 1\nrelative_uncertainty = 1\n"),
+              HasSubstr("remove one of the two"));
+  EXPECT_THAT(refusal("probe = 'tip'\nvalue = 0\ntime = 1\nsource = 's'\n"
+                      "relative_uncertainty = 0.1\n"),
+              HasSubstr("all 0"));
+}
+
 TEST_F(CaseReferences, AreRefusedWhereTheyMeanNothing) {
   const std::string value = "value = 1\ntime = 1\nsource = 's'\n";
   EXPECT_THAT(refusal("probe = 'tpi'\n" + value), HasSubstr("did you mean 'tip'?"));

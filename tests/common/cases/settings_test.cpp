@@ -64,6 +64,16 @@ TEST(ChangedSetting, IsToldWithBothValues) {
   EXPECT_EQ(change_by({"mesh.cells=[2, 4]"}), "mesh.cells.1 was 3, is 4");
 }
 
+TEST(ChangedSetting, SeesFlags) {
+  EXPECT_EQ(change_by({"scheme.energy_budget=false"}),
+            "scheme.energy_budget was not given, is false");
+  EXPECT_EQ(changed_setting(settings_with({"scheme.energy_budget=false"}),
+                            settings_with({"scheme.energy_budget=true"})),
+            "scheme.energy_budget was false, is true");
+  EXPECT_EQ(change_by({"output.fields=false"}), "");
+  EXPECT_EQ(changed_setting("a = 1\nno setting\n", "a = 1\n"), "");
+}
+
 TEST(ChangedSetting, SeesChangesOfTextsOfManyLines) {
   const auto with = [](const std::string& modulus) {
     std::string changed = text;

@@ -36,6 +36,8 @@ const char* const smooth_texts[] = {
     "sin(w*t)^2 + exp(a*t)*x - 3*(x - (y - (z - t)))",
     "1/(1 + x^2 + t*y) + 2/z",
     "x*cos(a*t*exp(-x^2)) - y*sin(a*t*exp(-x^2)) - x",
+    "+x -\t1e-1*y\n + 2E+1*z\r + 3e0*t + .5*x",
+    "x^0 + y^1 + (x + 2)^0.5 + (y + 2)^2",
 };
 
 const char* const other_texts[] = {
@@ -51,6 +53,8 @@ const char* const other_texts[] = {
     "2 - x ? 3*t : 4",
     "(x - 0.5)*(x > 0.5)*sin(w*t)",
     "log(x - 2) > 0 ? 1 : x",
+    "abs(-2)*x + min(1, 2)*y + min(2, 1) + max(1, 2)*z + max(2, 1) + (3 - 2)*t",
+    "(1 == 1)*x + (1 == 2)*y + (1 != 2)*z + (2 != 2)*t + sign(2) + sign(-2)*x + sign(0)",
 };
 
 double by_muparser(const std::string& text, const Vec3& X, double t) {
@@ -253,6 +257,50 @@ TEST(Program, RefusesWhatHasNoTwoDerivatives) {
   EXPECT_THAT(refusal("max(x, y)"), HasSubstr("'max'"));
   EXPECT_THAT(refusal("(x == 1)"), HasSubstr("'=' has no derivative"));
   EXPECT_THAT(refusal("q_dot*x"), HasSubstr("'q_dot' has no derivatives"));
+}
+
+VectorExpression vector_of(const char* x, const char* y, const char* z) {
+  return {{Expression(x, vocabulary, {}), Expression(y, vocabulary, {}),
+           Expression(z, vocabulary, {})}};
+}
+
+const std::vector<Vec3> places = {{0.1, 0.2, 0.3}, {0.7, -0.4, 0.5}, {-0.3, 0.6, 0.9}};
+
+TEST(GradientsOf, AreThoseOfDifferences) {
+  const VectorExpression u = vector_of("x^2*y + t*z", "sin(w*x)*z", "exp(y)*x - z^3");
+  for (const int dimension : {2, 3}) {
+    auto gradients = gradients_of(u, dimension, places);
+    ASSERT_TRUE(gradients);
+    const auto n = static_cast<size_t>(dimension * dimension);
+    std::vector<double> values(places.size() * n);
+    gradients->at(0.4, values);
+    for (size_t a = 0; a < places.size(); ++a) {
+      for (int i = 0; i < dimension; ++i) {
+        for (int j = 0; j < dimension; ++j) {
+          const Vec3 step = 1e-5 * Vec3::Unit(j);
+          const Vec3 difference = (u(places[a] + step, 0.4) - u(places[a] - step, 0.4)) / 2e-5;
+          EXPECT_NEAR(values[a * n + static_cast<size_t>(i * dimension + j)], difference[i], 1e-8);
+        }
+      }
+    }
+  }
+  EXPECT_FALSE(gradients_of(vector_of("abs(x)", "y", "z"), 3, places));
+  EXPECT_TRUE(gradients_of(vector_of("abs(t)*x", "y", "z"), 3, places)) << "smooth in place";
+}
+
+TEST(PlacedExpressions, AreTheExpressionsAtEachPlace) {
+  const VectorExpression u = vector_of("x*t", "y - z", "a*x");
+  TensorExpression F;
+  for (size_t k = 0; k < 9; ++k)
+    F.component[k] = Expression(std::to_string(k) + "*x + y*t", vocabulary, {});
+  const auto vectors = vectors_at(u, places, 0.4);
+  const auto tensors = tensors_at(F, places, 0.4);
+  ASSERT_EQ(vectors.size(), places.size());
+  ASSERT_EQ(tensors.size(), places.size());
+  for (size_t a = 0; a < places.size(); ++a) {
+    EXPECT_LE((vectors[a] - u(places[a], 0.4)).norm(), 1e-15);
+    EXPECT_LE((tensors[a] - F(places[a], 0.4)).norm(), 1e-14);
+  }
 }
 
 }  // namespace

@@ -85,6 +85,31 @@ TEST(EnergyGuard, StopsAnUnstableRunBeforeAnyNodeShowsIt) {
   }
 }
 
+/// The budget closes all the same: what D_ab gave is in it.
+TEST(EnergyGuard, StopsWhereNumericalDissipationGivesEnergy) {
+  Guarded run("fvm", {});
+  const scheme::Balance initial = run.scene.solver->balance();
+  for (const double part : {0.009, 0.011}) {
+    EnergyGuard guard(initial, 0.01, 0);
+    scheme::Balance now = initial;
+    scheme::Audit audit;
+    audit.numerical_dissipation = -part * initial.kinetic;
+    now.kinetic += part * initial.kinetic;
+    const StepReport step;
+    if (part < 0.01) {
+      EXPECT_NO_THROW(guard.at_check({step, now, audit}));
+      continue;
+    }
+    try {
+      guard.at_check({step, now, audit});
+      ADD_FAILURE() << "not stopped";
+    } catch (const base::BreakdownError& error) {
+      EXPECT_THAT(error.what(), AllOf(HasSubstr("has given the body 0.01"), HasSubstr("limiter"),
+                                      HasSubstr("guards.energy_residual")));
+    }
+  }
+}
+
 /// The step at which the energy of a body first is more than its budget allows.
 class FirstGrowth : public Observer {
  public:

@@ -34,7 +34,7 @@ DIPTYCH_INLINE void evaluate_blocks(const StrainRateSweep<Dim>& sweep,
   double least = totals.least_J[0];
   for (int l = 1; l < n_lanes; ++l)
     least = algebra::smaller(least, totals.least_J[l]);
-  sweep.least_J[chunk] = algebra::lane_sum(totals.n_bad) > 0 ? __builtin_nan("") : least;
+  sweep.least_J[chunk] = totals.is_sound ? least : __builtin_nan("");
 }
 
 template <int Dim>

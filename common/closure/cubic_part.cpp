@@ -1,0 +1,93 @@
+#include "common/closure/cubic_part.hpp"
+
+#include "common/algebra/monomials.hpp"
+#include "common/parallel/for_each.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych::closure {
+
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Rows whose sums are one partial sum, whatever the number of threads.
+constexpr std::int64_t piece_size = 4096;
+
+/// Calls work(piece, first row, number of rows).
+template <class Work>
+void for_pieces(std::int64_t n_rows, const Work& work) {
+  parallel::for_each((n_rows + piece_size - 1) / piece_size, [&](std::int64_t i) {
+    work(i, i * piece_size, std::min<std::int64_t>(piece_size, n_rows - i * piece_size));
+  });
+}
+
+/// A^T B over rows, summed in a fixed order. A product of Eigen's would be shared out to threads.
+template <class Left, class Right>
+Matrix transposed_product(const Left& A, const Right& B) {
+  const std::int64_t n_rows = A.rows();
+  std::vector<Matrix> parts(static_cast<size_t>((n_rows + piece_size - 1) / piece_size));
+  for_pieces(n_rows, [&](std::int64_t i, std::int64_t first, std::int64_t n) {
+    parts[i] = A.middleRows(first, n).transpose().lazyProduct(B.middleRows(first, n));
+  });
+  Matrix sum = parts.front();
+  for (size_t i = 1; i < parts.size(); ++i)
+    sum += parts[i];
+  return sum;
+}
+
+}  // namespace
+
+CubicPart::CubicPart(const scheme::PairGraph& graph, const std::vector<double>& h)
+    : dimension_(graph.dimension), n_terms_(algebra::n_monomials(graph.dimension, 3)) {
+  Vec3 lower = graph.X[0], upper = graph.X[0];
+  for (const Vec3& X : graph.X) {
+    lower = lower.cwiseMin(X);
+    upper = upper.cwiseMax(X);
+  }
+  const Vec3 middle = 0.5 * (lower + upper), size = 0.5 * (upper - lower);
+  const auto n_rows = static_cast<std::int64_t>(graph.X.size()) * (1 + dimension_);
+  basis_.resize(static_cast<size_t>(n_rows * n_terms_));
+  Eigen::Map<RowMajor> B(basis_.data(), n_rows, n_terms_);
+  for_each_node(graph.X.size(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      Vec3 X = Vec3::Zero();
+      for (int i = 0; i < dimension_; ++i)
+        X[i] = (graph.X[a][i] - middle[i]) / size[i];
+      const std::int64_t row = a * (1 + dimension_);
+      B.row(row) = algebra::monomials(X, dimension_, 3).transpose();
+      const Matrix gradients = algebra::monomial_gradients(X, dimension_, 3);
+      for (int i = 0; i < dimension_; ++i)
+        B.row(row + 1 + i) = h[a] / (3 * size[i]) * gradients.col(i).transpose();
+    }
+  });
+  // twice is enough for columns that are orthogonal to rounding; on few nodes some are dependent
+  for (int round = 0; round < 2; ++round) {
+    const Matrix gram = transposed_product(B, B);
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(gram);
+    const Eigen::VectorXd& eigenvalues = solver.eigenvalues();
+    Eigen::VectorXd scale(n_terms_);
+    for (int m = 0; m < n_terms_; ++m) {
+      scale[m] =
+          eigenvalues[m] > 1e-13 * eigenvalues[n_terms_ - 1] ? 1 / std::sqrt(eigenvalues[m]) : 0;
+    }
+    const Matrix turn = solver.eigenvectors() * scale.asDiagonal();
+    for (std::int64_t row = 0; row < n_rows; ++row)
+      B.row(row) = (B.row(row) * turn).eval();
+  }
+}
+
+void CubicPart::remove(Field& r) const {
+  const auto n_rows = static_cast<std::int64_t>(r.size());
+  const Eigen::Map<const RowMajor> B(basis_.data(), n_rows, n_terms_);
+  using Entries = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  Eigen::Map<Entries> R(r.front().data(), n_rows, 3);
+  const Matrix part = transposed_product(B, R);
+  for_pieces(n_rows, [&](std::int64_t, std::int64_t first, std::int64_t n) {
+    R.middleRows(first, n) -= B.middleRows(first, n).lazyProduct(part);
+  });
+}
+
+}  // namespace diptych::closure

@@ -1,0 +1,382 @@
+#include "common/closure/quadratic_correction.hpp"
+
+#include "common/algebra/four.hpp"
+#include "common/base/error.hpp"
+#include "common/closure/pair_correction.hpp"
+
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace diptych::closure {
+
+namespace {
+
+using algebra::Four;
+using algebra::load_four;
+using algebra::load_three;
+using algebra::store_three;
+
+/// Reciprocal condition number of a row's moments below which its neighbours do not span the
+/// quadratics.
+constexpr double least_condition = 1e-9;
+
+/// What the passes stream.
+struct Rows {
+  const std::int64_t* row;
+  const std::int32_t* neighbour;
+  const double* k;
+};
+
+template <int D>
+DIPTYCH_INLINE void fill_terms(const double* X, double* q) {
+  for (int i = 0; i < D; ++i)
+    q[i] = X[i];
+  int m = D;
+  for (int i = 0; i < D; ++i) {
+    for (int j = i; j < D; ++j)
+      q[m++] = X[i] * X[j];
+  }
+}
+
+/// Sum over the terms of q(X) rho; turned: q(-X) rho.
+template <int D, bool turned>
+DIPTYCH_INLINE Four fitted(const double* q, const double (*rho)[4]) {
+  constexpr int n = QuadraticCorrection<D>::n_terms;
+  Four odd = q[0] * load_four(rho[0]), even = q[D] * load_four(rho[D]);
+  for (int m = 1; m < D; ++m)
+    odd += q[m] * load_four(rho[m]);
+  for (int m = D + 1; m < n; ++m)
+    even += q[m] * load_four(rho[m]);
+  return turned ? even - odd : even + odd;
+}
+
+/// 1/2 (y_a - y_b + Y_b (X_b - X_a))
+template <int D, class Record>
+DIPTYCH_INLINE Four jump(const Record& a, const Record& b, const double* X) {
+  Four sum = load_four(a.value[0]) - load_four(b.value[0]);
+  for (int i = 0; i < D; ++i)
+    sum += X[i] * load_four(b.value[1 + i]);
+  return 0.5 * sum;
+}
+
+template <class Record>
+DIPTYCH_INLINE void difference(const Record& a, const Record& b, double* X) {
+  for (int i = 0; i < 3; ++i)
+    X[i] = b.value[i][3] - a.value[i][3];
+}
+
+/// rho of nodes [begin, end).
+template <int D, class Record, class Square>
+DIPTYCH_INLINE void fit_nodes(const Rows& rows,
+                              const Square* inverse,
+                              const double* reach,
+                              Record* nodes,
+                              std::int64_t begin,
+                              std::int64_t end) {
+  constexpr int n = QuadraticCorrection<D>::n_terms;
+  double X[3], q[n];
+  for (std::int64_t a = begin; a < end; ++a) {
+    Record& node = nodes[a];
+    Four moment[n]{};
+    for (std::int64_t p = rows.row[a]; p < rows.row[a + 1]; ++p) {
+      const Record& b = nodes[rows.neighbour[p]];
+      difference(node, b, X);
+      fill_terms<D>(X, q);
+      const Four t = rows.k[p] * jump<D>(node, b, X);
+      for (int m = 0; m < n; ++m)
+        moment[m] += q[m] * t;
+    }
+    // the inverse is that of X/reach
+    const auto unit = [&](int m) { return m < D ? 1 / reach[a] : 1 / (reach[a] * reach[a]); };
+    for (int m = 0; m < n; ++m)
+      moment[m] *= unit(m);
+#pragma GCC unroll 1
+    for (int m = 0; m < n; ++m) {
+      Four sum{};
+      for (int l = 0; l < n; ++l)
+        sum += inverse[a](l, m) * moment[l];
+      store_three(node.rho[m], unit(m) * sum);
+    }
+  }
+}
+
+template <int D, class Record>
+DIPTYCH_INLINE void apply_nodes(const Rows& rows,
+                                const Record* nodes,
+                                const double* h,
+                                Vec3* out,
+                                std::int64_t begin,
+                                std::int64_t end) {
+  constexpr int n = QuadraticCorrection<D>::n_terms;
+  double X[3], q[n];
+  for (std::int64_t a = begin; a < end; ++a) {
+    const Record& node = nodes[a];
+    Four closure{}, linear[D]{};
+    for (std::int64_t p = rows.row[a]; p < rows.row[a + 1]; ++p) {
+      const Record& b = nodes[rows.neighbour[p]];
+      difference(node, b, X);
+      fill_terms<D>(X, q);
+      const Four forth = rows.k[p] * (jump<D>(node, b, X) - fitted<D, false>(q, node.rho));
+      for (int i = 0; i < D; ++i)
+        X[i] = -X[i];
+      const Four back = rows.k[p] * (jump<D>(b, node, X) - fitted<D, true>(q, b.rho));
+      closure += forth - back;
+      for (int i = 0; i < D; ++i)
+        linear[i] += X[i] * back;
+    }
+    Vec3* of_node = out + a * (1 + D);
+    store_three(of_node[0].data(), 0.5 * closure);
+    for (int i = 0; i < D; ++i)
+      store_three(of_node[1 + i].data(), 0.5 / h[a] * linear[i]);
+  }
+}
+
+using Record2 = QuadraticCorrection<2>::Record;
+using Record3 = QuadraticCorrection<3>::Record;
+using Square2 = QuadraticCorrection<2>::Square;
+using Square3 = QuadraticCorrection<3>::Square;
+
+DIPTYCH_CLONES void fit_rows(const Rows& rows,
+                             const Square2* inverse,
+                             const double* reach,
+                             Record2* nodes,
+                             std::int64_t begin,
+                             std::int64_t end) {
+  fit_nodes<2>(rows, inverse, reach, nodes, begin, end);
+}
+DIPTYCH_CLONES void fit_rows(const Rows& rows,
+                             const Square3* inverse,
+                             const double* reach,
+                             Record3* nodes,
+                             std::int64_t begin,
+                             std::int64_t end) {
+  fit_nodes<3>(rows, inverse, reach, nodes, begin, end);
+}
+DIPTYCH_CLONES void apply_rows(const Rows& rows,
+                               const Record2* nodes,
+                               const double* h,
+                               Vec3* out,
+                               std::int64_t begin,
+                               std::int64_t end) {
+  apply_nodes<2>(rows, nodes, h, out, begin, end);
+}
+DIPTYCH_CLONES void apply_rows(const Rows& rows,
+                               const Record3* nodes,
+                               const double* h,
+                               Vec3* out,
+                               std::int64_t begin,
+                               std::int64_t end) {
+  apply_nodes<3>(rows, nodes, h, out, begin, end);
+}
+
+using Matrix = Eigen::MatrixXd;  // of a size known at run time only: quicker to compile by minutes
+
+Matrix invert(const Matrix& moments, const scheme::PairGraph& graph, std::int64_t a) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(moments);
+  const Eigen::VectorXd& eigenvalues = solver.eigenvalues();
+  if (!(eigenvalues[0] > least_condition * eigenvalues[eigenvalues.size() - 1])) {
+    const Vec3& X = graph.X[a];
+    throw base::InputError(fmt::format(
+        "node {} at ({:.6g}, {:.6g}, {:.6g}) has {} neighbours that do not determine a quadratic, "
+        "which operators that sum by parts ask for: raise kappa, or refine the mesh there",
+        a, X[0], X[1], X[2], graph.row[a + 1] - graph.row[a]));
+  }
+  return solver.eigenvectors() * eigenvalues.cwiseInverse().asDiagonal() *
+         solver.eigenvectors().transpose();
+}
+
+template <class Square, class Terms>
+Terms product(const Square& inverse, const Terms& q) {
+  Terms sum = Terms::Zero();
+  for (int m = 0; m < sum.size(); ++m)
+    sum += q[m] * inverse.col(m);
+  return sum;
+}
+
+}  // namespace
+
+std::vector<double> spacings(const scheme::PairGraph& graph) {
+  std::vector<double> h(graph.Omega.size());
+  for (size_t a = 0; a < h.size(); ++a)
+    h[a] = std::pow(graph.Omega[a], 1.0 / graph.dimension);
+  return h;
+}
+
+template <int D>
+auto QuadraticCorrection<D>::terms(const Vec3& X) -> Terms {
+  Terms q;
+  fill_terms<D>(X.data(), q.data());
+  return q;
+}
+
+template <int D>
+QuadraticCorrection<D>::QuadraticCorrection(const scheme::PairGraph& graph,
+                                            const std::vector<double>& k)
+    : graph_(graph),
+      k_(k),
+      h_(spacings(graph)),
+      reach_(graph.X.size()),
+      inverse_(graph.X.size()),
+      blocks_(graph.X.size()),
+      records_(graph.n_nodes()) {
+  std::vector<Square> moments(graph.X.size());
+  for_each_node(moments.size(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      moments[a].setZero();
+      double sum = 0, square = 0;
+      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+        sum += k[p];
+        square += k[p] * (graph.X[graph.neighbour[p]] - graph.X[a]).squaredNorm();
+      }
+      reach_[a] = std::sqrt(square / sum);
+      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+        const Terms q = terms((graph.X[graph.neighbour[p]] - graph.X[a]) / reach_[a]);
+        for (int m = 0; m < n_terms; ++m)
+          moments[a].col(m) += k[p] * q[m] * q;
+      }
+      for (int i = 0; i < 3; ++i)
+        records_[a].value[i][3] = graph.X[a][i];
+    }
+  });
+  // outside of parallel loops, so that the first node that is refused is the one that is named
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a)
+    inverse_[a] = invert(moments[a], graph, a);
+  set_blocks();
+  smooth_ = std::make_unique<SplineLevels>(graph, k, inverse_second_moments(graph, k), h_);
+  smooth_->scale_to([this](const Field& y, Field& S_y) { apply_S(y, S_y); });
+}
+
+/// Of S, from what a multiplier of node a does to its own row and, one pair each, to those of its
+/// neighbours.
+template <int D>
+void QuadraticCorrection<D>::set_blocks() {
+  for_each_node(blocks_.size(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      Block block = Block::Zero();
+      Terms moment = Terms::Zero();
+      for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
+        const std::int32_t b = graph_.neighbour[p];
+        const Vec3 X = graph_.X[b] - graph_.X[a];
+        moment += 0.5 * k_[p] * terms(X / reach_[a]);
+        block(0, 0) += 0.25 * k_[p];
+        Eigen::Matrix<double, n_conditions, 1> of_neighbour;
+        of_neighbour[0] = -0.5;
+        of_neighbour.template tail<D>() = -0.5 / h_[a] * X.head<D>();
+        const Terms q = terms(-X / reach_[b]);
+        const double left = k_[p] * (1 - k_[p] * q.dot(product(inverse_[b], q)));
+        for (int i = 0; i < n_conditions; ++i)
+          block.col(i) += left * of_neighbour[i] * of_neighbour;
+      }
+      block(0, 0) -= moment.dot(product(inverse_[a], moment));
+      blocks_[a] = Matrix(block).completeOrthogonalDecomposition().pseudoInverse();
+    }
+  });
+}
+
+template <int D>
+void QuadraticCorrection<D>::correct_rows(std::vector<Vec3>& C) const {
+  for_each_node(h_.size(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      const auto X = [&](std::int64_t p) -> Vec3 {
+        return (graph_.X[graph_.neighbour[p]] - graph_.X[a]) / reach_[a];
+      };
+      Terms rho[3];
+      for (int i = 0; i < 3; ++i) {
+        Terms missing = Terms::Zero();
+        if (i < D) missing[i] = 2 * graph_.Omega[a] / reach_[a];
+        for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p)
+          missing -= C[p][i] * terms(X(p));
+        rho[i] = product(inverse_[a], missing);
+      }
+      for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
+        const Terms q = terms(X(p));
+        for (int i = 0; i < 3; ++i)
+          C[p][i] += k_[p] * rho[i].dot(q);
+      }
+    }
+  });
+}
+
+template <int D>
+Field QuadraticCorrection<D>::gap(const std::vector<Vec3>& C) const {
+  Field gap(h_.size() * n_conditions);
+  for_each_node(h_.size(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      Vec3* r = &gap[static_cast<size_t>(a) * n_conditions];
+      r[0] = -graph_.boundary_area[a];
+      for (int i = 0; i < D; ++i)
+        r[1 + i] = graph_.Omega[a] / h_[a] * Vec3::Unit(i);
+      for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
+        const Vec3 X = (graph_.X[graph_.neighbour[p]] - graph_.X[a]) / h_[a];
+        const Vec3& back = C[graph_.reverse[p]];
+        r[0] -= 0.5 * (C[p] - back);
+        for (int i = 0; i < D; ++i)
+          r[1 + i] += 0.5 * X[i] * back;
+      }
+    }
+  });
+  return gap;
+}
+
+template <int D>
+void QuadraticCorrection<D>::fit(const Field& y) {
+  for_each_node(h_.size(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      const Vec3* of_node = &y[static_cast<size_t>(a) * n_conditions];
+      store_three(records_[a].value[0], load_three(of_node[0]));
+      for (int i = 0; i < D; ++i)
+        store_three(records_[a].value[1 + i], load_three(of_node[1 + i]) / h_[a]);
+    }
+  });
+  const Rows rows{graph_.row.data(), graph_.neighbour.data(), k_.data()};
+  for_each_node(h_.size(), [&](std::int64_t begin, std::int64_t end) {
+    fit_rows(rows, inverse_.data(), reach_.data(), records_.data(), begin, end);
+  });
+}
+
+template <int D>
+void QuadraticCorrection<D>::apply_S(const Field& y, Field& S_y) {
+  fit(y);
+  const Rows rows{graph_.row.data(), graph_.neighbour.data(), k_.data()};
+  for_each_node(h_.size(), [&](std::int64_t begin, std::int64_t end) {
+    apply_rows(rows, records_.data(), h_.data(), S_y.data(), begin, end);
+  });
+}
+
+template <int D>
+void QuadraticCorrection<D>::precondition(const Field& r, Field& z) {
+  for_each_node(h_.size(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      using Conditions = Eigen::Matrix<double, 3, n_conditions>;
+      const size_t first = static_cast<size_t>(a) * n_conditions;
+      Eigen::Map<Conditions>(z[first].data()) =
+          Eigen::Map<const Conditions>(r[first].data()) * blocks_[a];
+    }
+  });
+  smooth_->add(r, z);
+}
+
+template <int D>
+void QuadraticCorrection<D>::change(const Field& y, std::vector<Vec3>& C) {
+  fit(y);
+  for_each_node(h_.size(), [&](std::int64_t begin, std::int64_t end) {
+    double X[3], q[n_terms];
+    for (std::int64_t a = begin; a < end; ++a) {
+      const Record& node = records_[a];
+      for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
+        const Record& b = records_[graph_.neighbour[p]];
+        difference(node, b, X);
+        fill_terms<D>(X, q);
+        const Four dC = k_[p] * (jump<D>(node, b, X) - fitted<D, false>(q, node.rho));
+        C[p] += Vec3(dC[0], dC[1], dC[2]);
+      }
+    }
+  });
+}
+
+template class QuadraticCorrection<2>;
+template class QuadraticCorrection<3>;
+
+}  // namespace diptych::closure

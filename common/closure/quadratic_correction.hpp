@@ -1,0 +1,71 @@
+#pragma once
+/// The least weighted change of the C_ab that keeps rows exact for quadratics and changes the
+/// adjoint (summation_by_parts.hpp). Multipliers of a node are y_a, of its closure, and Y_a, three
+/// of them in space, of its adjoint for linear stresses; with X = X_b - X_a and q(X) the monomials
+/// of degrees 1 and 2,
+///   t_ab  = 1/2 (y_a - y_b + Y_b X),    dC_ab = k_ab (t_ab - q(X) . rho_a),
+///   rho_a = (sum_b k_ab q q^T)^-1 sum_b k_ab q t_ab,
+/// and S takes the multipliers to what dC adds to the conditions,
+///   1/2 sum_b (dC_ab - dC_ba)  and  -1/2 sum_b X dC_ba.
+/// A Field holds y_a and the columns of Y_a h_a one after another, 1 + dimension vectors a node, so
+/// that all conditions are areas. Two passes over the pairs, each with one record of a neighbour.
+/// Test: tests/graphs/summation_by_parts_test.cpp
+
+#include "common/algebra/field.hpp"
+#include "common/closure/conjugate_gradients.hpp"
+#include "common/closure/spline_levels.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace diptych::closure {
+
+/// Spacing of each node, Omega_a^(1/d).  [m]
+std::vector<double> spacings(const scheme::PairGraph& graph);
+
+template <int D>
+class QuadraticCorrection {
+ public:
+  static constexpr int n_conditions = 1 + D;           ///< of the adjoint of a node
+  static constexpr int n_terms = D + D * (D + 1) / 2;  ///< of q
+  using Terms = Eigen::Matrix<double, n_terms, 1>;
+  using Square = Eigen::Matrix<double, n_terms, n_terms>;
+  using Block = Eigen::Matrix<double, n_conditions, n_conditions>;
+
+  /// What the passes read of a node: y and X[0]; the columns of Y with X[1], X[2]; rho.
+  struct alignas(64) Record {
+    double value[4][4];
+    double rho[n_terms][4];
+  };
+
+  /// @throws base::InputError where a row has too few neighbours for a quadratic
+  QuadraticCorrection(const scheme::PairGraph& graph, const std::vector<double>& k);
+
+  /// Changes every row least to be exact for quadratics.
+  void correct_rows(std::vector<Vec3>& C) const;
+  /// What the adjoint misses. [n_nodes * n_conditions]
+  Field gap(const std::vector<Vec3>& C) const;
+  void apply_S(const Field& y, Field& S_y);
+  void precondition(const Field& r, Field& z);
+  void change(const Field& y, std::vector<Vec3>& C);
+
+  static Terms terms(const Vec3& X);
+
+ private:
+  void fit(const Field& y);
+  void set_blocks();
+
+  const scheme::PairGraph& graph_;
+  const std::vector<double>& k_;
+  std::vector<double> h_;
+  std::vector<double> reach_;    ///< root of the mean square distance in each row, by k  [m]
+  std::vector<Square> inverse_;  ///< (sum k q q^T)^-1 with q of X/reach_a
+  std::vector<Block> blocks_;    ///< inverse diagonal blocks of S
+  algebra::AlignedArray<Record> records_;
+  std::unique_ptr<SplineLevels> smooth_;
+};
+
+extern template class QuadraticCorrection<2>;
+extern template class QuadraticCorrection<3>;
+
+}  // namespace diptych::closure

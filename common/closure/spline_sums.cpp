@@ -1,0 +1,109 @@
+#include "common/closure/spline_sums.hpp"
+
+#include "common/algebra/lanes.hpp"
+
+namespace diptych::closure {
+
+DIPTYCH_CLONES void spread_nodes(const std::int32_t* begin,
+                                 const std::int32_t* end,
+                                 const NodeSplines* splines,
+                                 const SplineIndex& n,
+                                 int n_z,
+                                 const Vec3* r,
+                                 Four* grid) {
+  for (; begin != end; ++begin) {
+    const NodeSplines& s = splines[*begin];
+    const Four field = algebra::load_three(r[*begin]);
+    for (int k = 0; k < n_z; ++k) {
+      for (int j = 0; j < 3; ++j) {
+        const Four w = s.value[2][k] * s.value[1][j] * field;
+        Four* g = grid + s.first + (static_cast<std::int64_t>(k) * n[1] + j) * n[0];
+        for (int i = 0; i < 3; ++i)
+          g[i] += s.value[0][i] * w;
+      }
+    }
+  }
+}
+
+DIPTYCH_CLONES void gather_nodes(std::int64_t begin,
+                                 std::int64_t end,
+                                 const NodeSplines* splines,
+                                 const SplineIndex& n,
+                                 int n_z,
+                                 const Four* grid,
+                                 Vec3* z) {
+  for (std::int64_t a = begin; a < end; ++a) {
+    const NodeSplines& s = splines[a];
+    Four sum = algebra::load_three(z[a]);
+    for (int k = 0; k < n_z; ++k) {
+      for (int j = 0; j < 3; ++j) {
+        const Four* g = grid + s.first + (static_cast<std::int64_t>(k) * n[1] + j) * n[0];
+        sum += s.value[2][k] * s.value[1][j] *
+               (s.value[0][0] * g[0] + s.value[0][1] * g[1] + s.value[0][2] * g[2]);
+      }
+    }
+    algebra::store_three(z[a].data(), sum);
+  }
+}
+
+DIPTYCH_CLONES void spread_nodes_with_slopes(const std::int32_t* begin,
+                                             const std::int32_t* end,
+                                             const NodeSplines* splines,
+                                             const NodeSlopes* slopes,
+                                             const SplineIndex& n,
+                                             int d,
+                                             const Vec3* r,
+                                             Four* grid) {
+  for (; begin != end; ++begin) {
+    const NodeSplines& s = splines[*begin];
+    const NodeSlopes& g = slopes[*begin];
+    const Vec3* of_node = r + static_cast<std::int64_t>(*begin) * (1 + d);
+    const Four field = algebra::load_three(of_node[0]), by_x = algebra::load_three(of_node[1]),
+               by_y = algebra::load_three(of_node[2]),
+               by_z = d == 3 ? algebra::load_three(of_node[3]) : Four{};
+    for (int k = 0; k < (d == 3 ? 3 : 1); ++k) {
+      for (int j = 0; j < 3; ++j) {
+        const double z = s.value[2][k], y = s.value[1][j];
+        const Four across = z * y * field + z * g.value[1][j] * by_y + g.value[2][k] * y * by_z;
+        const Four along = z * y * by_x;
+        Four* place = grid + s.first + (static_cast<std::int64_t>(k) * n[1] + j) * n[0];
+        for (int i = 0; i < 3; ++i)
+          place[i] += s.value[0][i] * across + g.value[0][i] * along;
+      }
+    }
+  }
+}
+
+DIPTYCH_CLONES void gather_nodes_with_slopes(std::int64_t begin,
+                                             std::int64_t end,
+                                             const NodeSplines* splines,
+                                             const NodeSlopes* slopes,
+                                             const SplineIndex& n,
+                                             int d,
+                                             const Four* grid,
+                                             Vec3* z) {
+  for (std::int64_t a = begin; a < end; ++a) {
+    const NodeSplines& s = splines[a];
+    const NodeSlopes& g = slopes[a];
+    Four sum{}, by[3]{};
+    for (int k = 0; k < (d == 3 ? 3 : 1); ++k) {
+      for (int j = 0; j < 3; ++j) {
+        const Four* place = grid + s.first + (static_cast<std::int64_t>(k) * n[1] + j) * n[0];
+        const Four value =
+            s.value[0][0] * place[0] + s.value[0][1] * place[1] + s.value[0][2] * place[2];
+        const Four slope =
+            g.value[0][0] * place[0] + g.value[0][1] * place[1] + g.value[0][2] * place[2];
+        sum += s.value[2][k] * s.value[1][j] * value;
+        by[0] += s.value[2][k] * s.value[1][j] * slope;
+        by[1] += s.value[2][k] * g.value[1][j] * value;
+        by[2] += g.value[2][k] * s.value[1][j] * value;
+      }
+    }
+    Vec3* of_node = z + a * (1 + d);
+    algebra::store_three(of_node[0].data(), algebra::load_three(of_node[0]) + sum);
+    for (int i = 0; i < d; ++i)
+      algebra::store_three(of_node[1 + i].data(), algebra::load_three(of_node[1 + i]) + by[i]);
+  }
+}
+
+}  // namespace diptych::closure

@@ -1,0 +1,44 @@
+#pragma once
+/// Graphs that sum by parts, on any nodes: the least change of the C_ab, weighted with k_ab, such
+/// that for all quadratics q and all linear stresses s
+///   sum_b 1/2 q(X_b - X_a) C_ab      = Omega_a grad q(0)              rows
+///   1/2 sum_b (s_a C_ab - s_b C_ba)  = Omega_a grad s - A_aN_a s_a    adjoint
+/// Constant s is the closure of notes 3.3. Rows are met one by one; what is left are 1 + dimension
+/// multipliers a node, the same system for the three components of the C_ab, which is solved by
+/// preconditioned conjugate gradients. It has a solution only where volumes and areas agree about
+/// cubics, as those of meshes::quadratic_measure do. In the end the closure alone is repaired to
+/// rounding, and rows stay exact for linear fields to rounding.
+/// Source: notes 4.5. Test: tests/graphs/summation_by_parts_test.cpp
+
+#include "common/scheme/graph/pair_graph.hpp"
+
+#include <vector>
+
+namespace diptych::closure {
+
+/// Part of Omega_a^((d-1)/d) by which an adjoint may miss its condition.
+struct SummationLimits {
+  double residual = 1e-4;
+  int iterations = 4000;
+};
+
+/// Of operators on nodes that are no lattice (notes 4.5).
+inline constexpr const char* sign_notice =
+    "sbp: on these nodes the sign of the numerical dissipation is known with scheme.limiter = "
+    "\"sign-preserving\" alone; without it a body under strong pressure may come apart (notes 4.5)";
+
+/// What it took. Residuals are relative to Omega_a^((d-1)/d), greatest.
+struct SummationByParts {
+  double before = 0;
+  double after = 0;
+  int iterations = 0;
+};
+
+/// @param k [n_pairs] weights > 0, k_ab = k_ba
+/// @pre   rows and reverse pairs are linked; C holds what is to change least
+/// @throws base::InputError where rows have too few neighbours, or the conditions are not met
+SummationByParts make_sum_by_parts(scheme::PairGraph& graph,
+                                   const std::vector<double>& k,
+                                   const SummationLimits& limits = {});
+
+}  // namespace diptych::closure

@@ -1,0 +1,360 @@
+#include "meshes/quadratic_measure.hpp"
+
+#include "common/algebra/monomials.hpp"
+#include "common/base/error.hpp"
+#include "common/parallel/for_each.hpp"
+#include "meshes/cell_topology.hpp"
+#include "meshes/incidence.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <numeric>
+
+namespace diptych::meshes {
+
+namespace {
+
+using algebra::monomial_gradients;
+using algebra::monomials;
+using algebra::n_monomials;
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+/// Nodes that take part in the volume of a cell, and in the area of a face, if there are as many.
+constexpr size_t nodes_of_cell[] = {20, 64};
+constexpr size_t nodes_of_face[] = {6, 25};
+constexpr double decay = 0.3;  ///< of the weight of a change with the square of the distance
+/// Cells that are worked by one thread at a time.
+constexpr std::int64_t piece_size = 256;
+/// Cosine of the angle between normals of one plane, less one.
+constexpr double plane = 1e-10;
+/// Part of the largest moment by which moments of volumes and areas may differ.
+constexpr double most_difference = 1e-9;
+
+struct Weights {
+  std::vector<std::int32_t> nodes;
+  Vector value;
+};
+
+/// Corners of `cells`, all cells around those, and so on, until there are enough nodes.
+/// @param around  cells of a node  @param corners  of a cell
+template <class Around, class Corners>
+std::vector<std::int32_t> surrounding(std::int64_t cell,
+                                      size_t enough,
+                                      const Around& around,
+                                      const Corners& corners) {
+  const auto own = corners(cell);
+  std::vector<std::int32_t> nodes(own.begin(), own.end());
+  std::sort(nodes.begin(), nodes.end());
+  while (nodes.size() < enough) {
+    std::vector<std::int32_t> wider = nodes;
+    for (const std::int32_t a : nodes) {
+      for (const std::int64_t c : around(a)) {
+        const auto more = corners(c);
+        wider.insert(wider.end(), more.begin(), more.end());
+      }
+    }
+    std::sort(wider.begin(), wider.end());
+    wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
+    if (wider.size() == nodes.size()) break;
+    nodes = std::move(wider);
+  }
+  return nodes;
+}
+
+/// Changes weights least, beside what a node has by the vertex rule, so that they integrate the
+/// polynomials as `exact` does; where nodes are too few, as nearly as they can.
+/// @param at     [nodes] places from the middle, over h
+/// @param share  [nodes] volume or area by that rule, in any unit
+void meet(const std::vector<Vec3>& at,
+          const std::vector<double>& share,
+          int dimension,
+          int degree,
+          const Vector& exact,
+          Vector& w) {
+  Matrix P(exact.size(), static_cast<int>(at.size()));
+  Vector change(static_cast<int>(at.size()));
+  for (size_t i = 0; i < at.size(); ++i) {
+    P.col(static_cast<int>(i)) = monomials(at[i], dimension, degree);
+    change[static_cast<int>(i)] = share[i] * std::exp(-decay * at[i].squaredNorm());
+  }
+  const Matrix S = P * change.asDiagonal() * P.transpose();
+  w += change.asDiagonal() * P.transpose() *
+       S.completeOrthogonalDecomposition().solve(exact - P * w);
+}
+
+Weights volume_of(const Mesh& mesh,
+                  const Incidence& around,
+                  const std::vector<double>& shares,
+                  std::int64_t c) {
+  const auto corners = mesh.cell(c);
+  const ReferenceCell& cell = reference_cell(mesh.cell_types[c]);
+  Vec3 middle = Vec3::Zero();
+  for (const std::int32_t a : corners)
+    middle += mesh.nodes[a] / static_cast<double>(corners.size());
+  double h = 0;
+  const auto edges = edges_of(mesh.cell_types[c]);
+  for (const LocalEdge& e : edges)
+    h += (mesh.nodes[corners[e[1]]] - mesh.nodes[corners[e[0]]]).norm();
+  h /= static_cast<double>(edges.size());
+
+  Weights weights;
+  weights.nodes = surrounding(
+      c, nodes_of_cell[mesh.dimension - 2], [&](std::int32_t a) { return around.cells(a); },
+      [&](std::int64_t i) { return mesh.cell(i); });
+  weights.value = Vector::Zero(static_cast<int>(weights.nodes.size()));
+  std::vector<Vec3> at;
+  std::vector<double> share;
+  for (const std::int32_t a : weights.nodes) {
+    at.push_back((mesh.nodes[a] - middle) / h);
+    share.push_back(shares[a] / std::pow(h, mesh.dimension));
+  }
+  Vector exact = Vector::Zero(n_monomials(mesh.dimension, 2));
+  for (const QuadraturePoint& point : cell.fine) {
+    const double dV = point.weight * jacobian(cell, point, corners, mesh.nodes).determinant();
+    Vec3 X = Vec3::Zero();
+    for (int i = 0; i < cell.n_nodes; ++i) {
+      X += point.N[i] * (mesh.nodes[corners[i]] - middle) / h;
+      const auto place = std::lower_bound(weights.nodes.begin(), weights.nodes.end(), corners[i]);
+      weights.value[place - weights.nodes.begin()] += point.N[i] * dV;
+    }
+    exact += dV * monomials(X, mesh.dimension, 2);
+  }
+  meet(at, share, mesh.dimension, 2, exact, weights.value);
+  return weights;
+}
+
+std::vector<double> volumes_of(const Mesh& mesh,
+                               const std::vector<double>& shares,
+                               const BlockUse& use) {
+  std::vector<double> Omega(static_cast<size_t>(mesh.n_nodes()), 0.0);
+  const Incidence around = cells_around_nodes(mesh);
+  const std::int64_t n_pieces = (mesh.n_cells() + piece_size - 1) / piece_size;
+  std::vector<std::vector<Weights>> pieces(static_cast<size_t>(n_pieces));
+  parallel::for_each(n_pieces, [&](std::int64_t i) {
+    const std::int64_t end = std::min(mesh.n_cells(), (i + 1) * piece_size);
+    for (std::int64_t c = i * piece_size; c < end; ++c)
+      pieces[i].push_back(volume_of(mesh, around, shares, c));
+  });
+  for (const auto& piece : pieces) {
+    for (const Weights& weights : piece) {
+      for (size_t i = 0; i < weights.nodes.size(); ++i)
+        Omega[weights.nodes[i]] += weights.value[static_cast<int>(i)];
+    }
+  }
+  for (size_t a = 0; a < Omega.size(); ++a) {
+    if (Omega[a] > 0) continue;
+    const Vec3& X = mesh.nodes[a];
+    throw base::InputError(fmt::format(
+        "{}: node {} at ({:.6g}, {:.6g}, {:.6g}) would have the volume {:.3g} by a rule "
+        "that is exact for quadratics: the mesh is too coarse or too uneven there; "
+        "refine it, or use {}",
+        use.asked, a, X[0], X[1], X[2], Omega[a], use.instead));
+  }
+  return Omega;
+}
+
+/// The faces of the boundary by the plane sides that they make up.
+class Sides {
+ public:
+  explicit Sides(const Mesh& mesh) : mesh_(mesh), around_(mesh.nodes.size()) {
+    std::vector<std::vector<std::int32_t>> groups(mesh.boundary_faces.size());
+    for (size_t g = 0; g < mesh.boundary_groups.size(); ++g) {
+      for (const std::int32_t f : mesh.boundary_groups[g].faces)
+        groups[f].push_back(static_cast<std::int32_t>(g));
+    }
+    side_.resize(groups.size());
+    std::iota(side_.begin(), side_.end(), 0);
+    std::map<std::array<std::int32_t, 2>, std::int32_t> by_edge;
+    for (std::int32_t f = 0; f < static_cast<std::int32_t>(side_.size()); ++f) {
+      const BoundaryFace& face = mesh.boundary_faces[f];
+      const Vec3 area = area_of(face);
+      area_.push_back(area.norm());
+      normal_.push_back(area.normalized());
+      for (int i = 0; i < face.n_nodes; ++i) {
+        around_[face.nodes[i]].push_back(f);
+        // in the plane faces meet at nodes
+        const std::int32_t a = face.nodes[i], b = face.nodes[(i + 1) % face.n_nodes];
+        const auto edge =
+            mesh.dimension == 3 ? std::array{std::min(a, b), std::max(a, b)} : std::array{a, a};
+        const auto [other, is_new] = by_edge.emplace(edge, f);
+        if (is_new || groups[other->second] != groups[f]) continue;
+        if (normal_[other->second].dot(normal_[f]) > 1 - plane) join(other->second, f);
+      }
+    }
+    for (std::int32_t f = 0; f < static_cast<std::int32_t>(side_.size()); ++f)
+      side_[f] = root(f);
+  }
+
+  /// Areas of the nodes of its side that face f gives.
+  Weights area_of_face(std::int32_t f) const {
+    const BoundaryFace& face = mesh_.boundary_faces[f];
+    const auto corners = [&](std::int64_t i) {
+      const BoundaryFace& other = mesh_.boundary_faces[i];
+      return std::span<const std::int32_t>(other.nodes.data(), static_cast<size_t>(other.n_nodes));
+    };
+    const auto of_side = [&](std::int32_t a) {
+      std::vector<std::int32_t> faces = around_[a];
+      std::erase_if(faces, [&](std::int32_t i) { return side_[i] != side_[f]; });
+      return faces;
+    };
+    Weights weights;
+    weights.nodes = surrounding(f, nodes_of_face[mesh_.dimension - 2], of_side, corners);
+    Vec3 middle = Vec3::Zero();
+    for (const std::int32_t a : corners(f))
+      middle += mesh_.nodes[a] / face.n_nodes;
+    const Vec3 along = mesh_.nodes[face.nodes[1]] - mesh_.nodes[face.nodes[0]];
+    const double h = along.norm();
+    Mat3 frame = Mat3::Zero();  // rows: directions of the plane of the face
+    frame.row(0) = along / h;
+    if (mesh_.dimension == 3) frame.row(1) = normal_[f].cross(along / h);
+    const auto place_of = [&](const Vec3& X) -> Vec3 { return frame * (X - middle) / h; };
+    std::vector<Vec3> at;
+    std::vector<double> share;
+    for (const std::int32_t a : weights.nodes) {
+      at.push_back(place_of(mesh_.nodes[a]));
+      share.push_back(0);
+      for (const std::int32_t i : of_side(a))
+        share.back() += area_[i] / mesh_.boundary_faces[i].n_nodes;
+      share.back() /= std::pow(h, mesh_.dimension - 1);
+    }
+    weights.value = Vector::Zero(static_cast<int>(at.size()));
+    const int dimension = mesh_.dimension - 1;
+    Vector exact = Vector::Zero(n_monomials(dimension, 3));
+    for_points(face, [&](const std::array<double, 4>& N, double dA) {
+      Vec3 X = Vec3::Zero();
+      for (int i = 0; i < face.n_nodes; ++i) {
+        X += N[i] * mesh_.nodes[face.nodes[i]];
+        const auto place =
+            std::lower_bound(weights.nodes.begin(), weights.nodes.end(), face.nodes[i]);
+        weights.value[place - weights.nodes.begin()] += N[i] * dA;
+      }
+      exact += dA * monomials(place_of(X), dimension, 3);
+    });
+    meet(at, share, dimension, 3, exact, weights.value);
+    return weights;
+  }
+
+  const Vec3& normal(std::int32_t f) const { return normal_[f]; }
+
+ private:
+  Vec3 area_of(const BoundaryFace& face) const {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& share : face_area_shares(face, mesh_.nodes, Quadrature::exact))
+      sum += share;
+    return sum;
+  }
+
+  /// Calls visit(shape functions, area) at the points of a fine rule.
+  template <class Visit>
+  void for_points(const BoundaryFace& face, const Visit& visit) const {
+    if (face.n_nodes == 2) {
+      const double g = std::sqrt(0.15);
+      const double length = (mesh_.nodes[face.nodes[1]] - mesh_.nodes[face.nodes[0]]).norm();
+      visit({0.5 + g, 0.5 - g, 0, 0}, 5. / 18 * length);
+      visit({0.5, 0.5, 0, 0}, 8. / 18 * length);
+      visit({0.5 - g, 0.5 + g, 0, 0}, 5. / 18 * length);
+      return;
+    }
+    const auto& rule =
+        reference_cell(face.n_nodes == 3 ? CellType::triangle : CellType::quadrilateral);
+    for (const QuadraturePoint& point : rule.fine) {
+      Vec3 t = Vec3::Zero(), s = Vec3::Zero();
+      std::array<double, 4> N{};
+      for (int i = 0; i < face.n_nodes; ++i) {
+        t += point.dN[i][0] * mesh_.nodes[face.nodes[i]];
+        s += point.dN[i][1] * mesh_.nodes[face.nodes[i]];
+        N[i] = point.N[i];
+      }
+      visit(N, point.weight * t.cross(s).norm());
+    }
+  }
+
+  std::int32_t root(std::int32_t f) const {
+    while (side_[f] != f)
+      f = side_[f];
+    return f;
+  }
+  void join(std::int32_t f, std::int32_t g) {
+    const std::int32_t a = root(f), b = root(g);
+    side_[std::max(a, b)] = std::min(a, b);
+  }
+
+  const Mesh& mesh_;
+  std::vector<std::vector<std::int32_t>> around_;  ///< faces of a node
+  std::vector<std::int32_t> side_;                 ///< of a face: the first face of it
+  std::vector<Vec3> normal_;
+  std::vector<double> area_;
+};
+
+void add_areas(const std::vector<Weights>& of_face,
+               const Sides& sides,
+               std::int32_t f,
+               std::vector<Vec3>& area) {
+  for (size_t i = 0; i < of_face[f].nodes.size(); ++i)
+    area[of_face[f].nodes[i]] += of_face[f].value[static_cast<int>(i)] * sides.normal(f);
+}
+
+/// @throws base::InputError where volumes and areas disagree about a polynomial
+void check_moments(const Mesh& mesh, const DualMeasure& measure, const BlockUse& use) {
+  Vec3 lower = mesh.nodes[0], upper = mesh.nodes[0];
+  for (const Vec3& X : mesh.nodes) {
+    lower = lower.cwiseMin(X);
+    upper = upper.cwiseMax(X);
+  }
+  const Vec3 middle = 0.5 * (lower + upper);
+  const double size = 0.5 * (upper - lower).maxCoeff();
+  const int d = mesh.dimension;
+  Matrix of_areas = Matrix::Zero(n_monomials(d, 3), 3), of_volumes = of_areas, largest = of_areas;
+  for (size_t a = 0; a < mesh.nodes.size(); ++a) {
+    const Vec3 X = (mesh.nodes[a] - middle) / size;
+    const Matrix gradients = monomial_gradients(X, d, 3) / size;
+    const Vector values = monomials(X, d, 3);
+    of_volumes += measure.Omega[a] * gradients;
+    of_areas += values * measure.boundary_area[a].transpose();
+    largest += (values * measure.boundary_area[a].transpose()).cwiseAbs();
+  }
+  const double difference = (of_volumes - of_areas).cwiseAbs().maxCoeff() / largest.maxCoeff();
+  if (difference <= most_difference) return;
+  throw base::InputError(
+      fmt::format("{}: operators that sum by parts are for bodies with plane sides of at least "
+                  "four nodes along "
+                  "each line: on the boundary of this mesh volumes and areas differ by {:.2g} in "
+                  "the moments of "
+                  "cubics; refine the mesh, or use {}",
+                  use.asked, difference, use.instead));
+}
+
+}  // namespace
+
+DualMeasure quadratic_measure(const Mesh& mesh, const BlockUse& use) {
+  DualMeasure measure = dual_measure(mesh, Quadrature::exact);  // and its checks of the mesh
+  measure.Omega = volumes_of(mesh, measure.Omega, use);
+  const Sides sides(mesh);
+  std::vector<Weights> of_face(mesh.boundary_faces.size());
+  parallel::for_each(static_cast<std::int64_t>(of_face.size()), [&](std::int64_t f) {
+    of_face[f] = sides.area_of_face(static_cast<std::int32_t>(f));
+  });
+  measure.boundary_area.assign(mesh.nodes.size(), Vec3::Zero());
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(of_face.size()); ++f)
+    add_areas(of_face, sides, f, measure.boundary_area);
+  std::vector<Vec3> total(mesh.nodes.size(), Vec3::Zero());
+  for (size_t g = 0; g < measure.patches.size(); ++g) {
+    PatchArea& patch = measure.patches[g];
+    for (const std::int32_t f : mesh.boundary_groups[g].faces)
+      add_areas(of_face, sides, f, total);
+    for (size_t i = 0; i < patch.nodes.size(); ++i) {
+      patch.area[i] = total[patch.nodes[i]];
+      total[patch.nodes[i]].setZero();
+    }
+  }
+  check_moments(mesh, measure, use);
+  return measure;
+}
+
+}  // namespace diptych::meshes

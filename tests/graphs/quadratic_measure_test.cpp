@@ -1,0 +1,71 @@
+#include "meshes/quadratic_measure.hpp"
+
+#include "common/algebra/monomials.hpp"
+#include "tests/graphs/graph_checks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace diptych::graphs {
+namespace {
+
+/// Of int q dV over the box of test_box, by monomials up to degree 2.
+Eigen::VectorXd integrals(int dimension) {
+  const Vec3 lower(-0.5, 0.1, 0), upper(0.5, 1.3, dimension == 2 ? 0 : 0.8);
+  const auto& all = algebra::exponents(dimension, 2);
+  Eigen::VectorXd exact = Eigen::VectorXd::Ones(static_cast<int>(all.size()));
+  for (size_t m = 0; m < all.size(); ++m) {
+    for (int i = 0; i < dimension; ++i) {
+      const int n = all[m][i] + 1;
+      exact[static_cast<int>(m)] *= (std::pow(upper[i], n) - std::pow(lower[i], n)) / n;
+    }
+  }
+  return exact;
+}
+
+TEST(QuadraticMeasure, IntegratesQuadraticsAndLeavesCornersTheirShare) {
+  for (const CellType type : all_cells) {
+    for (const double moved : {0.0, 0.2}) {
+      const meshes::Mesh mesh = test_box(type, is_flat(type) ? 9 : 6, moved);
+      const int d = mesh.dimension;
+      const meshes::DualMeasure measure = meshes::quadratic_measure(mesh);
+      const meshes::DualMeasure vertex = meshes::dual_measure(mesh, meshes::Quadrature::exact);
+      Eigen::VectorXd sum = Eigen::VectorXd::Zero(algebra::n_monomials(d, 2));
+      for (size_t a = 0; a < mesh.nodes.size(); ++a) {
+        sum += measure.Omega[a] * algebra::monomials(mesh.nodes[a], d, 2);
+        EXPECT_GT(measure.Omega[a], 0.4 * vertex.Omega[a]) << name_of(type) << " node " << a;
+      }
+      const Eigen::VectorXd exact = integrals(d);
+      EXPECT_LE((sum - exact).norm(), 1e-12 * exact.norm()) << name_of(type) << moved;
+    }
+  }
+}
+
+/// Each side by itself, a group that covers a part of a side too.
+TEST(QuadraticMeasure, HasPatchesThatIntegrateCubicsOverTheirFaces) {
+  meshes::Mesh mesh = test_box(CellType::tetrahedron, 6, 0.2);
+  meshes::BoundaryGroup part{"part", {}};
+  for (const std::int32_t f : mesh.group("z_max").faces) {
+    const auto& nodes = mesh.boundary_faces[f].nodes;
+    const auto is_left = [&](std::int32_t a) { return mesh.nodes[a][0] < 1e-9; };
+    if (std::all_of(nodes.begin(), nodes.begin() + 3, is_left)) part.faces.push_back(f);
+  }
+  mesh.boundary_groups.push_back(part);
+  const meshes::DualMeasure measure = meshes::quadratic_measure(mesh);
+  for (const auto& [name, end] : {std::pair("z_max", 0.5), {"part", 0.0}}) {
+    const auto patch = std::find_if(measure.patches.begin(), measure.patches.end(),
+                                    [&](const auto& p) { return p.name == name; });
+    double sum = 0;
+    for (size_t i = 0; i < patch->nodes.size(); ++i) {
+      const Vec3& X = mesh.nodes[patch->nodes[i]];
+      sum += patch->area[i][2] * X[0] * X[0] * X[1];
+      EXPECT_LE(X[0], end + 1e-9) << name;
+    }
+    const double exact = (std::pow(end, 3) + 0.125) / 3 * (1.3 * 1.3 - 0.1 * 0.1) / 2;
+    EXPECT_NEAR(sum, exact, 1e-13) << name;
+  }
+}
+
+}  // namespace
+}  // namespace diptych::graphs
