@@ -12,6 +12,7 @@
 #include <chrono>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <string>
 
 namespace diptych::parallel {
@@ -139,6 +140,13 @@ Communicator* begin(std::string& error, const char* (*phase)()) {
 
 void end() {
   watch.reset();
+  std::optional<Countdown> countdown;
+  if (const int patience = *rank_patience(); patience > 0) {
+    countdown.emplace(patience, "diptych: a rank has not been heard of for " +
+                                    std::to_string(patience) +
+                                    " s, last in its end: it is stopped, or its machine is lost; "
+                                    "the job ends here. All that it had to write is written.\n");
+  }
   MPI_Finalize();
 }
 

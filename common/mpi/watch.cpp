@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <unistd.h>
 
 namespace diptych::parallel {
 
@@ -27,7 +28,28 @@ struct SignalsBlocked {
   sigset_t before{};
 };
 
+constexpr std::chrono::milliseconds no_pause{1};
+/// What MPI_Abort may take.
+constexpr int abort_seconds = 5;
+
 }  // namespace
+
+Countdown::Countdown(int seconds, std::string message) {
+  const SignalsBlocked blocked;
+  thread_ = std::jthread([seconds, text = std::move(message)](const std::stop_token& stop) {
+    std::mutex mutex;
+    std::condition_variable_any woken;
+    std::unique_lock lock(mutex);
+    for (std::chrono::milliseconds passed{0}; passed < std::chrono::seconds(seconds);
+         passed += interval) {
+      woken.wait_for(lock, stop, interval, [] { return false; });
+      if (stop.stop_requested()) return;
+    }
+    std::fputs(text.c_str(), stderr);
+    std::fflush(stderr);
+    _exit(4);
+  });
+}
 
 std::optional<int> rank_patience() {
   const char* text = std::getenv("DIPTYCH_RANK_PATIENCE");
@@ -74,6 +96,8 @@ void Watch::give_up() const {
       "--restart latest. (DIPTYCH_RANK_PATIENCE sets the seconds, 0 waits for ever.)\n",
       lost, size_, patience_, heard_.phase[0] == '\0' ? "its start" : heard_.phase);
   std::fflush(stderr);
+  const Countdown countdown(abort_seconds,
+                            "");  // mpirun ends all where one ends without a farewell
   MPI_Abort(MPI_COMM_WORLD, 4);
   std::abort();
 }
@@ -107,7 +131,7 @@ void Watch::run(const std::stop_token& stop) {
     const bool is_ending = stop.stop_requested();
     if (!said_.is_last) say(is_ending);
     if (hear()) silent = {};
-    const auto pause = is_ending ? std::chrono::milliseconds(1) : interval;
+    const auto pause = is_ending ? no_pause : interval;
     if (is_ending) {
       std::this_thread::sleep_for(pause);
     } else {

@@ -2,11 +2,14 @@
 /// Ranks watch each other: each says once a second to the next one that it lives, and in which
 /// phase it is. A process that is stopped, a machine that has gone: the next one hears nothing
 /// more, says of whom, and ends the job; else all would wait for ever. Beats are sent by a thread
-/// of their own, however long a phase takes. Test: tests/ranks
+/// of their own, however long a phase takes. The end of MPI itself has a Countdown; a process that
+/// is stopped after that, in the milliseconds of its exit, holds mpirun until it is continued, with
+/// nothing left to do. Test: tests/ranks
 
 #include <mpi.h>
 
 #include <optional>
+#include <string>
 #include <thread>
 
 namespace diptych::parallel {
@@ -14,6 +17,17 @@ namespace diptych::parallel {
 /// Seconds without a word after which a rank is given up: DIPTYCH_RANK_PATIENCE, 20 where it is not
 /// set; 0: never. Nothing where it is no number of seconds.
 std::optional<int> rank_patience();
+
+/// Ends this process with code 4 and a message where what follows takes longer than so many
+/// seconds: calls of MPI that wait for others and that no Watch sees any more. Seconds are counted
+/// as rounds, as those of Watch.
+class Countdown {
+ public:
+  Countdown(int seconds, std::string message);
+
+ private:
+  std::jthread thread_;  ///< stopped and joined by its destructor
+};
 
 class Watch {
  public:
