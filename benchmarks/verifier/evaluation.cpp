@@ -65,6 +65,7 @@ std::map<std::string, double> numbers_of(const VerificationTable& table,
   numbers["work"] = run.energy.external_work;
   numbers["projection"] = run.energy.projection_work;
   numbers["residual"] = run.energy.relative_residual;
+  numbers["angular_drift"] = run.angular_momentum_drift;
   numbers["nodes"] = static_cast<double>(run.nodes);
   numbers["steps"] = static_cast<double>(run.steps);
   numbers["pairs"] = pairs;

@@ -141,6 +141,8 @@ scheme::BodyOptions body_options_of(const cases::Case& setup,
   options.unknowns = scheme::unknowns_menu().at(setup.scheme.unknowns);
   options.exact_impedance =
       scheme::impedance_menu().at(setup.scheme.impedance) == scheme::Impedance::exact;
+  options.has_frames = scheme::reconstruction_menu().at(setup.scheme.reconstruction) ==
+                       scheme::Reconstruction::objective;
   options.keeps_L_0 = integrator.gauss_relaxation && n_branches > 0;
   options.face_correction = setup.scheme.face_correction != 0;
   options.cell_volumes = has_cell_volumes(setup, graph);

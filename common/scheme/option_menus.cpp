@@ -13,7 +13,8 @@ const base::Registry<Unknowns>& unknowns_menu() {
 const base::Registry<Reconstruction>& reconstruction_menu() {
   static const auto menu = base::Registry<Reconstruction>("scheme.reconstruction")
                                .add("none", Reconstruction::none)
-                               .add("linear", Reconstruction::linear);
+                               .add("linear", Reconstruction::linear)
+                               .add("objective", Reconstruction::objective);
   return menu;
 }
 

@@ -16,8 +16,12 @@ SectionKeys<SchemeCase> scheme_keys() {
                  "Strain measures with evolution equations of their own; the others follow from F.",
                  "\"F\""))
       .key("reconstruction", &SchemeCase::reconstruction,
-           one_of(scheme::reconstruction_menu().names(),
-                  "Reconstruction of the states on both sides of a pair.", "\"none\""))
+           one_of(
+               scheme::reconstruction_menu().names(),
+               "Reconstruction of the velocities on both sides of a pair: linear in X, or the same "
+               "in a frame that spins with the pair, in which a deformed body that spins rigidly "
+               "dissipates nothing.",
+               "\"objective\""))
       .key("limiter", &SchemeCase::limiter,
            one_of(scheme::limiter_menu().names(),
                   "Limiter of the linear reconstruction. At fronts: venkatakrishnan, with "
@@ -63,6 +67,13 @@ void check(const SectionValues& section, const SchemeCase& scheme) {
     section.fail("limiter", fmt::format("= '{}' has no effect with reconstruction = \"none\"; use "
                                         "limiter = \"none\"",
                                         scheme.limiter));
+  }
+  if (scheme.reconstruction == "objective" &&
+      (scheme.impedance == "exact" ||
+       (scheme.limiter != "none" && scheme.limiter != "sign-preserving"))) {
+    section.fail("reconstruction",
+                 "= \"objective\" has the isotropic impedance, and the limiters none and "
+                 "sign-preserving, alone; use these, or reconstruction = \"linear\"");
   }
   if (scheme.precision == "single" && scheme.impedance == "exact") {
     section.fail("precision",

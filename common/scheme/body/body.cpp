@@ -51,6 +51,7 @@ void Body<Dim>::list_fields() {
   };
   const auto velocity = in_table(&Body::v, vector_stride<Dim>, true);
   const auto record = in_table(&Body::records, record_stride, true);
+  const auto frame = in_table(&Body::frames, NodeFrame<Dim>::stride, true);
   const auto force = in_table(&Body::T, vector_stride<Dim>, false);
   const auto gradient = in_table(&Body::gradients, tensor_stride<Dim>, true);
   const auto stress = in_table(&Body::stresses, tensor_stride<Dim>, true);
@@ -80,6 +81,11 @@ void Body<Dim>::list_fields() {
     record("S_tot", "Pa", Layout::n_S, derived, Record::S_tot);
     record("W_JJ", "Pa", 1, derived, Record::W_JJ);
     record("W_FJ", "Pa", 1, derived, Record::W_FJ);
+  }
+  if (options.has_frames) {
+    frame("F of frames", "-", Dim * Dim, derived, NodeFrame<Dim>::F);
+    frame("u of frames", "m", Dim, derived, NodeFrame<Dim>::u);
+    frame("spin", "1/s", NodeFrame<Dim>::n_spin, derived, NodeFrame<Dim>::spin);
   }
   force("T", "N", Dim, accumulated, 0);
   force("rate", "kg/s", in_runs() ? 1 : 0, accumulated, Dim);

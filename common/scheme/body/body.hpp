@@ -63,6 +63,18 @@ struct NodeRecord {
   }
 };
 
+/// What neighbours read beside it for the objective reconstruction: where a node is, and how it
+/// spins. F and u stand twice then.
+template <int Dim>
+struct NodeFrame {
+  static constexpr int F = 0;           ///< F - I in plane, row-major [-]
+  static constexpr int u = Dim * Dim;   ///< displacement [m]
+  static constexpr int spin = u + Dim;  ///< axial vector of the skew part of L F^-1 [1/s]
+  static constexpr int n_spin = Dim == 3 ? 3 : 1;  ///< in the plane: about its normal
+  static constexpr int n = spin + n_spin;
+  static constexpr int stride = Dim == 3 ? 16 : 8;
+};
+
 /// Row of a tensor, padded to whole gathers (face correction).
 template <int Dim>
 inline constexpr int tensor_stride = Dim == 3 ? 12 : 4;
@@ -74,7 +86,8 @@ struct BodyOptions {
   bool has_G = false;  ///< branches keep S = G_v^-1
   Unknowns unknowns = Unknowns::FHJ;
   bool exact_impedance = false;
-  bool keeps_L_0 = false;  ///< dF/dt at the beginning of the step, for GEXP (notes 5.3)
+  bool has_frames = false;  ///< objective reconstruction
+  bool keeps_L_0 = false;   ///< dF/dt at the beginning of the step, for GEXP (notes 5.3)
   bool face_correction = false;
   bool cell_volumes = false;  ///< those of the graph carry the pressure
 };
@@ -135,6 +148,7 @@ struct Body {
   /// Internal force and loads on the node [N]. Runs, during the momentum sweep: twice that, and a
   /// last component with 2 rho_R Omega times the rate [kg/s].
   NodeTable T;
+  NodeTable frames;  ///< NodeFrame, objective reconstruction only
   // face correction only: what its sweeps read
   NodeTable gradients;  ///< uncorrected dF/dt
   NodeTable stresses;   ///< P

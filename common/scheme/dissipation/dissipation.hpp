@@ -15,7 +15,12 @@
 
 namespace diptych::scheme {
 
-enum class Reconstruction { none, linear };
+enum class Reconstruction {
+  none,
+  linear,    ///< velocities linear in X have no jump
+  objective  ///< linear, and in the frame that spins with the pair (notes 3.4): nor have rigid
+             ///< spins
+};
 enum class PairLimiter {
 #define DIPTYCH_LIMITER(name, id, Type) id,
 #include "common/scheme/dissipation/limiters/limiters.def"
@@ -64,6 +69,15 @@ struct DissipationKind {
   PairLimiter limiter = PairLimiter::none;
   Impedance impedance = Impedance::isotropic;
 };
+
+/// Whether it is compiled: the objective reconstruction with the isotropic impedance and without
+/// slope limiters, whose jumps have a known sign in the spinning frame only.
+constexpr bool is_compiled(const DissipationKind& kind) {
+  return kind.reconstruction == Reconstruction::linear ||
+         (kind.reconstruction == Reconstruction::none && kind.limiter == PairLimiter::none) ||
+         (kind.reconstruction == Reconstruction::objective && !limits_slopes(kind.limiter) &&
+          kind.impedance == Impedance::isotropic);
+}
 
 /// Whether it is compiled for states in single precision: the square root of the acoustic tensor
 /// is not.

@@ -31,8 +31,17 @@ DIPTYCH_INLINE auto sums_of_node(const MomentumSweep<Dim>& sweep, std::int64_t a
       pair.C_ba[i] = C_ba[i];
     }
     const Vector<T> plain = plain_jump<Dim>(pairs, Record::v(exact));
-    const auto of_pairs =
-        pair_forces<Dim, kind, has_H, Stresses::of_neighbour>(sweep, pair, pairs, positions, plain);
+    const auto frames = [&]() DIPTYCH_INLINE_LAMBDA {
+      using Frame = NodeFrame<Dim>;
+      if constexpr (kind.reconstruction == Reconstruction::objective) {
+        return pairs_of<isa, rows, Real, Frame::n, Frame::stride>(graph, sweep.body.frames, a,
+                                                                  chunk);
+      } else {
+        return NoFrames{};
+      }
+    }();
+    const auto of_pairs = pair_forces<Dim, kind, has_H, Stresses::of_neighbour>(
+        sweep, pair, pairs, positions, frames, plain);
 #pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i)
       sums.force[i] += of_pairs.force[i];

@@ -79,8 +79,15 @@ DIPTYCH_INLINE void work_chunks(const MomentumSweep<Dim>& sweep,
     for (int i = 0; i < Dim; ++i)
       pair.S[i] = pair.C_ab[i] - pair.C_ba[i];
     const Vector<T> plain = plain_jump<Dim>(RunPairs<T>(sweep.body.v, work.b, offset), 0);
+    const auto frames = [&]() DIPTYCH_INLINE_LAMBDA {
+      if constexpr (kind.reconstruction == Reconstruction::objective) {
+        return RunPairs<T>(sweep.body.frames, work.b, offset);
+      } else {
+        return NoFrames{};
+      }
+    }();
     const auto of_pairs =
-        pair_forces<Dim, kind, has_H, Stresses::both>(sweep, pair, pairs, positions, plain);
+        pair_forces<Dim, kind, has_H, Stresses::both>(sweep, pair, pairs, positions, frames, plain);
     Real* const their_sums = own_sums + offset;
 #pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i) {
@@ -164,6 +171,8 @@ DIPTYCH_INLINE void prefetch_layers(const MomentumSweep<Dim>& sweep, std::int64_
       prefetch_ahead<Real, NodeRecord<Dim>::n(exact)>(sweep.body.records, b + k, offset);
       prefetch_ahead<Real, Dim>(sweep.body.v, b + k, offset);
       prefetch_ahead<Real, Dim>(sweep.body.graph.X, b + k, offset);
+      if (sweep.body.options.has_frames)
+        prefetch_ahead<Real, NodeFrame<Dim>::n>(sweep.body.frames, b + k, offset);
     }
   }
 }

@@ -4,6 +4,7 @@
 /// momentum.hpp.
 
 #include "common/scheme/body/pointwise.hpp"
+#include "common/scheme/sweeps/frames.hpp"
 #include "common/scheme/sweeps/momentum.hpp"
 #include "common/scheme/sweeps/pair_access.hpp"
 
@@ -66,17 +67,20 @@ struct Slopes {
 inline constexpr float limited_share = 0.01F;
 
 /// v_b^rec - v_a^rec, limited.
+/// @param plain    v_b - v_a
+/// @param seen     the same, as it is seen in the frame of the slopes
 /// @param h        along the normal of the pair in space
 /// @param limited  one of pairs that the limiter has changed, zero of others
 template <int Dim, PairLimiter limiter, class T>
 DIPTYCH_INLINE Vector<T> reconstructed_jump(const Vector<T>& plain,
+                                            const Vector<T>& seen,
                                             const Slopes<Dim, T>& slopes,
                                             const Vector<T>& h,
                                             T& limited) {
   Vector<T> jump{};
   for (int i = 0; i < Dim; ++i) {
     const T sum = limits_slopes(limiter) ? slopes.a[i] + slopes.b[i] : slopes.sum[i];
-    jump[i] = plain[i] - 0.5 * sum;
+    jump[i] = seen[i] - 0.5 * sum;
   }
   if constexpr (limiter == PairLimiter::none) return jump;
   T h_h{};
@@ -107,19 +111,50 @@ struct PairGeometry {
   T area;                    ///< m^2, |S_ab|
 };
 
+/// Z of the mean state of eight pairs applied to a jump.
+template <int Dim, bool has_H, class Pairs>
+DIPTYCH_INLINE Vector<Lanes> exact_impedance_times(double rho_R,
+                                                   const PairGeometry<Dim, Lanes>& pair,
+                                                   const Pairs& pairs,
+                                                   const Vector<Lanes>& jump) {
+  physics::Response<Lanes> response;
+  physics::Deformation<Lanes> X;
+  mean_state<Dim>(pairs, response, X);
+  Lanes S2{};
+  for (int i = 0; i < Dim; ++i)
+    S2 += pair.S[i] * pair.S[i];
+  const Lanes inverse = algebra::inverse_or_zero(algebra::square_root(S2));
+  Vector<Lanes> N{};
+  for (int i = 0; i < Dim; ++i)
+    N[i] = pair.S[i] * inverse;
+  if constexpr (Dim == 2) N[1] = pair.area > 0 ? N[1] : Lanes{};
+  N[0] = pair.area > 0 ? N[0] : Lanes{} + 1.0;  // padding: any unit vector, its area is zero
+  return algebra::product(physics::impedance<has_H>(response, X, rho_R, N), jump);
+}
+
 /// 2 D_ab of eight pairs, and which of them are limited.
 /// @param pairs      of the records
 /// @param positions  pairs of X
+/// @param frames     pairs of Body::frames, where the reconstruction is objective
 /// @param plain      v_b - v_a
-template <int Dim, DissipationKind kind, bool has_H, class Pairs, class Positions, class T>
+template <int Dim,
+          DissipationKind kind,
+          bool has_H,
+          class Pairs,
+          class Positions,
+          class Frames,
+          class T>
 DIPTYCH_INLINE Vector<T> dissipation_of(const MomentumSweep<Dim>& sweep,
                                         const PairGeometry<Dim, T>& pair,
                                         const Pairs& pairs,
                                         const Positions& positions,
+                                        const Frames& frames,
                                         const Vector<T>& plain,
                                         T& limited) {
   using Record = NodeRecord<Dim>;
-  Vector<T> h{};
+  Vector<T> h{}, X_ab{};
+  for (int j = 0; j < Dim; ++j)
+    X_ab[j] = positions.neighbour(j) - positions.own(j);
   Slopes<Dim, T> slopes;
 #pragma GCC unroll 3
   for (int i = 0; i < Dim; ++i) {
@@ -128,18 +163,25 @@ DIPTYCH_INLINE Vector<T> dissipation_of(const MomentumSweep<Dim>& sweep,
     for (int j = 0; j < Dim; ++j) {
       const int ij = i * Dim + j;
       h[i] += (pairs.neighbour(Record::H + ij) + pairs.own(Record::H + ij)) * pair.S[j];
-      if constexpr (kind.reconstruction == Reconstruction::linear) {
-        const T X = positions.neighbour(j) - positions.own(j);
+      if constexpr (kind.reconstruction != Reconstruction::none) {
         if constexpr (limits_slopes(kind.limiter)) {
-          slopes.a[i] += pairs.own(Record::L + ij) * X;
-          slopes.b[i] += pairs.neighbour(Record::L + ij) * X;
+          slopes.a[i] += pairs.own(Record::L + ij) * X_ab[j];
+          slopes.b[i] += pairs.neighbour(Record::L + ij) * X_ab[j];
         } else {
-          slopes.sum[i] += (pairs.neighbour(Record::L + ij) + pairs.own(Record::L + ij)) * X;
+          slopes.sum[i] += (pairs.neighbour(Record::L + ij) + pairs.own(Record::L + ij)) * X_ab[j];
         }
       }
     }
   }
-  const Vector<T> jump = reconstructed_jump<Dim, kind.limiter>(plain, slopes, h, limited);
+  Vector<T> seen = plain;
+  if constexpr (kind.reconstruction == Reconstruction::objective) {
+    const SpinningPair<Dim, T> spinning = spinning_pair<Dim>(frames, X_ab);
+    for (int i = 0; i < Dim; ++i) {
+      seen[i] -= spinning.jump[i];
+      slopes.sum[i] -= spinning.slopes[i];
+    }
+  }
+  const Vector<T> jump = reconstructed_jump<Dim, kind.limiter>(plain, seen, slopes, h, limited);
   limited = pair.area > 0 ? limited : T{};  // lanes without a pair
   Vector<T> D{};
   if constexpr (kind.impedance == Impedance::isotropic) {
@@ -147,19 +189,7 @@ DIPTYCH_INLINE Vector<T> dissipation_of(const MomentumSweep<Dim>& sweep,
         0.5 * (pairs.neighbour(Record::z_p) + pairs.own(Record::z_p)),
         0.5 * (pairs.neighbour(Record::z_s) + pairs.own(Record::z_s)), h, jump);
   } else {
-    physics::Response<Lanes> response;
-    physics::Deformation<Lanes> X;
-    mean_state<Dim>(pairs, response, X);
-    Lanes S2{};
-    for (int i = 0; i < Dim; ++i)
-      S2 += pair.S[i] * pair.S[i];
-    const Lanes inverse = algebra::inverse_or_zero(algebra::square_root(S2));
-    Vector<Lanes> N{};
-    for (int i = 0; i < Dim; ++i)
-      N[i] = pair.S[i] * inverse;
-    if constexpr (Dim == 2) N[1] = pair.area > 0 ? N[1] : Lanes{};
-    N[0] = pair.area > 0 ? N[0] : Lanes{} + 1.0;  // padding: any unit vector, its area is zero
-    D = algebra::product(physics::impedance<has_H>(response, X, sweep.body.options.rho_R, N), jump);
+    D = exact_impedance_times<Dim, has_H>(sweep.body.options.rho_R, pair, pairs, jump);
   }
   for (int i = 0; i < Dim; ++i)
     D[i] *= static_cast<algebra::Element<T>>(sweep.factor) * pair.area;
@@ -192,15 +222,17 @@ template <int Dim,
           Stresses which,
           class Pairs,
           class Positions,
+          class Frames,
           class T>
 DIPTYCH_INLINE PairForces<Dim, T> pair_forces(const MomentumSweep<Dim>& sweep,
                                               const PairGeometry<Dim, T>& pair,
                                               const Pairs& pairs,
                                               const Positions& positions,
+                                              const Frames& frames,
                                               const Vector<T>& plain) {
   PairForces<Dim, T> f;
   const Vector<T> D =
-      dissipation_of<Dim, kind, has_H>(sweep, pair, pairs, positions, plain, f.limited);
+      dissipation_of<Dim, kind, has_H>(sweep, pair, pairs, positions, frames, plain, f.limited);
 #pragma GCC unroll 3
   for (int i = 0; i < Dim; ++i) {
     f.force[i] = D[i];
@@ -225,6 +257,9 @@ DIPTYCH_INLINE T rate_of(const Vector<T>& C, const Pairs& pairs) {
   return algebra::square_root(C2) *
          algebra::larger(pairs.neighbour(Record::z_p), T{} + pairs.own(Record::z_p));
 }
+
+/// Where no frames are read.
+struct NoFrames {};
 
 /// v_b - v_a of eight pairs.
 /// @param pairs  with v from component c

@@ -1,6 +1,7 @@
 #include "common/scheme/sweeps/sweeps.hpp"
 
 #include "common/scheme/ranks/exchange.hpp"
+#include "common/scheme/sweeps/frames.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +53,7 @@ void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
                                  largest_rate_.data(),
                                  limited_pairs_.data()};
   exchange(body, {&Body<Dim>::records});
+  if (body.options.has_frames) exchange(body, {&Body<Dim>::frames});
   scheme::sum_forces(sweep, momentum_);
   if (!body.cells.empty()) body.cells.add_forces(body, *material_);
   if (with_step && speeds == Speeds::bound) {
@@ -96,6 +98,8 @@ void Sweeps<Dim>::strain_rates(Body<Dim>& body,
     exchange(body, {&Body<Dim>::stresses});
     for_blocks(body, [&](auto begin, auto end) { face_.stresses(body, kappa_f, begin, end); });
   }
+  if (body.options.has_frames)
+    for_blocks(body, [&](auto begin, auto end) { set_frames(body, begin, end); });
 }
 
 template <int Dim>

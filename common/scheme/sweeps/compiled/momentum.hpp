@@ -57,20 +57,30 @@ MomentumFunction<Dim> momentum_sweep() {
   return algebra::version_here<MomentumVersions<Dim, kind, has_H>>();
 }
 
-/// Sweeps of linear reconstruction with one impedance, by limiter.
-template <int Dim, Impedance impedance, bool has_H>
+/// Sweeps of a reconstruction with one impedance, by limiter; null where there is none.
+template <int Dim, Reconstruction reconstruction, Impedance impedance, bool has_H>
 MomentumFunction<Dim> limited_sweep(PairLimiter limiter) {
-  return with_limiter(limiter, []<PairLimiter which, class>() {
-    constexpr DissipationKind kind{Reconstruction::linear, which, impedance};
-    return momentum_sweep<Dim, kind, has_H>();
+  return with_limiter(limiter, []<PairLimiter which, class>() -> MomentumFunction<Dim> {
+    constexpr DissipationKind kind{reconstruction, which, impedance};
+    if constexpr (is_compiled(kind)) {
+      return momentum_sweep<Dim, kind, has_H>();
+    } else {
+      return nullptr;
+    }
   });
 }
 
 template <int Dim, Impedance impedance, bool has_H>
 MomentumFunction<Dim> momentum_sweep_of(const DissipationKind& kind) {
-  constexpr DissipationKind plain{Reconstruction::none, PairLimiter::none, impedance};
-  if (kind.reconstruction == Reconstruction::none) return momentum_sweep<Dim, plain, has_H>();
-  return limited_sweep<Dim, impedance, has_H>(kind.limiter);
+  switch (kind.reconstruction) {
+    case Reconstruction::none:
+      return limited_sweep<Dim, Reconstruction::none, impedance, has_H>(kind.limiter);
+    case Reconstruction::linear:
+      return limited_sweep<Dim, Reconstruction::linear, impedance, has_H>(kind.limiter);
+    case Reconstruction::objective:
+      break;
+  }
+  return limited_sweep<Dim, Reconstruction::objective, impedance, has_H>(kind.limiter);
 }
 
 }  // namespace diptych::scheme

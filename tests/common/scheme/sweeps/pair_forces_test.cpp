@@ -64,7 +64,8 @@ struct RandomPairs {
   static constexpr int n_lanes = algebra::n_lanes;
   std::array<NodeOfPair, n_lanes> a, b;
   std::array<Vec3, n_lanes> C_ab, C_ba;
-  EightPairs<T> records{scheme::NodeRecord<Dim>::n_exact}, positions{Dim}, velocities{Dim};
+  EightPairs<T> records{scheme::NodeRecord<Dim>::n_exact}, positions{Dim}, velocities{Dim},
+      frames{scheme::NodeFrame<Dim>::n};
   scheme::PairGeometry<Dim, T> geometry;
 
   RandomPairs(unsigned seed, bool has_H) {
@@ -92,6 +93,10 @@ struct RandomPairs {
     tests::put_record<Dim>(a[k], true, [&](int c, double value) { own[size_t(c)] = value; });
     tests::put_record<Dim>(
         b[k], true, [&](int c, double value) { records.set(c, lane, own[size_t(c)], value); });
+    std::vector<double> own_frame(scheme::NodeFrame<Dim>::n);
+    tests::put_frame<Dim>(a[k], [&](int c, double value) { own_frame[size_t(c)] = value; });
+    tests::put_frame<Dim>(
+        b[k], [&](int c, double value) { frames.set(c, lane, own_frame[size_t(c)], value); });
     const Vec3 S = (C_ab[k] - C_ba[k]) / 2;
     for (int i = 0; i < Dim; ++i) {
       positions.set(i, lane, a[k].X[i], b[k].X[i]);
@@ -115,6 +120,11 @@ constexpr DissipationKind venkatakrishnan{linear, PairLimiter::venkatakrishnan,
                                           Impedance::isotropic};
 constexpr DissipationKind exact{linear, PairLimiter::none, Impedance::exact};
 
+constexpr DissipationKind objective{Reconstruction::objective, PairLimiter::none,
+                                    Impedance::isotropic};
+constexpr DissipationKind limited_objective{Reconstruction::objective, PairLimiter::sign_preserving,
+                                            Impedance::isotropic};
+
 /// Compares the forces of many random pairs of one kind.
 template <int Dim, DissipationKind kind, bool has_H, Stresses which, class T>
 void compare() {
@@ -128,7 +138,7 @@ void compare() {
     const RandomPairs<Dim, T> random(seed, has_H);
     const auto jump = scheme::plain_jump<Dim>(random.velocities, 0);
     const auto f = scheme::pair_forces<Dim, kind, has_H, which>(
-        sweep, random.geometry, random.records, random.positions, jump);
+        sweep, random.geometry, random.records, random.positions, random.frames, jump);
     for (int lane = 0; lane < algebra::n_lanes; ++lane) {
       const auto k = static_cast<size_t>(lane);
       const NodeOfPair &a = random.a[k], &b = random.b[k];
@@ -172,6 +182,14 @@ TEST(PairForces, OfLimitedJumpsAreThoseOfTheEquations) {
   compare<3, barth_jespersen, true, Stresses::both, Lanes>();
   compare<2, barth_jespersen, true, Stresses::both, Lanes>();
   compare<3, venkatakrishnan, true, Stresses::both, Lanes>();
+}
+
+TEST(PairForces, OfObjectiveJumpsAreThoseOfTheEquations) {
+  compare<3, objective, true, Stresses::both, Lanes>();
+  compare<3, objective, true, Stresses::of_neighbour, SingleLanes>();
+  compare<2, objective, true, Stresses::both, Lanes>();
+  compare<3, limited_objective, true, Stresses::both, Lanes>();
+  compare<2, limited_objective, true, Stresses::both, Lanes>();
 }
 
 TEST(PairForces, OfTheExactImpedanceAreThoseOfTheEquations) {

@@ -19,13 +19,26 @@ using algebra::Vec3;
 
 /// What a pair reads of one of its nodes.
 struct NodeOfPair {
-  Vec3 v, X;
-  Mat3 P, L, H;     ///< Pa, 1/s, -
-  double z_p, z_s;  ///< kg/(m^2 s)
+  Vec3 v, X, u, spin;  ///< the last two where the reconstruction is objective
+  Mat3 P, L, H;        ///< Pa, 1/s, -
+  double z_p, z_s;     ///< kg/(m^2 s)
   // exact impedance
   Mat3 F, A_tot, S_tot;
   double W_JJ, W_FJ;  ///< Pa
 };
+
+/// The components of a node as they stand in its frame.
+template <int Dim, class Put>
+void put_frame(const NodeOfPair& node, const Put& put) {
+  using Frame = scheme::NodeFrame<Dim>;
+  for (int i = 0; i < Dim; ++i) {
+    put(Frame::u + i, node.u[i]);
+    for (int j = 0; j < Dim; ++j)
+      put(Frame::F + i * Dim + j, node.F(i, j) - (i == j ? 1 : 0));
+  }
+  for (int k = 0; k < Frame::n_spin; ++k)
+    put(Frame::spin + k, node.spin[Dim == 3 ? k : 2]);
+}
 
 /// The components of a node as they stand in its record.
 /// @param put  put(component, value)
@@ -104,6 +117,11 @@ std::array<NodeOfPair, 2> random_pair(std::mt19937& random, bool has_H, double r
     node.S_tot = has_H ? Mat3(0.5 * (S + S.transpose())) : Mat3(Mat3::Zero());
     node.W_JJ = 3 + uniform(random);
     node.W_FJ = has_H ? 0 : -0.3 + 0.1 * uniform(random);
+    node.u = node.spin = Vec3::Zero();
+    for (int i = 0; i < Dim; ++i)
+      node.u[i] = 0.2 * uniform(random);
+    for (int i = Dim == 3 ? 0 : 2; i < 3; ++i)
+      node.spin[i] = uniform(random);
   }
   return pair;
 }
@@ -118,17 +136,18 @@ inline double slope_factor(scheme::PairLimiter limiter, double forward, double b
 }
 
 /// v_b^rec - v_a^rec, limited along n and across it.
+/// @param jump       that of plain or seen velocities without the slopes
 /// @param l_a, l_b   L_a X_ab, L_b X_ab
 /// @param at_switch  set where one part is zero but for rounding, which then decides whether the
 ///                   slopes across both n and the plain jump count: Barth and Jespersen's limiter
 ///                   takes a slope above twice the jump to just that
 inline Vec3 jump_written_out(scheme::PairLimiter limiter,
                              const Vec3& plain,
+                             const Vec3& jump,
                              const Vec3& l_a,
                              const Vec3& l_b,
                              const Vec3& n,
                              bool& at_switch) {
-  const Vec3 jump = plain - (l_a + l_b) / 2;
   if (limiter == scheme::PairLimiter::none) return jump;
   const Vec3 across = plain - plain.dot(n) * n;
   const Vec3 t = across.norm() > 0 ? Vec3(across.normalized()) : Vec3(Vec3::Zero());
@@ -198,11 +217,15 @@ inline PairWrittenOut pair_written_out(const scheme::DissipationKind& kind,
   if (S.norm() == 0) return pair;
   const Vec3 plain = b.v - a.v, X_ab = b.X - a.X, n = ((a.H + b.H) * S).normalized();
   Vec3 jump = plain;
-  if (kind.reconstruction == scheme::Reconstruction::linear) {
+  if (kind.reconstruction != scheme::Reconstruction::none) {
     const Vec3 l_a = a.L * X_ab, l_b = b.L * X_ab;
-    jump = jump_written_out(kind.limiter, plain, l_a, l_b, n, pair.at_switch);
-    const Vec3 change = jump - (plain - (l_a + l_b) / 2);
-    pair.is_limited = change.norm() > 0.01 * plain.norm();
+    Vec3 unlimited = plain - (l_a + l_b) / 2;
+    if (kind.reconstruction == scheme::Reconstruction::objective) {
+      const Vec3 x_ab = X_ab + b.u - a.u;
+      unlimited -= ((a.spin + b.spin) / 2).cross(x_ab - (a.F + b.F) / 2 * X_ab);
+    }
+    jump = jump_written_out(kind.limiter, plain, unlimited, l_a, l_b, n, pair.at_switch);
+    pair.is_limited = (jump - unlimited).norm() > 0.01 * plain.norm();
   }
   Mat3 Z = exact_impedance(a, b, rho_R, S.normalized());
   if (kind.impedance == scheme::Impedance::isotropic) {
