@@ -68,6 +68,9 @@ std::vector<Bad> bad_cases() {
       {"SingleWithExactImpedance",
        with("[time]", "[scheme]\nprecision = \"single\"\nimpedance = \"exact\"\n[time]"),
        {"case.toml:19", "precision", "isotropic"}},
+      {"ObjectiveWithExactImpedance",
+       with("[time]", "[scheme]\nreconstruction = \"objective\"\nimpedance = \"exact\"\n[time]"),
+       {"case.toml:19", "objective", "isotropic"}},
       {"TooSmallForSingle",
        with("upper = [1, 1, 1]", "upper = [1e-7, 1e-7, 1e-7]") +
            "[scheme]\nprecision = \"single\"\n",

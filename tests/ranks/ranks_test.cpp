@@ -134,6 +134,10 @@ value = ["sin(1000*t)", 0]
        "--set mesh.element=tetrahedron --set time.integrator=leapfrog --set scheme.volumes=cells" +
            pressed},
       {"ExactImpedance", cube, "--set scheme.impedance=exact --set scheme.unknowns=F"},
+      {"ObjectiveReconstruction", cube + branches, "--set scheme.reconstruction=objective"},
+      {"ObjectiveReconstructionOnMovedNodes", cube + held,
+       "--set scheme.reconstruction=objective --set mesh.perturbation=0.2 --set "
+       "time.integrator=leapfrog --set scheme.limiter=sign-preserving"},
       {"RigidWall", plane + wall, "--set time.integrator=leapfrog"},
       {"RigidWallInStages", plane + wall, ""},
       {"PressureAndVelocity", plane + blown, "--set scheme.volumes=cells"},
