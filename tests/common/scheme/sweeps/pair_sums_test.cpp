@@ -98,6 +98,20 @@ scheme::PairGraph two_offsets() {
   return random_graph(std::move(X), neighbours, Precision::full);
 }
 
+/// Nodes on a line of which the first eight have no pairs and the next eight one each: a block with
+/// pairs behind one without.
+scheme::PairGraph empty_first_block() {
+  std::vector<Vec3> X;
+  std::vector<std::vector<std::int32_t>> neighbours(24);
+  for (std::int32_t a = 0; a < 24; ++a)
+    X.emplace_back(a, 0.1 * (a % 3), 0);
+  for (std::int32_t a = 8; a < 16; ++a) {
+    neighbours[static_cast<size_t>(a)].push_back(a + 8);
+    neighbours[static_cast<size_t>(a + 8)].push_back(a);
+  }
+  return random_graph(std::move(X), neighbours, Precision::full);
+}
+
 /// A body with random records; `nodes` are what its tables hold, rounded where they are singles.
 class RandomBody {
  public:
@@ -238,6 +252,7 @@ TEST_P(Arrangements, ForcesAreSumsOverPairs) {
   compare_forces<isotropic, double>(lattice, GetParam(), 3e-7);
   compare_forces<sign_preserving, double>(lattice, GetParam(), 3e-7);
   compare_forces<isotropic, double>(two_offsets(), GetParam(), 3e-7);
+  compare_forces<isotropic, double>(empty_first_block(), GetParam(), 3e-7);
   compare_forces<isotropic, double, 6>(lattice, GetParam(), 3e-7);
 }
 TEST_P(Arrangements, ForcesAreSumsOverPairsInSingles) {
