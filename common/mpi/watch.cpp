@@ -69,6 +69,7 @@ Watch::Watch(int patience, const char* (*phase)()) : patience_(patience), phase_
 }
 
 Watch::~Watch() {
+  MPI_Barrier(beats_);  // still watched: what comes after has a Countdown, and takes no time
   thread_.request_stop();
   thread_.join();
   MPI_Comm_free(&beats_);

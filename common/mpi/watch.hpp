@@ -34,7 +34,8 @@ class Watch {
   /// @param phase  what this rank does, or null; called by the thread that watches
   /// @pre MPI_THREAD_MULTIPLE; several ranks
   Watch(int patience, const char* (*phase)());
-  /// Waits for the last word of the rank before. @pre all ranks end their watches
+  /// Waits until all ranks are here, and for the last word of the one before. @pre all ranks end
+  /// their watches
   ~Watch();
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
