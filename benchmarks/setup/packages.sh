@@ -15,6 +15,7 @@ packages_fuzz="clang-14 libclang-rt-14-dev libomp-14-dev"
 packages_coverage="llvm-14"
 packages_package="dpkg-dev file" # which CPack asks what is a program
 packages_bare="mmdebstrap ca-certificates"
+packages_cache="ccache"
 
 # need_packages PACKAGE...: installs those that are missing; says which, and where it may not, what
 # to type.

@@ -2,6 +2,7 @@
 /// files of GitHub and GitLab run the same commands.
 
 #include "tests/command_line/program.hpp"
+#include "tests/folders.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,7 @@ struct Block {
 };
 
 std::vector<Block> blocks_of_page() {
-  std::istringstream page(text_of(DIPTYCH_SOURCE_DIR "/benchmarks/CI.md"));
+  std::istringstream page(text_of(tests::source_folder() + "/benchmarks/CI.md"));
   const std::string marker = "<!-- run: ends with code ";
   std::vector<Block> blocks;
   bool inside = false;
@@ -72,8 +73,8 @@ tests::Outcome script_of_page(const tests::Folder& folder, const std::string& sc
   const std::string file = folder.write("../" + folder.path().filename().string() + ".sh", script);
   const auto outcome = tests::shell(folder,
                                     "DIPTYCH_CASES=/nowhere DIPTYCH_BASELINES=/nowhere "
-                                    "PATH=" DIPTYCH_BUILD_DIR ":$PATH sh -e " +
-                                        file);
+                                    "PATH=" +
+                                        tests::build_folder() + ":$PATH sh -e " + file);
   std::filesystem::remove(file);
   return outcome;
 }

@@ -5,6 +5,7 @@
 #include "common/base/error.hpp"
 #include "common/io/sealed_file.hpp"
 #include "tests/command_line/small_case.hpp"
+#include "tests/folders.hpp"
 #include "tests/trials.hpp"
 
 #include <gtest/gtest.h>
@@ -105,8 +106,8 @@ class FailingDisk : public Crash {
                              "DIPTYCH_FAIL_AS={2} DIPTYCH_FAIL_FROM={3} "
                              "LD_PRELOAD={4} {5}out --set "
                              "time.checkpoint_every=3",
-                             folder.path().string(), at, as, goes_on ? 1 : 0, DIPTYCH_FAILING_CALLS,
-                             command));
+                             folder.path().string(), at, as, goes_on ? 1 : 0,
+                             tests::build_folder() + "/tests/libfailing_calls.so", command));
   }
   long n_calls() const { return std::stol(text_of(folder.path() / "count")); }
 };

@@ -2,6 +2,7 @@
 /// with one line that says what to do, and the documented code.
 
 #include "tests/command_line/program.hpp"
+#include "tests/folders.hpp"
 
 #include <gtest/gtest.h>
 
@@ -68,7 +69,7 @@ TEST(CommandLine, RunsThatNoMemoryHoldsAreRefusedBeforeTheFirst) {
   expect_line(diptych(folder, "converge " + cube + " --levels 9"), 4, "at level ");
   expect_line(diptych(folder, "run " + cube + " --level 20"), 2, "32 bits");
   const auto limited =
-      tests::shell(folder, "ulimit -v 2000000; " DIPTYCH_BUILD_DIR "/diptych run " + cube +
+      tests::shell(folder, "ulimit -v 2000000; " + tests::build_folder() + "/diptych run " + cube +
                                " --set 'mesh.cells=[120,120,120]'");
   expect_line(limited, 4, "ulimit -v");
   EXPECT_TRUE(folder.is_empty());
@@ -96,7 +97,7 @@ TEST(CommandLine, OutputThatDoesNotArriveIsAnError) {
   for (const std::string& words : all) {
     for (const char* output : {" >/dev/full", " >&-"}) {
       const auto outcome =
-          tests::shell(folder, DIPTYCH_BUILD_DIR "/diptych " + words + " 2>message" + output);
+          tests::shell(folder, tests::build_folder() + "/diptych " + words + " 2>message" + output);
       EXPECT_EQ(outcome.exit_code, 4) << words << output;
       EXPECT_THAT(tests::text_of(folder.path() / "message"), HasSubstr("standard output"))
           << words << output;
@@ -118,7 +119,7 @@ TEST(CommandLine, MissingFolderForTemporaryFilesIsOneLine) {
   const Folder folder;
   folder.write("case.toml", geo_case());
   folder.write("block.geo", "Point(1) = {0, 0, 0};\n");
-  const std::string program = "TMPDIR=/no/such/folder " DIPTYCH_BUILD_DIR "/diptych ";
+  const std::string program = "TMPDIR=/no/such/folder " + tests::build_folder() + "/diptych ";
   expect_line(tests::shell(folder, program + "run case.toml --quiet --out out"), 4,
               "/no/such/folder");
   expect_line(tests::shell(folder, program + "check case.toml"), 4, "set TMPDIR");

@@ -2,6 +2,7 @@
 /// the three tell of the same verbs.
 
 #include "tests/command_line/program.hpp"
+#include "tests/folders.hpp"
 
 #include <gtest/gtest.h>
 
@@ -41,9 +42,9 @@ std::vector<std::string> verbs(const Folder& folder) {
 
 TEST(Installation, HasAProgramThatFindsItsCases) {
   const Folder folder;
-  const auto installed =
-      run_program(folder, "cmake",
-                  "--install " DIPTYCH_BUILD_DIR " --prefix " + folder.path().string() + "/usr");
+  const auto installed = run_program(
+      folder, "cmake",
+      "--install " + tests::build_folder() + " --prefix " + folder.path().string() + "/usr");
   ASSERT_EQ(installed.exit_code, 0) << installed.text;
   const fs::path usr = folder.path() / "usr";
   for (const char* file :
@@ -59,7 +60,7 @@ TEST(Installation, HasAProgramThatFindsItsCases) {
 
 TEST(Installation, ManPageTellsOfEveryVerb) {
   const Folder folder;
-  const std::string page = text_of(DIPTYCH_SOURCE_DIR "/benchmarks/setup/diptych.1");
+  const std::string page = text_of(tests::source_folder() + "/benchmarks/setup/diptych.1");
   const auto all = verbs(folder);
   EXPECT_GE(all.size(), 11u);
   for (const std::string& verb : all)
@@ -72,10 +73,11 @@ std::vector<std::string> offered(const Folder& folder, const std::vector<std::st
   for (const std::string& word : words)
     list += "'" + word + "' ";
   const std::string script =
-      folder.write("complete.sh", ". " DIPTYCH_SOURCE_DIR
-                                  "/benchmarks/setup/diptych.bash\n"
-                                  "COMP_WORDS=(" DIPTYCH_BUILD_DIR "/diptych " +
-                                      list + ")\nCOMP_CWORD=" + std::to_string(words.size()) +
+      folder.write("complete.sh", ". " + tests::source_folder() +
+                                      "/benchmarks/setup/diptych.bash\n"
+                                      "COMP_WORDS=(" +
+                                      tests::build_folder() + "/diptych " + list +
+                                      ")\nCOMP_CWORD=" + std::to_string(words.size()) +
                                       "\n_diptych\necho \"${COMPREPLY[@]}\"\n");
   return words_of(run_program(folder, "bash", script).text);
 }

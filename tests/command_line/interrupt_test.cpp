@@ -3,6 +3,7 @@
 
 #include "common/io/run_record.hpp"
 #include "tests/command_line/program.hpp"
+#include "tests/folders.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ tests::Outcome under(const Folder& folder,
                      const std::string& before,
                      const std::string& arguments) {
   return tests::diptych(folder, "list > /dev/null; cd " + folder.path().string() + "; " + before +
-                                    " " DIPTYCH_BUILD_DIR "/diptych " + arguments);
+                                    " " + tests::build_folder() + "/diptych " + arguments);
 }
 
 // an hour of steps; none of the tests waits for it

@@ -2,6 +2,7 @@
 /// results, and other people's files, are not touched.
 
 #include "tests/command_line/program.hpp"
+#include "tests/folders.hpp"
 
 #include <gtest/gtest.h>
 
@@ -147,7 +148,7 @@ TEST_F(OutputFolder, IsNotTouchedWhereTheInputIsWrong) {
   diptych("run" + cube + "--method sph --set mesh.cells=[0,1,1]", 2);
   diptych("run --method sph --level 25" + cube, 2);
   const std::string file =
-      (fs::path(DIPTYCH_SOURCE_DIR) / "benchmarks/cases/shear-wave-elastic").string();
+      (fs::path(tests::source_folder()) / "benchmarks/cases/shear-wave-elastic").string();
   std::string text = text_of(fs::path(file) / "case.toml");
   text +=
       "\n[[probe]]\nname = \"far\"\nunit = \"m\"\nkind = \"point\"\nat = [9, 9, 9]\n"

@@ -1,6 +1,8 @@
 #pragma once
 /// Runs the program as a user would, in a folder of the test's own.
 
+#include "tests/folders.hpp"
+
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -40,9 +42,8 @@ class Folder {
 /// A command of the shell, from inside the folder, with empty standard input; $diptych is the
 /// program.
 inline Outcome shell(const Folder& folder, const std::string& line) {
-  const std::string command = "cd " + folder.path().string() +
-                              " && { diptych=" DIPTYCH_BUILD_DIR "/diptych\n" + line +
-                              "\n} 2>&1 </dev/null";
+  const std::string command = "cd " + folder.path().string() + " && { diptych=" + build_folder() +
+                              "/diptych\n" + line + "\n} 2>&1 </dev/null";
   Outcome outcome;
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return outcome;
@@ -63,7 +64,7 @@ inline Outcome run_program(const Folder& folder,
 
 /// `diptych ARGUMENTS`, the same.
 inline Outcome diptych(const Folder& folder, const std::string& arguments) {
-  return run_program(folder, DIPTYCH_BUILD_DIR "/diptych", arguments);
+  return run_program(folder, build_folder() + "/diptych", arguments);
 }
 
 inline std::string text_of(const std::filesystem::path& path) {

@@ -1,6 +1,7 @@
 /// Commands of several runs say which one is under way and how long all will take.
 
 #include "tests/command_line/program.hpp"
+#include "tests/folders.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,9 +20,9 @@ TEST(ProgressOfACommand, SaysWhichRunIsUnderWayWithTheTimeOfTheScene) {
   const Folder folder;
   const auto outcome = tests::diptych(
       folder,
-      "list > /dev/null; timeout --preserve-status -s TERM 4 " DIPTYCH_BUILD_DIR
-      "/diptych compare swinging-cube-ve2-hex --level 2 --threads 1 --set time.end=100 --out "
-      "out");
+      "list > /dev/null; timeout --preserve-status -s TERM 4 " + tests::build_folder() +
+          "/diptych compare swinging-cube-ve2-hex --level 2 --threads 1 --set time.end=100 --out "
+          "out");
   EXPECT_EQ(outcome.exit_code, 130) << outcome.text;
   const std::regex line(
       "sph level 2, run 1 of 2 +0 %  step \\d+  dt \\S+ s  t \\S+ of 100 s  .* left  ");

@@ -1,6 +1,7 @@
 /// `diptych regress` on other people's cases: sizes, files for CI, cases that break.
 
 #include "tests/command_line/small_case.hpp"
+#include "tests/folders.hpp"
 
 #include <gtest/gtest.h>
 
@@ -193,10 +194,10 @@ TEST_F(RegressCases, LeaveNoFileOfAnEarlierCheckBehind) {
   write_case(folder_, "mine", "strip", text);
   const auto killed = diptych(
       folder_,
-      "list --cases mine >/dev/null; " DIPTYCH_BUILD_DIR
-      "/diptych regress --quiet --cases mine --baselines b --junit out/r.xml --json r.json & "
-      "pid=$!; for i in $(seq 200); do grep -q '\"running' r.json && break; sleep 0.05; done; "
-      "kill -9 $pid; wait $pid");
+      "list --cases mine >/dev/null; " + tests::build_folder() +
+          "/diptych regress --quiet --cases mine --baselines b --junit out/r.xml --json r.json & "
+          "pid=$!; for i in $(seq 200); do grep -q '\"running' r.json && break; sleep 0.05; done; "
+          "kill -9 $pid; wait $pid");
   EXPECT_EQ(json()["verdict"], "running") << killed.text;
   EXPECT_EQ(suite("diptych regress").attribute("errors").as_int(), 1);
   EXPECT_FALSE(suite("strip"));

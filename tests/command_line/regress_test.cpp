@@ -1,6 +1,7 @@
 /// `diptych regress` through the program: its exit codes, and what it takes to accept a change.
 
 #include "tests/command_line/program.hpp"
+#include "tests/folders.hpp"
 
 #include <gtest/gtest.h>
 
@@ -88,8 +89,9 @@ TEST_F(Regress, FailsWithoutABaselineAndRefusesABrokenOne) {
 TEST_F(Regress, SkipsWithALineWhatNeedsAMissingMesher) {
   setenv("DIPTYCH_OLD_PATH", getenv("PATH"), 1);
   setenv("PATH", "/nowhere", 1);
-  const std::string command = std::string("cd ") + folder_.path().string() +
-                              "; " DIPTYCH_BUILD_DIR "/diptych regress cooks-membrane --quiet 2>&1";
+  const std::string command = std::string("cd ") + folder_.path().string() + "; " +
+                              tests::build_folder() +
+                              "/diptych regress cooks-membrane --quiet 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   setenv("PATH", getenv("DIPTYCH_OLD_PATH"), 1);
   ASSERT_NE(pipe, nullptr);

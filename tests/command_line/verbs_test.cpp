@@ -4,6 +4,7 @@
 #include "common/io/hdf5_file.hpp"
 #include "common/io/run_record.hpp"
 #include "tests/command_line/program.hpp"
+#include "tests/folders.hpp"
 
 #include <gtest/gtest.h>
 
@@ -163,7 +164,7 @@ TEST(Verbs, EveryShippedCaseIsListedAndSound) {
   ASSERT_EQ(list.exit_code, 0) << list.text;
   int n_cases = 0;
   for (const auto& entry :
-       std::filesystem::directory_iterator(DIPTYCH_SOURCE_DIR "/benchmarks/cases")) {
+       std::filesystem::directory_iterator(tests::source_folder() + "/benchmarks/cases")) {
     if (!entry.is_directory()) continue;
     const std::string name = entry.path().filename().string();
     EXPECT_THAT(list.text, HasSubstr(name + " "));
@@ -178,13 +179,13 @@ TEST(Verbs, CommittedReferencePageIsTheOneThatTheProgramPrints) {
   const Folder folder;
   const auto page = diptych(folder, "explain all");
   EXPECT_EQ(page.exit_code, 0);
-  EXPECT_EQ(page.text, text_of(DIPTYCH_SOURCE_DIR "/benchmarks/cases/KEYS.md"))
+  EXPECT_EQ(page.text, text_of(tests::source_folder() + "/benchmarks/cases/KEYS.md"))
       << "refresh it: build/release/diptych explain all > benchmarks/cases/KEYS.md";
 }
 
 TEST(Readme, EveryCommandOfTheProgramWorks) {
   const Folder folder;
-  const std::string readme = text_of(DIPTYCH_SOURCE_DIR "/README.md");
+  const std::string readme = text_of(tests::source_folder() + "/README.md");
   const std::string program = "    build/release/diptych ";
   int n_commands = 0;
   for (size_t at = readme.find(program); at != std::string::npos;

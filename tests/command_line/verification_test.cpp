@@ -1,6 +1,7 @@
 /// Verification tables through the program: their files, their verdicts, their exit codes.
 
 #include "tests/command_line/program.hpp"
+#include "tests/folders.hpp"
 
 #include <gtest/gtest.h>
 
@@ -166,7 +167,7 @@ TEST(Verify, RefusesBadTablesWithOneMessageBeforeItRuns) {
 
 TEST(Verify, EveryShippedTableIsReadAndStandsOnThePage) {
   const Folder folder;
-  const std::string top = DIPTYCH_SOURCE_DIR "/benchmarks/";
+  const std::string top = tests::source_folder() + "/benchmarks/";
   int n_tables = 0;
   for (const auto& [page_name, tables] :
        {std::pair{"VERIFICATION.md", "verification"}, std::pair{"LITERATURE.md", "literature"}}) {

@@ -1,6 +1,7 @@
 #include "benchmarks/study/atlas.hpp"
 #include "common/base/error.hpp"
 #include "common/io/run_record.hpp"
+#include "tests/folders.hpp"
 
 #include <filesystem>
 #include <gmock/gmock.h>
@@ -81,7 +82,7 @@ TEST(AtlasFile, RefusesWithThePlaceAndTheNearestName) {
 TEST(AtlasFile, OfEveryShippedAtlasCanBeRead) {
   int n = 0;
   for (const auto& entry :
-       std::filesystem::directory_iterator(DIPTYCH_SOURCE_DIR "/benchmarks/atlas")) {
+       std::filesystem::directory_iterator(tests::source_folder() + "/benchmarks/atlas")) {
     if (entry.path().extension() != ".toml") continue;
     const Atlas atlas = read_atlas(find_atlas(entry.path().stem().string()));
     for (const std::string& method : atlas.methods) {

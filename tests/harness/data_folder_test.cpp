@@ -4,6 +4,7 @@
 
 #include "common/base/error.hpp"
 #include "tests/command_line/program.hpp"
+#include "tests/folders.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +38,8 @@ TEST(DataFolder, IsThatOfTheTreeAroundTheBuildWhereverItHasGone) {
 
 TEST(DataFolder, IsThatOfTheSourcesForAProgramThatWasCopiedAlone) {
   const Folder folder;
-  EXPECT_EQ(cases_for(folder, "bin/diptych"), fs::path(DIPTYCH_SOURCE_DIR) / "benchmarks/cases");
+  EXPECT_EQ(cases_for(folder, "bin/diptych"),
+            fs::path(tests::source_folder()) / "benchmarks/cases");
 }
 
 TEST(DataFolder, IsTheCopyBesideTheProgramWhereTheSourcesAreGone) {
@@ -64,9 +66,9 @@ TEST(DataFolder, OfTheProgramIsServedByAProgramWhoseTreeHasMoved) {
   const fs::path tree = folder.path() / "tree";
   fs::create_directories(tree / "build/release");
   fs::create_directories(tree / "benchmarks/cases");
-  fs::copy_file(DIPTYCH_BUILD_DIR "/diptych", tree / "build/release/diptych");
-  fs::copy(fs::path(DIPTYCH_SOURCE_DIR) / "benchmarks/cases/impact", tree / "benchmarks/cases/here",
-           fs::copy_options::recursive);
+  fs::copy_file(tests::build_folder() + "/diptych", tree / "build/release/diptych");
+  fs::copy(fs::path(tests::source_folder()) / "benchmarks/cases/impact",
+           tree / "benchmarks/cases/here", fs::copy_options::recursive);
   const auto listed = tests::run_program(folder, (tree / "build/release/diptych").string(), "list");
   EXPECT_EQ(listed.exit_code, 0) << listed.text;
   EXPECT_THAT(listed.text, HasSubstr("here "));

@@ -5,6 +5,7 @@
 #include "common/algebra/vectors.hpp"
 #include "common/base/error.hpp"
 #include "meshes/cell_topology.hpp"
+#include "tests/folders.hpp"
 
 #include <array>
 #include <fstream>
@@ -110,7 +111,7 @@ inline constexpr std::array<const char*, 4> block_files{"block_41.msh", "block_4
                                                         "block_22.msh", "block_22_binary.msh"};
 
 inline std::string block_path(const std::string& file) {
-  return std::string(DIPTYCH_TEST_DIR) + "/meshes/" + file;
+  return tests::tests_folder() + "/meshes/" + file;
 }
 
 }  // namespace diptych::meshes

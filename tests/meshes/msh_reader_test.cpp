@@ -1,6 +1,7 @@
 #include "common/base/error.hpp"
 #include "meshes/gmsh.hpp"
 #include "meshes/msh/contents.hpp"
+#include "tests/folders.hpp"
 #include "tests/meshes/mesh_measures.hpp"
 
 #include <gtest/gtest.h>
@@ -162,10 +163,10 @@ TEST(MshReader, MissingFileAndFolderAreNamed) {
   };
   EXPECT_NE(message("no/such.msh").find("no/such.msh: the mesh file cannot be opened"),
             std::string::npos);
-  EXPECT_NE(message(DIPTYCH_TEST_DIR).find("not a regular file"), std::string::npos);
+  EXPECT_NE(message(tests::tests_folder()).find("not a regular file"), std::string::npos);
   EXPECT_NE(message("/dev/zero").find("not a regular file"), std::string::npos);
   // a file as a folder, and a name that no file system takes
-  const std::string file = DIPTYCH_TEST_DIR "/meshes/block_41.msh";
+  const std::string file = tests::tests_folder() + "/meshes/block_41.msh";
   EXPECT_NE(message(file + "/a.msh").find("cannot be opened: Not a directory"), std::string::npos);
   EXPECT_NE(message(std::string(5000, 'a')).find("File name too long"), std::string::npos);
 }

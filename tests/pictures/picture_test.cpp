@@ -4,6 +4,7 @@
 #include "common/io/field_writer.hpp"
 #include "common/io/run_record.hpp"
 #include "tests/common/io/scratch.hpp"
+#include "tests/folders.hpp"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +43,7 @@ void write_run(const std::string& directory) {
 class Picture : public testing::Test {
  protected:
   void SetUp() override {
-    program_ = std::string(DIPTYCH_BUILD_DIR) + "/diptych-picture";
+    program_ = tests::build_folder() + "/diptych-picture";
     write_run(folder_ / "sph");
   }
 

@@ -1,5 +1,6 @@
 /// The tree obeys the rules of its rooms, and the rules catch what they should.
 
+#include "tests/folders.hpp"
 #include "tests/style/source_tree.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +25,7 @@ std::string listed(const std::vector<std::string>& complaints) {
 
 class SourceTree : public testing::Test {
  protected:
-  static void SetUpTestSuite() { files_ = read_source_tree(DIPTYCH_SOURCE_DIR); }
+  static void SetUpTestSuite() { files_ = read_source_tree(source_folder()); }
   template <class Check>
   static std::string complaints(Check check) {
     std::vector<std::string> all;
@@ -54,7 +55,7 @@ TEST_F(SourceTree, NothingIsLeftUnfinished) {
   EXPECT_EQ(complaints(unfinished_work), "");
 }
 TEST_F(SourceTree, CitesSectionsThatThePhysicsNotesHave) {
-  std::ifstream page(std::string(DIPTYCH_SOURCE_DIR) + "/common/physics/notes.md");
+  std::ifstream page(source_folder() + "/common/physics/notes.md");
   const std::string text(std::istreambuf_iterator<char>(page), {});
   const std::set<std::string> sections = section_numbers(text);
   EXPECT_EQ(complaints([&](const auto& file) { return cited_notes(file, sections); }), "");
@@ -65,7 +66,7 @@ TEST_F(SourceTree, CitesSectionsThatThePhysicsNotesHave) {
 /// The table of CONTRIBUTING.md that says where the formulas stand: each is where it says, and no
 /// longer than a mechanician reads at once.
 TEST_F(SourceTree, FormulasStandWhereThePageSaysInSixtyLines) {
-  std::ifstream stream_of_page(std::string(DIPTYCH_SOURCE_DIR) + "/CONTRIBUTING.md");
+  std::ifstream stream_of_page(source_folder() + "/CONTRIBUTING.md");
   const std::string page{std::istreambuf_iterator<char>(stream_of_page), {}};
   const std::regex row(R"(\| `(\w+)` \| `([^`]+)`, lines (\d+) to (\d+) \|)");
   int n = 0;

@@ -3,6 +3,8 @@
 
 #include "tests/style/quoted_numbers.hpp"
 
+#include "tests/folders.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +21,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 namespace fs = std::filesystem;
-const fs::path root = DIPTYCH_SOURCE_DIR;
+const fs::path root = source_folder();
 
 std::string text_of(const fs::path& path) {
   std::ifstream file(path);

@@ -5,6 +5,7 @@
 #include "benchmarks/run/menus.hpp"
 #include "benchmarks/run/run_case.hpp"
 #include "common/cases/reader.hpp"
+#include "tests/folders.hpp"
 
 #include <gtest/gtest.h>
 
@@ -80,8 +81,7 @@ std::string probes() {
 
 /// Rows of a table of numbers below its headings.
 std::vector<std::vector<double>> table(const std::string& name) {
-  std::ifstream in(std::string(DIPTYCH_SOURCE_DIR) + "/benchmarks/cases/" + name +
-                   "/reference.csv");
+  std::ifstream in(tests::source_folder() + "/benchmarks/cases/" + name + "/reference.csv");
   std::vector<std::vector<double>> rows;
   std::string line;
   std::getline(in, line);

@@ -5,6 +5,7 @@
 #include "common/exact/manufactured/manufactured_solution.hpp"
 #include "common/physics/materials/isochoric_neo_hookean.hpp"
 #include "common/physics/materials/mooney_rivlin.hpp"
+#include "tests/folders.hpp"
 
 #include <fmt/format.h>
 #include <fstream>
@@ -18,7 +19,7 @@ using physics::MaxwellBranch;
 using physics::MooneyRivlin;
 
 nlohmann::json reference(const std::string& file) {
-  std::ifstream stream(std::string(DIPTYCH_TEST_DIR) + "/reference/" + file);
+  std::ifstream stream(tests::tests_folder() + "/reference/" + file);
   return nlohmann::json::parse(stream);  // throws where there is none
 }
 

@@ -5,6 +5,7 @@
 #include "common/base/error.hpp"
 #include "common/parallel/part.hpp"
 #include "common/parallel/ranks.hpp"
+#include "tests/folders.hpp"
 
 #include <gtest/gtest.h>
 
@@ -45,7 +46,7 @@ ChunkGraph box(int nx, int ny, int nz) {
 }
 
 bool has_module() {
-  return std::filesystem::exists(std::string(DIPTYCH_BUILD_DIR) + "/" + ranks_module_file);
+  return std::filesystem::exists(tests::build_folder() + "/" + ranks_module_file);
 }
 
 class Partitions : public testing::TestWithParam<std::string> {

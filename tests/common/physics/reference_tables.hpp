@@ -2,6 +2,7 @@
 /// Reading the tables of tests/reference (see the README there).
 
 #include "tests/common/physics/body.hpp"
+#include "tests/folders.hpp"
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -12,7 +13,7 @@ namespace diptych::tests {
 
 /// A table by its file name; throws where it is missing or empty, so that no test passes unread.
 inline nlohmann::json reference_table(const std::string& file) {
-  const std::string path = std::string(DIPTYCH_TEST_DIR) + "/reference/" + file;
+  const std::string path = tests_folder() + "/reference/" + file;
   std::ifstream stream(path);
   if (!stream) throw std::runtime_error("cannot read " + path);
   auto table = nlohmann::json::parse(stream);
