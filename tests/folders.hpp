@@ -1,8 +1,7 @@
+#pragma once
 /// Where the source tree, its tests and the build stand: known to one object file alone, so that
 /// all others of the tests are the same bytes in every copy of the tree (a compiler cache finds
 /// them again).
-
-#pragma once
 
 #include <string>
 

@@ -18,8 +18,8 @@
 /// and must not grow; what was met must stay so.
 ///
 /// and of both: `agreement`, |SPH - FVM| of each scalar on level 1 within the sum of their error
-/// bars from levels 0 and 1 (Roache's factor 3 with the formal order); where they are apart the
-/// case says why ([[apart]]). No bound is an option. Tests: tests/harness/regress_test.cpp,
+/// bars from levels 0 and 1 (Roache's factor 3 with the formal order); what was recorded apart is
+/// known while it does not grow, told with the case's [[apart]] or with the wish for one. No bound is an option. Tests: tests/harness/regress_test.cpp,
 /// tests/harness/expectation_test.cpp, tests/command_line/regress_test.cpp
 
 #include "common/base/error.hpp"

@@ -63,7 +63,7 @@ class SplineLevels {
   /// The splines that a point feels: three per direction from `first`, values and derivatives.
   struct Splines {
     Index first{};
-    double value[3][3], slope[3][3], curvature[3][3];
+    double value[3][3]{}, slope[3][3]{}, curvature[3][3]{};
   };
 
   void set_levels(const scheme::PairGraph& graph);

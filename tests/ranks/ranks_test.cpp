@@ -395,12 +395,16 @@ TEST(RanksThatEnd, EndTheJobAndGoOnWithFewer) {
                     victim + " && kill -" + signal +
                     " $p && hit=yes; done\nstart=$(date +%s)\njob=$!\n"
                     "for i in $(seq 600); do kill -0 $job 2>/dev/null || break; sleep 0.1; done\n"
+                    "for p in $(pgrep -P $job); do case $(ps -o stat= -p $p) in [TZ]*) ;; ?*) echo "
+                    "waits=$p ;; esac; done\n"
                     "kill -0 $job 2>/dev/null && { ps -e -o pid,ppid,stat,etime,args | tail -20; "
                     "pkill -KILL -P $job; kill -KILL $job; }\nwait $job\ncode=$?\n"
                     "echo \"hit=$hit code=$code after $(($(date +%s) - start)) s\"");
     const auto says = [&](const char* what) { return ended.text.find(what) != std::string::npos; };
-    // one that is stopped after its last word holds mpirun: all that there was to do is done
+    // one that is stopped after its last word holds mpirun: all that there was to do is done, and
+    // no other rank waits for it
     const bool was_over = !says("hit=yes") || says("status done");
+    if (says("waits=")) ADD_FAILURE() << "rank " << victim << " " << signal << "\n" << ended.text;
     if (was_over) continue;
     std::smatch after;
     const bool is_told = std::regex_search(ended.text, after, std::regex(R"(after (\d+) s)")) &&

@@ -36,8 +36,8 @@ SectionEntry apart_section() {
   const auto keys = apart_keys();
   return {{"apart", true,
            "Why the methods differ by more than the sum of their error bars on a quantity. Every "
-           "verdict that they are apart is told with it, and the regression fails where one that "
-           "was recorded has none."},
+           "verdict that they are apart is told with it; the regression asks for it where one that "
+           "was recorded has none, and no case that is shipped may lack it."},
           keys.keys(),
           [keys](Reading& reading, Case& setup) {
             for (const SectionValues& entry : reading.entries("apart")) {

@@ -11,8 +11,9 @@ SectionEntry guards_section() {
                "The run is stopped (code 3) where the energy that the budget does not account for, "
                "or that numerical dissipation has given to the body, is more than this share of "
                "the largest energy so far, at an output instant or "
-               "50 steps after the last judgement. Not judged in the first 20 steps of a body at "
-               "rest. Needs "
+               "50 steps after the last judgement. What the budget does not account for is not "
+               "judged in "
+               "the first 20 steps of a body at rest. Needs "
                "scheme.energy_budget.",
                "0.02"})
           .key("involution", &GuardsCase::involution,
