@@ -19,8 +19,9 @@
 ///
 /// and of both: `agreement`, |SPH - FVM| of each scalar on level 1 within the sum of their error
 /// bars from levels 0 and 1 (Roache's factor 3 with the formal order); what was recorded apart is
-/// known while it does not grow, told with the case's [[apart]] or with the wish for one. No bound is an option. Tests: tests/harness/regress_test.cpp,
-/// tests/harness/expectation_test.cpp, tests/command_line/regress_test.cpp
+/// known while it does not grow, told with the case's [[apart]] or with the wish for one. No bound
+/// is an option. Tests: tests/harness/regress_test.cpp, tests/harness/expectation_test.cpp,
+/// tests/command_line/regress_test.cpp
 
 #include "common/base/error.hpp"
 #include "common/cases/case.hpp"
