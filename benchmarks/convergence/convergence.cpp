@@ -129,7 +129,7 @@ std::vector<ColumnConvergence> convergence_of(const std::vector<LevelRecord>& re
   for (const std::string& column : report::columns_of(summaries)) {
     std::vector<LevelRecord> finished;
     for (const LevelRecord& record : records) {
-      if (record.summary.column() == column && record.summary.status == "done")
+      if (record.summary.column() == column && record.summary.is_ended())
         finished.push_back(record);
     }
     if (!finished.empty()) studies.push_back(convergence_of_column(finished, wanted));

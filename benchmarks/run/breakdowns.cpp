@@ -57,6 +57,7 @@ std::string breakdown_table(const std::vector<report::Breakdown>& breakdowns) {
 }
 
 int exit_code_of_study(const std::vector<report::Breakdown>& breakdowns,
+                       const std::vector<io::RunSummary>& runs,
                        const std::string& to_go_on) {
   if (const int code = exit_code_of_study(to_go_on); code != 0) return code;
   for (const report::Breakdown& one : breakdowns) {
@@ -65,7 +66,17 @@ int exit_code_of_study(const std::vector<report::Breakdown>& breakdowns,
                    .c_str(),
                stderr);
   }
-  return breakdowns.empty() ? 0 : static_cast<int>(base::ExitCode::breakdown);
+  bool is_sound = breakdowns.empty();
+  for (const io::RunSummary& run : runs) {
+    if (run.status != "unsound") continue;
+    is_sound = false;
+    std::fputs(fmt::format("diptych: {} level {} is unsound: from t = {:.4g} s on cells are inside "
+                           "out\n",
+                           run.column(), run.level, run.inverted_from.value_or(run.end_time))
+                   .c_str(),
+               stderr);
+  }
+  return is_sound ? 0 : static_cast<int>(base::ExitCode::breakdown);
 }
 
 }  // namespace diptych::harness

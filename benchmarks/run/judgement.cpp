@@ -115,7 +115,7 @@ const char* word_of(Outcome outcome) {
 Judgement judged(const io::RunSummary& run,
                  const std::vector<io::HistoryRow>& history,
                  const std::vector<cases::BoundCase>& bounds) {
-  if (run.status != "done" && run.status != "step limit") {
+  if (!run.is_ended() && run.status != "step limit") {
     const std::string message = run.failure ? run.failure->message : run.status;
     return {run.status == "breakdown" ? Outcome::stopped : Outcome::refused,
             message.substr(0, message.find('\n'))};

@@ -119,7 +119,8 @@ bool contains(const std::vector<std::string>& paths, const fs::path& path) {
 
 bool is_finished(const fs::path& run) {
   const std::string text = io::read_file((run / "summary.json").string());
-  return text.find("\"status\": \"done\"") != std::string::npos;
+  return text.find("\"status\": \"done\"") != std::string::npos ||
+         text.find("\"status\": \"unsound\"") != std::string::npos;
 }
 
 /// Nothing where the run did not finish.
@@ -127,7 +128,7 @@ std::optional<int> finished_level(const fs::path& run) {
   const std::string summary = (run / "summary.json").string();
   try {
     const io::RunSummary s = io::summary_from_json(io::read_file(summary), summary);
-    return s.status == "done" ? std::optional(s.level) : std::nullopt;
+    return s.is_ended() ? std::optional(s.level) : std::nullopt;
   } catch (const base::InputError&) {
     return std::nullopt;  // cut off, or of another version
   }

@@ -62,14 +62,17 @@ class Checker {
         check_.faults.push_back(std::move(fault));
       return;
     }
-    const bool has_ended = !check_.status.empty() && check_.status != "running";
-    if (has_ended && check_.status != "failed")
+    const bool is_over = !check_.status.empty() && check_.status != "running";
+    if (is_over && check_.status != "failed")
       check_.faults.push_back(file(io::checksums_file) + ": is missing");
   }
 
+  /// As its summary says, where that can be read.
+  bool has_ended() const { return !check_.status.empty() && summary_.is_ended(); }
+
   void rows() {
     if (!has("history.csv")) {
-      if (check_.status == "done") check_.faults.push_back(file("history.csv") + ": is missing");
+      if (has_ended()) check_.faults.push_back(file("history.csv") + ": is missing");
       return;
     }
     const auto rows = io::history_from_csv(io::read_file(file("history.csv")), file("history.csv"));
@@ -79,7 +82,7 @@ class Checker {
           return !(a.time < b.time);
         }) == rows.end();
     if (!ascends) check_.faults.push_back(file("history.csv") + ": times do not ascend");
-    if (check_.status == "done" && (rows.empty() || rows.back().time != summary_.end_time)) {
+    if (has_ended() && (rows.empty() || rows.back().time != summary_.end_time)) {
       check_.faults.push_back(fmt::format("{}: does not end at t = {:g} s, as the run did",
                                           file("history.csv"), summary_.end_time));
     }

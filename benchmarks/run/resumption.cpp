@@ -40,7 +40,7 @@ std::optional<RunResult> finished_run(const cases::Case& setup,
   const bool same = s.column() == options.column() && s.level == options.level &&
                     s.provenance.input_hash == input_hash(setup, options.measures) &&
                     s.provenance.program == program_hash();
-  const bool ended = s.status == "done" || (broken_down && s.status == "breakdown");
+  const bool ended = s.is_ended() || (broken_down && s.status == "breakdown");
   if (!same || !ended || run.history.empty()) return std::nullopt;
   return run;
 }

@@ -249,7 +249,8 @@ void CaseRun::finish() {
   result_.final_state = simulation_->take_state();
   result_.order = std::move(scene_->mesh.order);
   result_.graph = std::move(scene_->graph);
-  if (s.status == "done") {
+  if (s.status == "done" && s.most_inverted_cells > 0) s.status = "unsound";
+  if (s.is_ended()) {
     s.measures =
         measured(options_.measures, {result_.graph, result_.final_state, observers_->errors()});
   }

@@ -157,7 +157,7 @@ void show_quantities(const StudyRequest& request,
 
 }  // namespace
 
-std::vector<report::Breakdown> study_variants(const StudyRequest& asked) {
+StudyRuns study_variants(const StudyRequest& asked) {
   auto variants = variants_of(asked.variations);
   for (Variant& one : variants_of_columns(asked.run.variants))
     variants.push_back(std::move(one));
@@ -174,7 +174,7 @@ std::vector<report::Breakdown> study_variants(const StudyRequest& asked) {
       show_quantities(request, setup, variants, runs);
   }
   print(breakdown_table(runs.breakdowns));
-  return runs.breakdowns;
+  return runs;
 }
 
 }  // namespace diptych::harness

@@ -30,20 +30,20 @@ struct StudyRequest {
 /// Prints the table, writes DIR/stability.csv. Rows found before an interrupt are kept.
 void study_stability(const StudyRequest& request);
 
+struct StudyRuns {
+  std::vector<WorkCurve> curves;              ///< those with a run at least
+  std::string field;                          ///< whose error is shown, or empty
+  std::vector<report::Breakdown> breakdowns;  ///< with the variant in the message
+  std::vector<io::RunSummary> unsound;        ///< of the runs in the curves
+};
+
 /// Runs all variants, methods and levels. Where the case has an exact solution, prints the table of
 /// errors against cost and writes DIR/work_precision.csv and .html; else, and where quantities are
 /// asked for, those with DIR/quantities.csv and .html. Runs are kept in DIR/runs, and taken over
 /// where the same program has finished them with as many threads on the same kind of processor.
 /// A run that breaks down is left out.
-/// @return the runs that broke down
 /// @throws base::InputError before the first run
-std::vector<report::Breakdown> study_variants(const StudyRequest& request);
-
-struct StudyRuns {
-  std::vector<WorkCurve> curves;              ///< those with a run at least
-  std::string field;                          ///< whose error is shown, or empty
-  std::vector<report::Breakdown> breakdowns;  ///< with the variant in the message
-};
+StudyRuns study_variants(const StudyRequest& request);
 
 bool has_exact(const cases::Case& setup);
 

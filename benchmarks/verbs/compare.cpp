@@ -42,7 +42,8 @@ int compare_methods(const CaseArguments& arguments) {
   print_references(setup, study);
   print_breakdowns(study);
   if (study.has_all()) write_report(setup, study, options.directory);
-  return harness::exit_code_of_study(study.breakdowns, end_of(study, options.directory));
+  return harness::exit_code_of_study(study.breakdowns, study.runs,
+                                     end_of(study, options.directory));
 }
 
 }  // namespace

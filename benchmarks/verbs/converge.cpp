@@ -25,7 +25,7 @@ std::vector<harness::ColumnConvergence> finished_levels(const harness::Study& st
                                                         const std::vector<std::string>& columns) {
   std::vector<harness::LevelRecord> records;
   for (size_t i = 0; i < study.runs.size(); ++i) {
-    if (study.runs[i].status != "done") continue;
+    if (!study.runs[i].is_ended()) continue;
     const std::string file = (std::filesystem::path(study.directories[i]) / "history.csv").string();
     records.push_back({study.runs[i], io::history_columns_from_csv(io::read_file(file), file)});
   }
@@ -74,7 +74,8 @@ int converge(const ConvergeArguments& arguments) {
     print("taken over, not run again: " + folder + "\n");
   if (!study.taken_over.empty()) print("\n");
   show_convergence(setup, arguments, study, options.directory);
-  return harness::exit_code_of_study(study.breakdowns, harness::go_on_from(options.directory));
+  return harness::exit_code_of_study(study.breakdowns, study.runs,
+                                     harness::go_on_from(options.directory));
 }
 
 }  // namespace

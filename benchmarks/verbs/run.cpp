@@ -25,8 +25,9 @@ int run_methods(const CaseArguments& arguments) {
     print(harness::run_table(summary) + "\n");
   print_breakdowns(study);
   if (!study.is_empty()) print("output: " + options.directory + "\n");
-  return harness::exit_code_of_study(
-      study.breakdowns, study.is_empty() ? end_of(study, options.directory)
+  return harness::exit_code_of_study(study.breakdowns, study.runs,
+                                     study.is_empty()
+                                         ? end_of(study, options.directory)
                                          : harness::go_on_from_checkpoint(options.directory));
 }
 

@@ -80,8 +80,9 @@ int study(const StudyArguments& arguments) {
         "the limits above are in stability.csv; the same command begins again");
   }
   request.run.levels = arguments.levels(arguments.n_levels, 1);
-  const auto breakdowns = harness::study_variants(request);
-  return harness::exit_code_of_study(breakdowns, harness::go_on_from(request.run.directory));
+  const harness::StudyRuns runs = harness::study_variants(request);
+  return harness::exit_code_of_study(runs.breakdowns, runs.unsound,
+                                     harness::go_on_from(request.run.directory));
 }
 
 }  // namespace

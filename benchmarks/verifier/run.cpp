@@ -137,7 +137,7 @@ VerificationRow row_of(const VerificationRun& entry, size_t row, const CampaignR
     result.failure = breakdown_message(run);
   } else {
     result.summary = run;
-    if (run.status != "done") result.failure = run.status;
+    if (!run.is_ended()) result.failure = run.status;
   }
   return result;
 }

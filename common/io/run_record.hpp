@@ -85,7 +85,9 @@ struct RunSummary {
   std::int64_t projections = 0, resynchronisations = 0, limited_pairs = 0;
   int threads = 1, ranks = 1;
   std::string precision = "double", integrator;
-  std::string status = "done";  ///< running, done, step limit, interrupted, breakdown, failed
+  /// running, done, unsound, step limit, interrupted, breakdown, failed. Unsound: it came to its end
+  /// with cells inside out on the way, which the case allows (guards.inverted_cells = "warn").
+  std::string status = "done";
   std::optional<RunFailure> failure;
   std::string arrangement;  ///< of pairs in the sweeps: runs or rows
   double end_time = 0;
@@ -122,6 +124,8 @@ struct RunSummary {
   Provenance provenance;
 
   std::string column() const { return column_name(method, variant); }
+  /// It is of the whole time of its case, sound or not.
+  bool is_ended() const { return status == "done" || status == "unsound"; }
 };
 
 /// JSON text with the key names of the contract: method, case, level, ..., steps, stages,

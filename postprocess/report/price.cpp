@@ -19,7 +19,7 @@ Points points_of(const std::vector<io::RunSummary>& runs, const std::string& fie
   for (const io::RunSummary& run : runs) {
     const double error = error_of(run, field);
     const bool is_finite = std::isfinite(error) && error > 0 && run.loop_seconds > 0;
-    if (run.status != "done" || !is_finite) continue;
+    if (!run.is_ended() || !is_finite) continue;
     points.seconds.push_back(run.loop_seconds);
     points.errors.push_back(error);
   }

@@ -21,7 +21,7 @@ constexpr double alike = 0.95;  // smaller over larger: no difference that a rea
 std::vector<RunSummary> finished(const StudyReport& study, const std::string& method) {
   std::vector<RunSummary> runs = runs_of(study.runs, method);
   runs.erase(std::remove_if(runs.begin(), runs.end(),
-                            [](const RunSummary& run) { return run.status != "done"; }),
+                            [](const RunSummary& run) { return !run.is_ended(); }),
              runs.end());
   return runs;
 }
@@ -216,7 +216,7 @@ Sentences warnings(const StudyReport& study) {
     const std::string name = at_the_start(column_in_sentence(column));
     const bool is_told = std::any_of(study.breakdowns.begin(), study.breakdowns.end(),
                                      [&](const Breakdown& one) { return one.column == column; });
-    if (run.status != "done" && !is_told)
+    if (!run.is_ended() && !is_told)
       sentences.push_back(fmt::format("{} did not come to its end on level {}: {}.", name,
                                       run.level, escaped(run.status)));
     if (run.inverted_from)

@@ -50,10 +50,13 @@ TEST(Verbs, RunWarnsWhereCellsHaveTurnedInsideOut) {
   const std::string run = "run twisting-column-400 --method fvm --quiet --no-fields --threads 1 ";
   const auto folded =
       diptych(folder, run + "--level 1 --out folded --set time.end=0.06 --set output.frames=6");
-  EXPECT_EQ(folded.exit_code, 0) << folded.text;
+  EXPECT_EQ(folded.exit_code, 3) << folded.text;
   EXPECT_THAT(folded.text, HasSubstr("WARNING: fvm level 1: from t = 0.05 s on cells are inside"));
+  EXPECT_THAT(folded.text, HasSubstr("diptych: fvm level 1 is unsound: from t = 0.05 s on"));
   const auto path = folder.path() / "folded" / "fvm";
   const auto summary = io::summary_from_json(text_of(path / "summary.json"), "summary.json");
+  EXPECT_EQ(summary.status, "unsound");
+  EXPECT_DOUBLE_EQ(summary.end_time, 0.06);
   EXPECT_GT(summary.min_jacobian, 0.1) << "no node sees it";
   EXPECT_LT(summary.least_cell_J, 0);
   EXPECT_GT(summary.most_inverted_cells, 0);

@@ -29,7 +29,8 @@ SectionEntry guards_section() {
           .key("inverted_cells", &GuardsCase::inverted_cells,
                one_of({"stop", "warn"},
                       "What happens where, at an output instant, cells of the deformed mesh are "
-                      "inside out: the run is stopped (code 3), or goes on and warns at its end.",
+                      "inside out: the run is stopped (code 3), or goes on, warns, and "
+                      "has the status \"unsound\" at its end (code 3 too).",
                       "\"warn\""));
   return plain_section({"guards", false, "What stops a run that is no solution any more."}, keys,
                        &Case::guards);
