@@ -44,8 +44,9 @@ double roughness(const scheme::PairGraph& graph,
 /// The case and its disturbed twin, step by step with the same time steps.
 class Twins {
  public:
-  Twins(const cases::Case& setup, const scheme::PairGraph& graph)
+  Twins(cases::Case setup, const scheme::PairGraph& graph)
       : far_(1e6 * setup.time.end), graph_(graph), area_(pair_areas(graph)) {
+    setup.time.max_retries = 0;  // the step that is tried, not half of it
     cases::Case disturbed = setup;
     const cases::MaterialCase& m = setup.material;
     disturbed.initial.velocity_noise =

@@ -5,23 +5,8 @@
 #include "meshes/cell_checks.hpp"
 
 #include <filesystem>
-#include <limits>
-#include <numeric>
 
 namespace diptych::harness {
-
-namespace {
-
-/// What rounding makes of the energy of a body at rest, J: some eps of rho c_p^2 a volume, that of
-/// a strain of 1e-8.
-double energy_of_rounding(const cases::Case& setup, const Scene& scene) {
-  const std::vector<double>& Omega = scene.graph.Omega;
-  const double volume = std::accumulate(Omega.begin(), Omega.end(), 0.0);
-  const double c = scene.solver->undeformed_speed();
-  return std::numeric_limits<double>::epsilon() * setup.material.density * c * c * volume;
-}
-
-}  // namespace
 
 CaseObservers::CaseObservers(const cases::Case& setup,
                              const RunOptions& options,
@@ -47,8 +32,10 @@ CaseObservers::CaseObservers(const cases::Case& setup,
     shapes_.emplace(scene.mesh.mesh, static_cast<size_t>(setup.output.frames) + 1);
   if (setup.guards.inverted_cells == "stop") cell_guard_.emplace(cells_);
   if (setup.scheme.energy_budget) {
-    energy_guard_.emplace(scene.solver->balance(), setup.guards.energy_residual,
-                          energy_of_rounding(setup, scene));
+    energy_guard_.emplace(
+        scene.solver->balance(), setup.guards.energy_residual,
+        run::energy_of_rounding(setup.material.density, scene.solver->undeformed_speed(),
+                                scene.graph.Omega));
   }
 }
 

@@ -85,8 +85,8 @@ struct RunSummary {
   std::int64_t projections = 0, resynchronisations = 0, limited_pairs = 0;
   int threads = 1, ranks = 1;
   std::string precision = "double", integrator;
-  /// running, done, unsound, step limit, interrupted, breakdown, failed. Unsound: it came to its end
-  /// with cells inside out on the way, which the case allows (guards.inverted_cells = "warn").
+  /// running, done, unsound, step limit, interrupted, breakdown, failed. Unsound: it came to its
+  /// end with cells inside out on the way, which the case allows (guards.inverted_cells = "warn").
   std::string status = "done";
   std::optional<RunFailure> failure;
   std::string arrangement;  ///< of pairs in the sweeps: runs or rows

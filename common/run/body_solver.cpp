@@ -31,7 +31,8 @@ BodySolver<Dim>::BodySolver(time::MovingBody<Dim> moving,
                             const cases::InitialCase& initial,
                             double kappa_f,
                             std::shared_ptr<exact::KnownState> known,
-                            int max_retries)
+                            int max_retries,
+                            const BudgetOfStart::Bounds& start)
     : moving_(std::move(moving)),
       known_(std::move(known)),
       begin_(moving_),
@@ -41,17 +42,27 @@ BodySolver<Dim>::BodySolver(time::MovingBody<Dim> moving,
   moving_.sweeps.strain_rates(moving_.body, {}, nullptr, 0);
   if (!time::is_sound(moving_)) throw scheme::breakdown_error(moving_.body, 0, 0, 0, "");
   if (moving_.integrator.is_leapfrog()) time::begin_leapfrog(moving_);
-  moving_.initial_angular_momentum = balance().angular_momentum;
+  const scheme::Balance begun = balance();
+  moving_.initial_angular_momentum = begun.angular_momentum;
+  if (max_retries > 0 && !moving_.integrator.is_leapfrog()) start_.emplace(begun, start);
 }
 
 template <int Dim>
 StepReport BodySolver<Dim>::step(double t_limit) {
   time::Clock& clock = moving_.clock;
   if (max_retries_ > 0) begin_.keep(moving_, t_limit);
+  const bool is_judged = start_ && start_->judges(clock.step);
+  const EnergyBudget before = is_judged ? budget() : EnergyBudget();
   for (int rejected = 0;; ++rejected) {
     const double dt = time::attempt_step(moving_, t_limit);
-    if (time::is_sound(moving_))
-      return {clock.step, clock.time, dt, moving_.sweeps.least_J(), rejected};
+    if (time::is_sound(moving_)) {
+      const bool is_last = rejected == max_retries_ || dt / 2 < clock.least_share * clock.first_dt;
+      if (!is_judged || is_last || !start_->opens(before, budget()))
+        return {clock.step, clock.time, dt, moving_.sweeps.least_J(), rejected};
+      begin_.restore(moving_);
+      begin_.shorten(moving_, dt / 2);
+      continue;
+    }
     scheme::gather_state(moving_.body);
     const base::BreakdownError error = scheme::breakdown_error(
         moving_.body, clock.step + 1, clock.time + dt, dt, remark_on(rejected));

@@ -2,6 +2,7 @@
 /// The solver of a case on a graph: a body, the sweeps of its material, its boundary and a step.
 
 #include "common/exact/manufactured/manufactured_solution.hpp"
+#include "common/run/budget_of_start.hpp"
 #include "common/run/solver.hpp"
 #include "common/time/step_begin.hpp"
 
@@ -12,11 +13,14 @@ class BodySolver : public Solver {
  public:
   /// @param known        exact state of a manufactured solution, or null
   /// @param max_retries  of one step
+  /// @param start        what the first steps are held to. Leapfrog is not: its budget swings and
+  ///                     closes again; nor is any where max_retries is 0
   BodySolver(time::MovingBody<Dim> moving,
              const cases::InitialCase& initial,
              double kappa_f,
              std::shared_ptr<exact::KnownState> known,
-             int max_retries);
+             int max_retries,
+             const BudgetOfStart::Bounds& start);
 
   StepReport step(double t_limit) override;
   void divide(parallel::Communicator& ranks, const std::string& partition) override;
@@ -45,12 +49,14 @@ class BodySolver : public Solver {
   }
 
  private:
+  EnergyBudget budget() const { return {balance(), moving_.audit}; }
   const scheme::MaterialModel& material() const { return moving_.sweeps.material(); }
 
   mutable time::MovingBody<Dim> moving_;  ///< what other ranks have comes where it is looked at
   std::shared_ptr<exact::KnownState> known_;
   time::StepBegin<Dim> begin_;
   int max_retries_;
+  std::optional<BudgetOfStart> start_;
 };
 
 extern template class BodySolver<2>;

@@ -8,9 +8,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <string>
+#include <vector>
 
 namespace diptych::run {
+
+/// What rounding makes of the energies of a body, some eps of rho c_p^2 a volume, that of a strain
+/// of 1e-8: a body that holds no more is at rest  [J]
+/// @param density  kg/m^3  @param speed  of pressure waves of the undeformed body, m/s
+/// @param Omega    m^3 (m^2)
+inline double energy_of_rounding(double density, double speed, const std::vector<double>& Omega) {
+  const double volume = std::accumulate(Omega.begin(), Omega.end(), 0.0);
+  return std::numeric_limits<double>::epsilon() * density * speed * speed * volume;
+}
 
 /// Budget of a run relative to the largest energy that it has held.
 class EnergyRecord {

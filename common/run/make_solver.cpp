@@ -4,6 +4,7 @@
 #include "common/run/body_solver.hpp"
 #include "common/run/boundary_group.hpp"
 #include "common/run/default_cfl.hpp"
+#include "common/run/energy_record.hpp"
 #include "common/run/model_menu.hpp"
 #include "common/scheme/dissipation/limiters/limiter_menu.hpp"
 #include "common/scheme/option_menus.hpp"
@@ -173,9 +174,12 @@ std::unique_ptr<Solver> solver_in(const cases::Case& setup, const scheme::PairGr
   time::MovingBody<Dim> moving{std::move(body), std::move(sweeps), std::move(boundary), integrator,
                                setup.scheme.angular_momentum_projection};
   moving.clock.least_share = setup.guards.least_step;
+  const BudgetOfStart::Bounds start{
+      setup.scheme.energy_budget ? setup.guards.energy_residual : 0,
+      energy_of_rounding(setup.material.density, material->undeformed_speed(), graph.Omega)};
   return std::make_unique<BodySolver<Dim>>(std::move(moving), setup.initial,
                                            setup.scheme.face_correction, std::move(known),
-                                           setup.time.max_retries);
+                                           setup.time.max_retries, start);
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ class OwnAtlas : public testing::Test {
     tests::write_case(folder, "mine", "strip", tests::small_case("A strip"));
     folder.write("steps.toml",
                  "title = \"Steps\"\ncase = \"mine/strip\"\nset = "
-                 "[\"time.end=0.005\"]\n[[axis]]\nname = \"cfl\"\n"
+                 "[\"time.end=0.005\", \"time.max_retries=0\"]\n[[axis]]\nname = \"cfl\"\n"
                  "key = \"time.cfl\"\nvalues = [0.5, 9]\n[[axis]]\nname = \"kappa\"\n"
                  "[[axis.choice]]\nname = \"1.2\"\n[[axis.choice]]\nname = \"0.5\"\n"
                  "methods = [\"sph\"]\nset = [\"sph.kappa=0.5\"]\n");

@@ -29,13 +29,17 @@ SectionEntry time_section() {
                       "\"bound\""))
           .key("max_steps", &TimeCase::max_steps,
                {"-", at_least(0), "The run stops after so many steps; 0 sets no limit.", "1000"})
-          .key("max_retries", &TimeCase::max_retries,
-               {"-", between(0, 40),
-                "A step that ends with J <= 0 or a value that is not finite is made again from its "
-                "beginning with half the size, so many times in a row; then the run is stopped "
-                "(code 3) and the state before the step is kept. The steps after grow back by 1.2 "
-                "each. 0: no retry, and no state kept, which saves a copy (diptych cost).",
-                "0"})
+          .key(
+              "max_retries", &TimeCase::max_retries,
+              {"-", between(0, 40),
+               "A step that ends with J <= 0 or a value that is not finite is made again from its "
+               "beginning with half the size, so many times in a row; then the run is stopped "
+               "(code 3) and the state before the step is kept. So is one of the first 20 steps of "
+               "SSP-RK, of a body that moves from the start, that opens the energy budget by more "
+               "than a 20th of guards.energy_residual; with the last retry it stands. The steps "
+               "after grow back by 1.2 each. 0: no retry, and no state kept, which saves a copy "
+               "(diptych cost).",
+               "0"})
           .key("checkpoint_every", &TimeCase::checkpoint_every,
                {"-", at_least(0),
                 "diptych run keeps the whole state of a run on the disk after so many steps and at "

@@ -113,7 +113,7 @@ TEST(Simulation, EndsWhereItIsInterruptedWithAnOutput) {
 }
 
 TEST(Simulation, TellsOfABreakdownWithoutAnOutput) {
-  tests::Scene scene("fvm", case_of("1e4"));
+  tests::Scene scene("fvm", case_of("1e4", {"time.max_retries=1"}));
   Listener listener;
   Simulation simulation(scene.setup, *scene.solver, {&listener});
   EXPECT_EQ(simulation.run(), Ending::breakdown);
