@@ -18,10 +18,11 @@ namespace diptych::fvm {
 
 namespace {
 
-enum class Stencil { edge, integral, sbp };
+enum class Stencil { automatic, edge, integral, sbp };
 
 const base::Registry<Stencil>& stencils() {
   static const auto menu = base::Registry<Stencil>("stencil of fvm")
+                               .add("auto", Stencil::automatic)
                                .add("edge", Stencil::edge)
                                .add("integral", Stencil::integral)
                                .add("sbp", Stencil::sbp);
@@ -65,6 +66,20 @@ scheme::PairGraph graph_of_cells(const meshes::Mesh& mesh, meshes::Quadrature qu
   return graph;
 }
 
+/// What stencil = "auto" comes to on a mesh.
+struct Choice {
+  Stencil stencil = Stencil::edge;
+  std::string text;  ///< why it is not sbp, where it was to choose
+};
+
+Choice choice_of(const meshes::Mesh& mesh, const Options& options) {
+  const Stencil asked = stencils().at(options.stencil);
+  if (asked != Stencil::automatic) return {asked, ""};
+  const std::string because = unsure_because(mesh, options.order);
+  if (because.empty()) return {Stencil::sbp, ""};
+  return {Stencil::edge, fmt::format("edge stencil: {}", because)};
+}
+
 }  // namespace
 
 const std::vector<std::string>& stencil_names() {
@@ -72,7 +87,7 @@ const std::vector<std::string>& stencil_names() {
 }
 
 scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) {
-  const Stencil stencil = stencils().at(options.stencil);
+  const Stencil stencil = choice_of(mesh, options).stencil;
   if (stencil == Stencil::sbp) {
     return meshes::is_undistorted_block(mesh) ? sbp_graph(mesh, options.order)
                                               : sbp_graph_of_cells(mesh);
@@ -82,7 +97,8 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
 }
 
 Operators operators_of(const meshes::Mesh& mesh, const Options& options) {
-  if (stencils().at(options.stencil) != Stencil::sbp) return {};
+  const Choice choice = choice_of(mesh, options);
+  if (choice.stencil != Stencil::sbp) return {choice.text, {}};
   if (!meshes::is_undistorted_block(mesh))
     return {fmt::format("sbp: order 2 on the cells around {} nodes", mesh.n_nodes()),
             {closure::sign_notice}};

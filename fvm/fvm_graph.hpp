@@ -14,7 +14,8 @@
 namespace diptych::fvm {
 
 struct Options {
-  /// edge or integral, on simplices the same up to the boundary; sbp
+  /// edge or integral, on simplices the same up to the boundary; sbp; auto: sbp on blocks where an
+  /// order above two fits, edge elsewhere
   std::string stencil = "edge";
   int order = 4;  ///< of sbp on blocks
 };
@@ -26,7 +27,7 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options);
 
 /// What build_graph makes of a mesh, where that depends on more than the options.
 struct Operators {
-  std::string text;               ///< for the record; empty but for sbp
+  std::string text;               ///< for the record; empty where edge or integral was asked for
   std::vector<std::string> lost;  ///< where less than the order asked for fits, and why
 };
 

@@ -2,7 +2,6 @@
 
 #include "common/closure/summation_by_parts.hpp"
 #include "fvm/cell_stencil.hpp"
-#include "meshes/cell_shares.hpp"
 #include "meshes/quadratic_measure.hpp"
 
 #include <algorithm>
@@ -103,8 +102,6 @@ scheme::PairGraph sbp_graph_of_cells(const meshes::Mesh& mesh) {
   link_reverse_pairs(graph);
   add_cells(mesh, meshes::Quadrature::vertex, graph);
   closure::make_sum_by_parts(graph, weights_of(mesh, graph));
-  auto cells = meshes::cell_shares(mesh, meshes::Quadrature::exact);
-  graph.cells = {std::move(cells.row), std::move(cells.corner), std::move(cells.share)};
   validate(graph);
   return graph;
 }

@@ -85,6 +85,21 @@ scheme::PairGraph sbp_graph(const Mesh& mesh, int order) {
   return graph;
 }
 
+std::string unsure_because(const Mesh& mesh, int order) {
+  if (!meshes::is_undistorted_block(mesh)) return "the mesh is no box";
+  meshes::StructuredBlock block = meshes::structured_block(mesh, use);
+  const std::vector<SbpOperator> along = operators_along(block, order);
+  std::vector<std::vector<double>> H = weights_of(along, block);
+  const int longest = *std::max_element(block.n_nodes.begin(), block.n_nodes.end());
+  if (widest_sbp_table(order, longest).order == 2) return fmt::format("lines of {} nodes", longest);
+  const meshes::BlockMeasure measure(mesh, std::move(block), std::move(H), use);
+  for (const meshes::BoundaryGroup& group : mesh.boundary_groups) {
+    if (!measure.has_patch(group))
+      return fmt::format("group '{}' ends within the first nodes of a side", group.name);
+  }
+  return "";
+}
+
 std::vector<SbpLines> sbp_lines(const Mesh& mesh, int order) {
   const meshes::StructuredBlock block = meshes::structured_block(mesh, use);
   const algebra::Mat3 edges = meshes::cell_edges(mesh, block, use);

@@ -32,6 +32,11 @@ struct SbpLines {
   int order = 2;            ///< of the pair there
 };
 
+/// Why stencil = "auto" does not take sbp_graph on a mesh; empty where it does: on undistorted
+/// blocks with lines that an order above two fits on, whose boundary groups have areas of their
+/// own.
+std::string unsure_because(const meshes::Mesh& mesh, int order);
+
 /// What sbp_graph makes of a mesh.
 std::vector<SbpLines> sbp_lines(const meshes::Mesh& mesh, int order);
 

@@ -47,10 +47,24 @@ Vec3 BlockMeasure::boundary_area(std::int64_t a) const {
 }
 
 PatchArea BlockMeasure::patch(const BoundaryGroup& group) const {
-  PatchArea patch;
+  SummedPatch summed = summed_patch(group);
+  if (summed.is_exact()) return std::move(summed.patch);
+  throw base::InputError(fmt::format(
+      "boundary group '{}' ends within the first nodes of a side, where the weights of {} are not "
+      "those of its faces (area {:.6g} instead of {:.6g}): let it cover the whole side or end "
+      "farther from its edge, or use {}",
+      group.name, use_.asked, summed.sum.norm(), summed.whole.norm(), use_.instead));
+}
+
+bool BlockMeasure::has_patch(const BoundaryGroup& group) const {
+  return summed_patch(group).is_exact();
+}
+
+BlockMeasure::SummedPatch BlockMeasure::summed_patch(const BoundaryGroup& group) const {
+  SummedPatch summed;
+  auto& [patch, sum, whole] = summed;
   patch.name = group.name;
   std::vector<std::pair<std::int32_t, Vec3>> shares;
-  Vec3 whole = Vec3::Zero();
   for (const std::int32_t f : group.faces) {
     const BoundaryFace& face = mesh_.boundary_faces[f];
     const Side side = side_of(face);
@@ -65,7 +79,6 @@ PatchArea BlockMeasure::patch(const BoundaryGroup& group) const {
   }
   std::stable_sort(shares.begin(), shares.end(),
                    [](const auto& p, const auto& q) { return p.first < q.first; });
-  Vec3 sum = Vec3::Zero();
   for (const auto& [a, share] : shares) {
     if (patch.nodes.empty() || patch.nodes.back() != a) {
       patch.nodes.push_back(a);
@@ -74,8 +87,14 @@ PatchArea BlockMeasure::patch(const BoundaryGroup& group) const {
     patch.area.back() += share;
     sum += share;
   }
-  check_area(group, sum, whole, patch);
-  return patch;
+  return summed;
+}
+
+bool BlockMeasure::SummedPatch::is_exact() const {
+  double size = 0;
+  for (const Vec3& area : patch.area)
+    size += area.norm();
+  return (sum - whole).norm() <= 1e-12 * size;
 }
 
 /// @pre the face is of the boundary, so of a side
@@ -103,21 +122,6 @@ double BlockMeasure::n_faces_on_side(std::int32_t a, const Side& side) const {
     if (t != side.direction && i != 0 && i != block_.n_nodes[t] - 1) n *= 2;
   }
   return n;
-}
-
-void BlockMeasure::check_area(const BoundaryGroup& group,
-                              const Vec3& sum,
-                              const Vec3& whole,
-                              const PatchArea& patch) const {
-  double size = 0;
-  for (const Vec3& area : patch.area)
-    size += area.norm();
-  if ((sum - whole).norm() <= 1e-12 * size) return;
-  throw base::InputError(fmt::format(
-      "boundary group '{}' ends within the first nodes of a side, where the weights of {} are not "
-      "those of its faces (area {:.6g} instead of {:.6g}): let it cover the whole side or end "
-      "farther from its edge, or use {}",
-      group.name, use_.asked, sum.norm(), whole.norm(), use_.instead));
 }
 
 }  // namespace diptych::meshes

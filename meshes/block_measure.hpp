@@ -36,6 +36,7 @@ class BlockMeasure {
   Vec3 boundary_area(std::int64_t a) const;  ///< A_a N_a over all sides  [m^(d-1)]
   /// @throws base::InputError where a part of a side ends inside its boundary block
   PatchArea patch(const BoundaryGroup& group) const;
+  bool has_patch(const BoundaryGroup& group) const;  ///< patch(group) does not throw
 
  private:
   /// One of the two ends of the lines of a direction.
@@ -44,12 +45,16 @@ class BlockMeasure {
     bool is_far = false;
   };
 
+  /// A patch with the sum of its areas and what its faces add up to, which it has to be.
+  struct SummedPatch {
+    PatchArea patch;
+    Vec3 sum = Vec3::Zero(), whole = Vec3::Zero();
+    bool is_exact() const;
+  };
+
   Side side_of(const BoundaryFace& face) const;
   double n_faces_on_side(std::int32_t a, const Side& side) const;
-  void check_area(const BoundaryGroup& group,
-                  const Vec3& sum,
-                  const Vec3& whole,
-                  const PatchArea& patch) const;
+  SummedPatch summed_patch(const BoundaryGroup& group) const;
 
   const Mesh& mesh_;
   StructuredBlock block_;

@@ -2,7 +2,6 @@
 
 #include "common/scheme/graph/classify_rows.hpp"
 #include "meshes/block_measure.hpp"
-#include "meshes/cell_shares.hpp"
 #include "sph/lattice_operator.hpp"
 
 #include <algorithm>
@@ -80,10 +79,25 @@ scheme::PairGraph sbp_graph(const meshes::Mesh& mesh, const Kernel& kernel, doub
   graph.dissipation_metric = measure.edges().inverse() / just_above;
   link_reverse_pairs(graph);
   set_classes(graph);
-  auto cells = meshes::cell_shares(mesh, meshes::Quadrature::vertex);
-  graph.cells = {std::move(cells.row), std::move(cells.corner), std::move(cells.share)};
   validate(graph);
   return graph;
+}
+
+std::string unsure_because(const meshes::Mesh& mesh, const Kernel& kernel, double kappa) {
+  if (!meshes::is_undistorted_block(mesh)) return "the nodes are no lattice";
+  if (!(kernel.support * kappa > 2)) return "the support is two spacings or less";
+  StructuredBlock block = meshes::structured_block(mesh, use);
+  for (int d = 0; d < block.dimension; ++d) {
+    if (block.n_nodes[d] < least_sure_nodes)
+      return fmt::format("lines of {} nodes", block.n_nodes[d]);
+  }
+  std::vector<std::vector<double>> H = weights_of(block);
+  const meshes::BlockMeasure measure(mesh, std::move(block), std::move(H), use);
+  for (const meshes::BoundaryGroup& group : mesh.boundary_groups) {
+    if (!measure.has_patch(group))
+      return fmt::format("group '{}' ends within the first nodes of a side", group.name);
+  }
+  return "";
 }
 
 std::string sbp_text(double kappa) {

@@ -15,6 +15,12 @@ namespace diptych::sph {
 ///         the support is too small
 scheme::PairGraph sbp_graph(const meshes::Mesh& mesh, const Kernel& kernel, double kappa);
 
+/// Why gradient = "auto" does not take sbp_graph on a mesh; empty where it does: on undistorted
+/// blocks with lines of `least_sure_nodes` nodes and more, whose boundary groups have areas of
+/// their own. On shorter lines the numerical dissipation may give energy (notes 4.4).
+std::string unsure_because(const meshes::Mesh& mesh, const Kernel& kernel, double kappa);
+constexpr int least_sure_nodes = 5;
+
 /// "sbp: order 4 inside, 2 within 3 nodes of the boundary, kappa 1.2"
 std::string sbp_text(double kappa);
 

@@ -24,10 +24,11 @@ namespace {
 const meshes::BlockUse sums_use{"sph.gradient = \"sbp\"", "sph.gradient = \"corrected\""};
 constexpr double least_kappa = 0.5, greatest_kappa = 4;
 
-enum class Gradient { corrected, sbp };
+enum class Gradient { automatic, corrected, sbp };
 
 const base::Registry<Gradient>& gradients() {
   static const auto menu = base::Registry<Gradient>("gradient of sph")
+                               .add("auto", Gradient::automatic)
                                .add("corrected", Gradient::corrected)
                                .add("sbp", Gradient::sbp);
   return menu;
@@ -109,6 +110,22 @@ void repair_closure(const Kernel& kernel, const std::vector<double>& h, scheme::
   closure::repair_closure_pairs(graph, weights_of(kernel, h, graph));
 }
 
+/// What gradient = "auto" comes to on a mesh.
+struct Choice {
+  Gradient gradient = Gradient::corrected;
+  std::string text;  ///< why it is not sbp, where it was to choose
+};
+
+Choice choice_of(const meshes::Mesh& mesh, const Options& options) {
+  const Gradient asked = gradients().at(options.gradient);
+  if (asked != Gradient::automatic) return {asked, ""};
+  const std::string because =
+      options.closure ? unsure_because(mesh, kernels().at(options.kernel), options.kappa)
+                      : "closure = false";
+  if (because.empty()) return {Gradient::sbp, ""};
+  return {Gradient::corrected, fmt::format("corrected gradient: {}", because)};
+}
+
 }  // namespace
 
 const std::vector<std::string>& gradient_names() {
@@ -122,7 +139,7 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
         fmt::format("kappa = {:.6g} is out of range; use {} to {} (1.2 is usual)", options.kappa,
                     least_kappa, greatest_kappa));
   }
-  const bool sums_by_parts = gradients().at(options.gradient) == Gradient::sbp;
+  const bool sums_by_parts = choice_of(mesh, options).gradient == Gradient::sbp;
   if (sums_by_parts && meshes::is_undistorted_block(mesh))
     return sbp_graph(mesh, kernel, options.kappa);
   const meshes::DualMeasure by_vertices = meshes::dual_measure(mesh, meshes::Quadrature::vertex);
@@ -144,9 +161,8 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
   } else if (options.closure) {
     repair_closure(kernel, h, graph);
   }
-  const auto rule = sums_by_parts ? meshes::Quadrature::exact : meshes::Quadrature::vertex;
-  if (meshes::areas_are_of_cells(mesh, rule)) {
-    auto cells = meshes::cell_shares(mesh, rule);
+  if (!sums_by_parts && meshes::areas_are_of_cells(mesh, meshes::Quadrature::vertex)) {
+    auto cells = meshes::cell_shares(mesh, meshes::Quadrature::vertex);
     graph.cells = {std::move(cells.row), std::move(cells.corner), std::move(cells.share)};
   }
   validate(graph);
@@ -154,7 +170,8 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
 }
 
 Operators operators_of(const meshes::Mesh& mesh, const Options& options) {
-  if (gradients().at(options.gradient) != Gradient::sbp) return {};
+  const Choice choice = choice_of(mesh, options);
+  if (choice.gradient != Gradient::sbp) return {choice.text, {}};
   if (!meshes::is_undistorted_block(mesh)) {
     return {fmt::format("sbp: order 2 on {} nodes, kappa {:.4g}", mesh.n_nodes(), options.kappa),
             {closure::sign_notice}};

@@ -14,9 +14,10 @@ struct Options {
   std::string kernel = "cubic-spline";  ///< cubic-spline, quintic-spline, wendland-c2
   double kappa = 1.2;                   ///< h_a = kappa (Omega_a / filled part of the angle)^(1/d)
   bool closure = true;                  ///< repair the closure
-  std::string gradient = "corrected";   ///< corrected, sbp
+  std::string gradient = "corrected";   ///< corrected, sbp or auto: sbp where it is sure to do
 };
 
+/// What Options::gradient may be.
 const std::vector<std::string>& gradient_names();
 
 /// Pairs are those with |X_b - X_a| < support (h_a + h_b)/2, W_ab = W(|X_b - X_a|, (h_a + h_b)/2):
@@ -28,7 +29,7 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options);
 
 /// What build_graph makes of a mesh, where that depends on more than the options.
 struct Operators {
-  std::string text;                  ///< for the record; empty but for sbp
+  std::string text;                  ///< for the record; empty where corrected was asked for
   std::vector<std::string> notices;  ///< where it promises less
 };
 

@@ -1,8 +1,10 @@
 #include "benchmarks/run/backends.hpp"
 
 #include "common/base/error.hpp"
+#include "common/run/solver.hpp"
 #include "common/scheme/option_menus.hpp"
 #include "fvm/fvm_graph.hpp"
+#include "meshes/structured_block.hpp"
 #include "sph/sph_graph.hpp"
 
 #include <fmt/format.h>
@@ -16,12 +18,38 @@ scheme::PairGraph in_precision(scheme::PairGraph graph, const std::string& preci
   return graph;
 }
 
+/// With gradient = "auto" the corrected gradient, where the face correction is asked for, which is
+/// for derivatives of second order, or volumes of cells, whose boundary areas are its own.
 sph::Options sph_options(const cases::Case& setup) {
-  return {setup.sph.kernel, setup.sph.kappa, setup.sph.closure, setup.sph.gradient};
+  const bool is_corrected = setup.sph.gradient == "auto" &&
+                            (setup.scheme.face_correction != 0 || run::wants_cell_volumes(setup));
+  return {setup.sph.kernel, setup.sph.kappa, setup.sph.closure,
+          is_corrected ? "corrected" : setup.sph.gradient};
 }
 
+/// Along the lines of boxes derivatives commute, which needs no volumes of cells.
 fvm::Options fvm_options(const cases::Case& setup) {
-  return {setup.fvm.stencil, setup.fvm.order};
+  const bool is_edge = setup.fvm.stencil == "auto" &&
+                       (setup.scheme.face_correction != 0 || setup.scheme.volumes == "cells");
+  return {is_edge ? "edge" : setup.fvm.stencil, setup.fvm.order};
+}
+
+/// Of operators that sum by parts but do not commute, in bodies whose pressure volumes of cells
+/// would have to carry (notes 10.1).
+constexpr const char* pressure_notice =
+    "sbp: nodes carry the bulk pressure of this nearly incompressible material; above some shear "
+    "moduli it turns cells inside out (the run is then stopped); the default operators bear it "
+    "(notes 10.1)";
+
+GraphDescription description_of(const cases::Case& setup,
+                                const std::string& text,
+                                std::vector<std::string> notices,
+                                bool commutes) {
+  const bool sums_by_parts = text.starts_with("sbp");
+  if (sums_by_parts && !commutes && setup.scheme.volumes == "auto" &&
+      run::wants_cell_volumes(setup))
+    notices.push_back(pressure_notice);
+  return {text, std::move(notices)};
 }
 
 /// What SPH that sums by parts does not go with.
@@ -35,7 +63,8 @@ void check_sph(const cases::Case& setup) {
 
 /// What finite volumes that sum by parts do not go with.
 void check_fvm(const cases::Case& setup) {
-  if (setup.fvm.stencil != "sbp" || setup.fvm.order == 2) return;
+  const std::string stencil = fvm_options(setup).stencil;
+  if ((stencil != "sbp" && stencil != "auto") || setup.fvm.order == 2) return;
   const cases::SchemeCase& scheme = setup.scheme;
   if (scheme.face_correction != 0) {
     throw base::InputError(fmt::format(
@@ -77,10 +106,10 @@ GraphDescription graph_description(const std::string& method,
                                    const cases::Case& setup) {
   if (method == "sph") {
     const sph::Operators operators = sph::operators_of(mesh, sph_options(setup));
-    return {operators.text, operators.notices};
+    return description_of(setup, operators.text, operators.notices, false);
   }
   const fvm::Operators operators = fvm::operators_of(mesh, fvm_options(setup));
-  return {operators.text, operators.lost};
+  return description_of(setup, operators.text, operators.lost, meshes::is_undistorted_block(mesh));
 }
 
 }  // namespace diptych::harness

@@ -4,6 +4,7 @@
 #include "benchmarks/run/memory.hpp"
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
+#include "common/run/solver.hpp"
 #include "fvm/sbp_operator.hpp"
 
 #include <algorithm>
@@ -122,9 +123,16 @@ double two_rings(const std::string& element, int dimension) {
   return dimension == 3 ? 24 : 12;
 }
 
+/// Finite volumes that sum by parts along the lines of a box, asked for or chosen.
+bool sums_along_lines(const cases::Case& setup) {
+  if (setup.fvm.stencil == "sbp") return true;
+  return setup.fvm.stencil == "auto" && setup.scheme.face_correction == 0 &&
+         setup.mesh.file.empty() && setup.mesh.perturbation == 0 && !is_simplex(setup.mesh.element);
+}
+
 /// Nodes that a row of finite volumes reaches along a line.
-double reach_of(const cases::FvmCase& fvm) {
-  return fvm.stencil == "sbp" ? fvm.order / 2 : 1;
+double reach_of(const cases::Case& setup) {
+  return sums_along_lines(setup) ? setup.fvm.order / 2 : 1;
 }
 
 /// Of the support of the kernel, in spacings of a cube of the same volume.
@@ -216,9 +224,9 @@ double bytes_of(const cases::Case& setup,
   const double stored = scheme.precision == "mixed" ? of_mixed : costs.stored_pair;
   const bool commutes = method != "sph" && !is_simplex(setup.mesh.element) &&
                         setup.mesh.perturbation == 0 && setup.fvm.stencil != "integral";
+  const bool sums = (method == "sph" ? setup.sph.gradient : setup.fvm.stencil) == "sbp";
   const bool has_volumes =
-      scheme.volumes == "cells" || (scheme.volumes == "auto" && !commutes &&
-                                    setup.material.lame > 2.5 * setup.material.shear_modulus);
+      !sums && (scheme.volumes == "cells" || !commutes) && run::wants_cell_volumes(setup);
   const double corners = size.cells * corners_of_cell(setup.mesh);
   const double volumes = has_volumes ? volume_corner * corners + volume_node * size.nodes : 0;
   const double geometry = n_class_pairs > 0 ? class_pair * n_class_pairs : stored * size.pairs;
@@ -228,12 +236,41 @@ double bytes_of(const cases::Case& setup,
          geometry;
 }
 
+/// SPH that sums by parts on a box, asked for or chosen: supports in spacings of each line, rows of
+/// their own within three nodes of a side.
+bool sums_on_lattice(const cases::Case& setup) {
+  const bool is_box =
+      setup.mesh.file.empty() && setup.mesh.perturbation == 0 && !is_simplex(setup.mesh.element);
+  if (setup.sph.gradient != "auto") return is_box && setup.sph.gradient == "sbp";
+  return is_box && setup.scheme.face_correction == 0 && support_radius(setup.sph) > 2 &&
+         !run::wants_cell_volumes(setup);
+}
+
+/// Directed pairs within a support on a box.
+double pairs_of_lattice(const Lattice& lattice, double radius) {
+  const int reach = static_cast<int>(radius) + 1, height = lattice.dimension == 3 ? reach : 0;
+  const auto places = [&](int d, int step) {
+    return std::max(0.0, lattice.cells[d] + 1 - std::abs(step));
+  };
+  double pairs = -lattice.nodes();
+  for (int k = -height; k <= height; ++k) {
+    for (int j = -reach; j <= reach; ++j) {
+      for (int i = -reach; i <= reach; ++i) {
+        if (std::hypot(i, j, k) >= radius * (1 - 1e-12)) continue;
+        pairs += places(0, i) * places(1, j) * (lattice.dimension == 3 ? places(2, k) : 1);
+      }
+    }
+  }
+  return pairs;
+}
+
 /// Rows of a lattice differ within this many nodes of the boundary: C_ab holds what corrects both
 /// of its nodes, each of which sees its own support.
-double classes_of(const Lattice& lattice, double radius) {
+/// @param places  of a line whose rows differ
+double classes_of(const Lattice& lattice, double places) {
   double classes = 1;
   for (int i = 0; i < lattice.dimension; ++i)
-    classes *= std::min(lattice.cells[i] + 1, 4 * std::floor(radius) + 1);
+    classes *= std::min(lattice.cells[i] + 1, places);
   return classes;
 }
 
@@ -283,22 +320,24 @@ MemoryEstimate estimate_memory(const cases::Case& setup, const std::string& meth
   size.nodes = lattice.nodes();
   size.cells = lattice.n_cells() * simplices_of_cell(setup.mesh);
   const bool is_sph = method == "sph";
-  const double radius = is_sph ? support_radius(setup.sph) : reach_of(setup.fvm);
+  const double radius = is_sph ? support_radius(setup.sph) : reach_of(setup);
   bool is_regular = setup.mesh.perturbation == 0;
   if (is_sph) {
     const bool exact = is_exact(setup.mesh, lattice);  // else one half, by rounding
     const Support support = support_of(lattice, radius, exact ? 1 : 0.5);
-    size.pairs = particle_pairs(lattice, support);
-    is_regular = is_regular && (!support.is_touched || exact);
+    const bool sums = sums_on_lattice(setup);
+    size.pairs = sums ? pairs_of_lattice(lattice, radius) : particle_pairs(lattice, support);
+    is_regular = is_regular && (sums || !support.is_touched || exact);
   } else if (sums_anywhere(setup, method)) {
     size.pairs = size.nodes * two_rings(setup.mesh.element, lattice.dimension);
-  } else if (setup.fvm.stencil == "sbp") {
+  } else if (sums_along_lines(setup)) {
     size.pairs = pairs_of_lines(lattice, setup.fvm.order);
   } else {
     size.pairs = finite_volume_pairs(lattice, setup.mesh.element, setup.fvm.stencil == "integral");
   }
+  const double places = is_sph && sums_on_lattice(setup) ? 7 : 4 * std::floor(radius) + 1;
   const double n_class_pairs =
-      is_regular ? classes_of(lattice, radius) * size.pairs / size.nodes : 0;
+      is_regular ? classes_of(lattice, places) * size.pairs / size.nodes : 0;
   size.bytes = bytes_of(setup, method, size, n_class_pairs);
   return size;
 }
@@ -319,7 +358,7 @@ MemoryEstimate estimate_memory(const cases::Case& setup,
     const double around = all                              ? std::pow(3, d) - 1
                           : sums_anywhere(setup, method)   ? two_rings(setup.mesh.element, d)
                           : is_simplex(setup.mesh.element) ? of_simplices
-                                                           : of_boxes * reach_of(setup.fvm);
+                                                           : of_boxes * reach_of(setup);
     size.pairs = size.nodes * around;
   }
   size.bytes = bytes_of(setup, method, size, 0);

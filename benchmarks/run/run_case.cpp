@@ -15,12 +15,14 @@
 #include "common/parallel/for_chunks.hpp"
 #include "common/parallel/thread_count.hpp"
 #include "common/run/simulation.hpp"
+#include "meshes/dual_measure.hpp"
 
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -33,6 +35,30 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Mean spacing of the nodes [m]. Of the interior nodes: those on the boundary have only a part of
+/// their cell inside. Volumes of operators that sum by parts differ from node to node near the
+/// boundary: there by the part of the full angle that the body fills at each node.
+double spacing_of(const CaseGraph& scene) {
+  const scheme::PairGraph& graph = scene.graph;
+  double volume = 0, n = 0;
+  if (scene.description.operators.starts_with("sbp")) {
+    for (const double part : meshes::filled_angle(scene.mesh.mesh))
+      n += part;
+    volume = std::accumulate(graph.Omega.begin(), graph.Omega.end(), 0.0);
+    return std::pow(volume / n, 1.0 / graph.dimension);
+  }
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+    if (!graph.boundary_area[a].isZero()) continue;
+    volume += graph.Omega[a];
+    ++n;
+  }
+  if (n == 0) {
+    volume = std::accumulate(graph.Omega.begin(), graph.Omega.end(), 0.0);
+    n = static_cast<double>(graph.n_nodes());
+  }
+  return std::pow(volume / n, 1.0 / graph.dimension);
+}
+
 void describe_graph(const CaseGraph& scene, io::RunSummary& s) {
   const scheme::PairGraph& graph = scene.graph;
   const scheme::GraphQuality q = scheme::quality(graph);
@@ -43,18 +69,7 @@ void describe_graph(const CaseGraph& scene, io::RunSummary& s) {
   s.graph_closure = q.closure;
   s.graph_linear_exactness = q.linear_exactness;
   s.graph_operators = scene.description.operators;
-  // of the interior nodes: those on the boundary have only a part of their cell inside
-  double inside = 0, all = 0;
-  std::int64_t n = 0;
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
-    all += graph.Omega[a];
-    if (!graph.boundary_area[a].isZero()) continue;
-    inside += graph.Omega[a];
-    ++n;
-  }
-  const double mean =
-      n > 0 ? inside / static_cast<double>(n) : all / static_cast<double>(graph.n_nodes());
-  s.spacing = std::pow(mean, 1.0 / graph.dimension);
+  s.spacing = spacing_of(scene);
 }
 
 /// One run, whose parts refer to each other.

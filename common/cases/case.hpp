@@ -141,16 +141,16 @@ struct SchemeCase {
 /// [sph]
 struct SphCase {
   std::string kernel = "cubic-spline";
-  double kappa = 1.2;                  ///< h_a = kappa (Omega_a / filled part of the angle)^(1/d)
-  bool closure = true;                 ///< repair of the closure, notes 3.3
-  std::string gradient = "corrected";  ///< corrected (first order), or sbp (operators that sum by
-                                       ///< parts, on boxes)
+  double kappa = 1.2;             ///< h_a = kappa (Omega_a / filled part of the angle)^(1/d)
+  bool closure = true;            ///< repair of the closure, notes 3.3
+  std::string gradient = "auto";  ///< corrected (first order), sbp (operators that sum by
+                                  ///< parts), or auto: sbp on boxes
 };
 
 /// [fvm]
 struct FvmCase {
-  std::string stencil = "edge";  ///< edge (nodal quadrature), integral (2 int N_a grad N_b dV) or
-                                 ///< sbp (operators that sum by parts, on boxes)
+  std::string stencil = "auto";  ///< edge (nodal quadrature), integral (2 int N_a grad N_b dV),
+                                 ///< sbp (operators that sum by parts), or auto: sbp on boxes
   int order = 4;                 ///< of sbp, inside: 2, 4 or 6
 };
 

@@ -52,13 +52,18 @@ StepReport BodySolver<Dim>::step(double t_limit) {
   time::Clock& clock = moving_.clock;
   if (max_retries_ > 0) begin_.keep(moving_, t_limit);
   const bool is_judged = start_ && start_->judges(clock.step);
-  const EnergyBudget before = is_judged ? budget() : EnergyBudget();
+  if (is_judged && !begun_) begun_ = budget();
   for (int rejected = 0;; ++rejected) {
     const double dt = time::attempt_step(moving_, t_limit);
     if (time::is_sound(moving_)) {
+      const StepReport report{clock.step, clock.time, dt, moving_.sweeps.least_J(), rejected};
+      if (!is_judged) return report;
       const bool is_last = rejected == max_retries_ || dt / 2 < clock.least_share * clock.first_dt;
-      if (!is_judged || is_last || !start_->opens(before, budget()))
-        return {clock.step, clock.time, dt, moving_.sweeps.least_J(), rejected};
+      const EnergyBudget ended = budget();
+      if (is_last || !start_->opens(*begun_, ended)) {
+        begun_ = ended;  // where the next step begins
+        return report;
+      }
       begin_.restore(moving_);
       begin_.shorten(moving_, dt / 2);
       continue;
@@ -127,6 +132,7 @@ void BodySolver<Dim>::archive(algebra::Archive& archive) {
   time::archive(moving_, archive);
   if (known_) known_->archive(archive);
   if (!archive.is_loading()) return;
+  begun_.reset();
   begin_ = time::StepBegin<Dim>(moving_);  // which keeps nothing of the steps until then
   if (!time::is_sound(moving_)) {
     throw base::InputError(

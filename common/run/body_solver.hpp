@@ -57,6 +57,8 @@ class BodySolver : public Solver {
   time::StepBegin<Dim> begin_;
   int max_retries_;
   std::optional<BudgetOfStart> start_;
+  std::optional<EnergyBudget>
+      begun_;  ///< budget of the state that the next judged step begins with
 };
 
 extern template class BodySolver<2>;

@@ -189,23 +189,22 @@ std::unique_ptr<Solver> solver_in(const cases::Case& setup, const scheme::PairGr
 /// 10.1).
 constexpr double least_bulk = 2.5;
 
+bool wants_cell_volumes(const cases::Case& setup) {
+  const scheme::Volumes volumes = scheme::volumes_menu().at(setup.scheme.volumes);
+  if (volumes != scheme::Volumes::automatic) return volumes == scheme::Volumes::cells;
+  const auto material = model_menu().at(setup.material.model).model(setup.material);
+  return material->volumetric_modulus() > least_bulk * setup.material.shear_modulus;
+}
+
 bool has_cell_volumes(const cases::Case& setup, const scheme::PairGraph& graph) {
-  switch (scheme::volumes_menu().at(setup.scheme.volumes)) {
-    case scheme::Volumes::nodes:
-      return false;
-    case scheme::Volumes::automatic: {
-      const auto material = model_menu().at(setup.material.model).model(setup.material);
-      return !graph.commutes && !graph.cells.empty() &&
-             material->volumetric_modulus() > least_bulk * setup.material.shear_modulus;
-    }
-    case scheme::Volumes::cells:
-      break;
-  }
+  if (scheme::volumes_menu().at(setup.scheme.volumes) == scheme::Volumes::automatic)
+    return !graph.commutes && !graph.cells.empty() && wants_cell_volumes(setup);
+  if (!wants_cell_volumes(setup)) return false;
   if (graph.cells.empty()) {
     throw base::InputError(
         "scheme.volumes = \"cells\" is not for this graph: faces of the boundary are no "
-        "parallelograms, or the operators are those of fvm.stencil = \"sbp\", which need no cells; "
-        "use \"auto\"");
+        "parallelograms, or the operators sum by parts, whose boundary areas are not those of "
+        "cells; use \"auto\"");
   }
   return true;
 }

@@ -83,6 +83,11 @@ class Solver {
   }
 };
 
+/// Whether a case, whatever its graph, wants volumes of cells to carry its pressure: it asks for
+/// them, or its material is nearly incompressible and it leaves the choice (scheme.volumes =
+/// "auto").
+bool wants_cell_volumes(const cases::Case& setup);
+
 /// Whether volumes of the cells of this graph carry the pressure of this case (scheme.volumes).
 /// @throws base::InputError where the graph lacks the cells that the case asks for
 bool has_cell_volumes(const cases::Case& setup, const scheme::PairGraph& graph);

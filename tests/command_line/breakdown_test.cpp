@@ -32,7 +32,9 @@ std::string crushed(const std::string& a) {
          "[material]\nmodel = \"neo-hookean\"\ndensity = 1100\nyoungs_modulus = 17e6\n"
          "poissons_ratio = 0.3\n[time]\nend = 4e-3\nmax_retries = 0\n[guards]\nenergy_residual = "
          "0.1\n"
-         "involution = 1\n[exact]\nvelocity = [\"-1\", \"0\", \"0\"]\n"
+         "involution = 1\n[sph]\ngradient = \"corrected\"\n[fvm]\nstencil = "
+         "\"edge\"\n[exact]\nvelocity = [\"-1\", \"0\", "
+         "\"0\"]\n"
          "[initial]\nvelocity = [\"-" +
          a + "*x\", \"0\", \"0\"]\n";
 }

@@ -55,7 +55,7 @@ TEST_F(Resumption, RunsNothingTwiceAndWritesTheSameTables) {
   EXPECT_EQ(n_taken_over(second.text), 4);
   EXPECT_EQ(text_of(summary(1, "fvm")), before) << "its date and times would differ";
   EXPECT_EQ(text_of(folder.path() / "out" / "convergence.csv"), csv);
-  EXPECT_THAT(csv, HasSubstr("sph,kinetic energy,J,1,0.125"));
+  EXPECT_THAT(csv, HasSubstr("sph,kinetic energy,J,1,0.12"));
 }
 
 TEST_F(Resumption, RunsAgainWhatWasKilledAndWhatIsCutOff) {

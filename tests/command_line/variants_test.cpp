@@ -119,13 +119,13 @@ TEST(VariantColumns, AreTakenOverAsTheMethodsAre) {
   const std::string converge =
       "converge shear-wave-elastic --levels 2 --quiet --threads 1 --out out "
       "--set output.frames=2 ";
-  const auto first = diptych(folder, converge + "--with 'wide: sph.kappa=1.2'");
+  const auto first = diptych(folder, converge + "--with 'wide: sph.kappa=1.3'");
   EXPECT_EQ(first.exit_code, 0) << first.text;
   EXPECT_THAT(first.text, HasSubstr("SPH wide, shear-wave-elastic: relative L2 errors"));
   const std::string csv = text_of(folder.path() / "out" / "convergence.csv");
   EXPECT_THAT(csv, HasSubstr("\nsph-wide,velocity error L2,-,1,"));
   EXPECT_THAT(csv, HasSubstr("\nsph-wide,kinetic energy,J,1,"));
-  const auto second = diptych(folder, converge + "--with 'wide: sph.kappa=1.2'");
+  const auto second = diptych(folder, converge + "--with 'wide: sph.kappa=1.3'");
   EXPECT_THAT(second.text, HasSubstr("taken over, not run again: out/level_1/sph-wide"));
   EXPECT_EQ(text_of(folder.path() / "out" / "convergence.csv"), csv);
   const auto other = diptych(folder, converge + "--force --with 'wide: sph.kappa=1.4'");

@@ -47,7 +47,9 @@ TEST(Verbs, RunLeavesSummaryHistoryAndFields) {
 
 TEST(Verbs, RunWarnsWhereCellsHaveTurnedInsideOut) {
   const Folder folder;
-  const std::string run = "run twisting-column-400 --method fvm --quiet --no-fields --threads 1 ";
+  const std::string run =
+      "run twisting-column-400 --method fvm --set fvm.stencil=edge --quiet --no-fields --threads "
+      "1 ";
   const auto folded =
       diptych(folder, run + "--level 1 --out folded --set time.end=0.06 --set output.frames=6");
   EXPECT_EQ(folded.exit_code, 3) << folded.text;

@@ -38,9 +38,11 @@ TEST(Scene, HasTheGraphThatTheKeysOfTheMethodAskFor) {
   EXPECT_LT(pairs("sph", {}), pairs("sph", {"sph.kernel=\"quintic-spline\""}));
   EXPECT_EQ(pairs("fvm", {"sph.kappa=0.75"}), pairs("fvm", {}));
   EXPECT_LT(pairs("fvm", {}), pairs("fvm", {"fvm.stencil=\"integral\""}));
-  EXPECT_LT(pairs("fvm", {}), pairs("fvm", {"fvm.stencil=\"sbp\""}));
+  EXPECT_LT(pairs("fvm", {"fvm.stencil=\"edge\""}), pairs("fvm", {"fvm.stencil=\"sbp\""}));
   const auto Omega = graph_with("sph", {"sph.gradient=\"sbp\""}).graph.Omega;
-  EXPECT_LT(Omega[0], graph_with("sph", {}).graph.Omega[0]);  // (3/8)^2 beside (1/2)^2
+  EXPECT_LT(
+      Omega[0],
+      graph_with("sph", {"sph.gradient=\"corrected\""}).graph.Omega[0]);  // (3/8)^2 beside (1/2)^2
 }
 
 TEST(Scene, RefusesTheFaceCorrectionWithOperatorsThatSumByParts) {
@@ -52,10 +54,42 @@ TEST(Scene, RefusesTheFaceCorrectionWithOperatorsThatSumByParts) {
   }
 }
 
+TEST(Scene, TakesOperatorsThatSumByPartsByDefaultWhereTheyAreSure) {
+  const auto operators = [](const char* method, const std::vector<std::string>& overrides) {
+    return graph_with(method, overrides).description.operators;
+  };
+  EXPECT_THAT(operators("sph", {}), testing::StartsWith("sbp"));
+  EXPECT_THAT(operators("fvm", {}), testing::StartsWith("sbp"));
+  EXPECT_THAT(operators("sph", {"mesh.cells=[3, 9]"}), testing::HasSubstr("lines of 4 nodes"));
+  EXPECT_THAT(operators("fvm", {"mesh.cells=[3, 6]"}), testing::HasSubstr("lines of 7 nodes"));
+  EXPECT_THAT(operators("sph", {"sph.kappa=0.75"}), testing::HasSubstr("two spacings"));
+  EXPECT_THAT(operators("sph", {"sph.closure=false"}), testing::HasSubstr("closure"));
+  for (const char* method : {"sph", "fvm"}) {
+    SCOPED_TRACE(method);
+    EXPECT_THAT(operators(method, {"mesh.perturbation=0.1"}), testing::HasSubstr(" no "));
+    EXPECT_EQ(operators(method, {"scheme.face_correction=\"1/6\""}), "");
+    EXPECT_EQ(operators(method, {"scheme.volumes=cells"}), "");
+  }
+  // whose pressure volumes of cells carry, but where derivatives commute
+  EXPECT_EQ(operators("sph", {"material.poissons_ratio=0.45"}), "");
+  EXPECT_THAT(operators("fvm", {"material.poissons_ratio=0.45"}), testing::StartsWith("sbp"));
+  EXPECT_THAT(operators("sph", {"material.poissons_ratio=0.45", "scheme.volumes=nodes"}),
+              testing::StartsWith("sbp"));
+}
+
+TEST(Scene, SaysThatNodesCarryThePressureOfOperatorsThatSumByParts) {
+  const std::vector<std::string> asked{"sph.gradient=\"sbp\"", "fvm.stencil=\"sbp\"",
+                                       "material.poissons_ratio=0.45"};
+  EXPECT_THAT(graph_with("sph", asked).description.notices,
+              testing::ElementsAre(testing::HasSubstr("nodes carry the bulk pressure")));
+  EXPECT_TRUE(graph_with("sph", asked).graph.cells.empty());
+  EXPECT_TRUE(graph_with("fvm", asked).description.notices.empty());
+}
+
 TEST(Scene, DescribesOperatorsThatDependOnTheMesh) {
-  EXPECT_EQ(graph_with("fvm", {}).description.operators, "");
+  EXPECT_EQ(graph_with("fvm", {"fvm.stencil=\"edge\""}).description.operators, "");
   EXPECT_NE(graph_with("fvm", {"fvm.stencil=\"sbp\""}).description.operators, "");
-  EXPECT_EQ(graph_with("sph", {}).description.operators, "");
+  EXPECT_EQ(graph_with("sph", {"sph.gradient=\"corrected\""}).description.operators, "");
   const GraphDescription fine = graph_with("sph", {"sph.gradient=\"sbp\""}).description;
   EXPECT_THAT(fine.operators, testing::HasSubstr("kappa 1.2"));
   EXPECT_TRUE(fine.notices.empty());

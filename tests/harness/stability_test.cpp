@@ -29,6 +29,8 @@ poissons_ratio = 0.3
 [[boundary]]
 group = ["x_min", "x_max", "y_min", "y_max"]
 type = "symmetry"
+[fvm]
+stencil = "edge"
 [time]
 end = 0.1
 )";

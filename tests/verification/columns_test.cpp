@@ -146,22 +146,17 @@ INSTANTIATE_TEST_SUITE_P(
     Columns,
     testing::Values(
         Expectation{"bending, SPH, sbp", &bending, "sph", {"sph.gradient=sbp"}, 0.03, 0},
-        Expectation{"bending, SPH, corrected", &bending, "sph", {}, 0.79, 0.5},
-        Expectation{"bending, FVM, edge", &bending, "fvm", {}, 0.52, 0.3},
+        Expectation{
+            "bending, SPH, corrected", &bending, "sph", {"sph.gradient=corrected"}, 0.79, 0.5},
+        Expectation{"bending, FVM, edge", &bending, "fvm", {"fvm.stencil=edge"}, 0.52, 0.3},
         Expectation{"twisting, SPH, sbp",
                     &twisting,
                     "sph",
-                    {"sph.gradient=sbp", "sph.kappa=1.35", "scheme.volumes=nodes"},
+                    {"sph.gradient=sbp", "sph.kappa=1.35"},
                     0.033,
                     0},
-        Expectation{"twisting, SPH, sbp, cells",
-                    &twisting,
-                    "sph",
-                    {"sph.gradient=sbp", "sph.kappa=1.35"},
-                    0.077,
-                    0},
         Expectation{"twisting, SPH, corrected", &twisting, "sph", {}, 1.8, 1},
-        Expectation{"twisting, FVM, edge", &twisting, "fvm", {}, 0.164, 0.09}));
+        Expectation{"twisting, FVM, edge", &twisting, "fvm", {"fvm.stencil=edge"}, 0.164, 0.09}));
 
 }  // namespace
 }  // namespace diptych::harness

@@ -46,7 +46,7 @@ class SummingByParts : public testing::TestWithParam<Expectation> {};
 TEST_P(SummingByParts, ConvergesFasterThanTheEdgeStencil) {
   const Expectation& e = GetParam();
   const auto sbp = runs_of(e, e.method, {0, 1}, {e.stencil, "sph.kappa=1.2"});
-  const auto edge = runs_of(e, "fvm", {1}, {});
+  const auto edge = runs_of(e, "fvm", {1}, {"fvm.stencil=edge"});
   const auto order = [&](const char* field) {
     return std::log2(sbp[0].errors.at(field).l2 / sbp[1].errors.at(field).l2);
   };

@@ -7,7 +7,7 @@ namespace diptych::cases {
 namespace {
 
 void check(const SectionValues& section, const FvmCase& fvm) {
-  if (fvm.stencil != "sbp") {
+  if (fvm.stencil != "sbp" && fvm.stencil != "auto") {
     section.refuse("order",
                    fmt::format("has no effect on stencil = \"{}\"; it is for sbp", fvm.stencil));
   }
@@ -28,11 +28,14 @@ SectionEntry fvm_section() {
                    "Pair areas by nodal quadrature (edge), by 2 int N_a grad N_b dV "
                    "(integral), or from operators that sum by parts (sbp): along the "
                    "lines of nodes of boxes of hexahedra or quadrilaterals, elsewhere "
-                   "over two rings of cells of a body with plane sides.",
+                   "over two rings of cells of a body with plane sides. auto: sbp on such boxes "
+                   "with a line of eight nodes or more and boundary groups that cover whole sides "
+                   "or end far from their edges, but with a face correction; else edge.",
                    "\"sbp\""}))
           .key("order", &FvmCase::order,
                {"-", between(2, 6),
-                "With stencil = \"sbp\" on a box, order of the derivatives inside: 2 (the edge "
+                "With stencil = \"sbp\" or \"auto\" on a box, order of the derivatives inside: 2 "
+                "(the edge "
                 "stencil), 4 "
                 "or 6; half of it at boundaries. On lines of fewer than 8 (4) or 12 nodes (6) it "
                 "falls to the next. 6 takes scheme.limiter = \"sign-preserving\" or none of the "

@@ -44,8 +44,8 @@ SectionKeys<SchemeCase> scheme_keys() {
                "What carries the bulk pressure: J of the nodes, or volumes of deformed cells, "
                "which keep bodies under pressure whole. auto: cells where the volumetric modulus "
                "is more than 2.5 times the shear modulus, but for fvm on boxes of hexahedra, where "
-               "nodes are as safe, and on hexahedra with distorted faces on the boundary, where "
-               "only nodes have it.",
+               "nodes are as safe, and on hexahedra with distorted faces on the boundary and with "
+               "operators that sum by parts, whose boundary areas are not those of cells.",
                "\"cells\""))
       .key("precision", &SchemeCase::precision,
            one_of(scheme::precision_menu().names(),

@@ -95,7 +95,7 @@ TEST(Variant, IsToldWhatTheCaseHasByItself) {
     return setting_in_common(variant, setup, case_from_text(block, "case.toml", variant.set));
   };
   EXPECT_EQ(in_common("sph.kappa=0.75"), "sph.kappa = 0.75") << "in the file";
-  EXPECT_EQ(in_common("fvm.stencil=edge"), "fvm.stencil = \"edge\"") << "by default";
+  EXPECT_EQ(in_common("fvm.stencil=auto"), "fvm.stencil = \"auto\"") << "by default";
   EXPECT_EQ(in_common("parameters.f=0.8"), "parameters.f = 0.8");
   EXPECT_THAT(in_common("sph.kappa=1.2"), IsEmpty());
 }

@@ -27,6 +27,8 @@ model = "neo-hookean"
 density = 1000
 youngs_modulus = 1e6
 poissons_ratio = 0.3
+[fvm]
+stencil = "edge"
 [time]
 end = 1
 )";

@@ -133,9 +133,10 @@ TEST(EnergyGuard, StopsWithinAHundredStepsOfTheFirstGrowth) {
     for (const char* integrator : {"ssp-rk2", "ssp-rk3", "leapfrog"}) {
       for (const char* cfl : {"2", "3", "4"}) {
         SCOPED_TRACE(std::string(method) + " " + integrator + " " + cfl);
-        Guarded run(method, {std::string("time.cfl=") + cfl,
-                             std::string("time.integrator=\"") + integrator + "\"",
-                             "output.frames=1", "time.end=1"});
+        Guarded run(method,
+                    {std::string("time.cfl=") + cfl,
+                     std::string("time.integrator=\"") + integrator + "\"", "output.frames=1",
+                     "time.end=1", "sph.gradient=\"corrected\"", "fvm.stencil=\"edge\""});
         FirstGrowth growth(*run.scene.solver, run.scene.solver->balance());
         Simulation simulation(run.scene.setup, *run.scene.solver,
                               {&run.cells, &run.history, &growth, &run.energy_guard});

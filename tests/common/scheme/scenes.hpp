@@ -23,10 +23,18 @@ struct Scene : SceneCase, harness::Scene {
       : SceneCase{std::move(of)}, harness::Scene(setup, method, level) {}
 };
 
-/// The graph that a method makes of a mesh by the keys of a case, or by their defaults.
+/// A case whose operators are those of second order on any mesh: the corrected gradient, edges.
+inline cases::Case second_order() {
+  cases::Case setup;
+  setup.sph.gradient = "corrected";
+  setup.fvm.stencil = "edge";
+  return setup;
+}
+
+/// The graph that a method makes of a mesh by the keys of a case.
 inline scheme::PairGraph graph_of(const std::string& method,
                                   const meshes::Mesh& mesh,
-                                  const cases::Case& setup = {}) {
+                                  const cases::Case& setup = second_order()) {
   return harness::method_menu().at(method)(mesh, setup);
 }
 
