@@ -243,7 +243,7 @@ bool sums_on_lattice(const cases::Case& setup) {
       setup.mesh.file.empty() && setup.mesh.perturbation == 0 && !is_simplex(setup.mesh.element);
   if (setup.sph.gradient != "auto") return is_box && setup.sph.gradient == "sbp";
   return is_box && setup.scheme.face_correction == 0 && support_radius(setup.sph) > 2 &&
-         !run::wants_cell_volumes(setup);
+         support_radius(setup.sph) <= 4 && !run::wants_cell_volumes(setup);
 }
 
 /// Directed pairs within a support on a box.

@@ -63,6 +63,8 @@ TEST(Scene, TakesOperatorsThatSumByPartsByDefaultWhereTheyAreSure) {
   EXPECT_THAT(operators("sph", {"mesh.cells=[3, 9]"}), testing::HasSubstr("lines of 4 nodes"));
   EXPECT_THAT(operators("fvm", {"mesh.cells=[3, 6]"}), testing::HasSubstr("lines of 7 nodes"));
   EXPECT_THAT(operators("sph", {"sph.kappa=0.75"}), testing::HasSubstr("two spacings"));
+  EXPECT_THAT(operators("sph", {"sph.kappa=2"}), testing::StartsWith("sbp"));
+  EXPECT_THAT(operators("sph", {"sph.kappa=2.1"}), testing::HasSubstr("four spacings"));
   EXPECT_THAT(operators("sph", {"sph.closure=false"}), testing::HasSubstr("closure"));
   for (const char* method : {"sph", "fvm"}) {
     SCOPED_TRACE(method);
