@@ -7,7 +7,8 @@ counts() {
   for method in sph fvm; do
     count "$1" "$2" "$method-plain" $method swinging-cube-elastic-hex --set time.integrator=ssp-rk3 \
       --set scheme.face_correction=0 --set sph.kappa=1.2
-    count "$1" "$2" "$method-branch-corrected" $method swinging-cube-ve2-hex
+    count "$1" "$2" "$method-branch-corrected" $method swinging-cube-ve2-hex --set scheme.face_correction=1/6 \
+      --set sph.kappa=1
   done
 }
 
