@@ -68,8 +68,10 @@ void face_correction(benchmark::State& run, const std::string& graph) {
 /// Results of sweeps, one per chunk.
 struct Results {
   explicit Results(const Scene& scene)
-      : power(static_cast<size_t>(parallel::n_chunks_of(scene.body.n_blocks))), other(power) {}
-  std::vector<double> power, other;
+      : power(static_cast<size_t>(parallel::n_chunks_of(scene.body.n_blocks))),
+        other(power),
+        limited(power) {}
+  std::vector<double> power, other, limited;
 };
 
 void momentum(benchmark::State& run, const SceneChoice& choice, bool with_bound) {
@@ -79,7 +81,8 @@ void momentum(benchmark::State& run, const SceneChoice& choice, bool with_bound)
                                     results.power.data(), results.other.data()});
   const auto sweep = scheme::momentum_function<3>({}, true);
   const auto kernel = [&] {
-    scheme::sum_forces<3>({scene.body, 1, with_bound, results.power.data(), results.other.data()},
+    scheme::sum_forces<3>({scene.body, 1, with_bound, results.power.data(), results.other.data(),
+                           results.limited.data()},
                           sweep);
     benchmark::DoNotOptimize(results.power.data());
   };
