@@ -92,12 +92,7 @@ std::string unsure_because(const Mesh& mesh, int order) {
   std::vector<std::vector<double>> H = weights_of(along, block);
   const int longest = *std::max_element(block.n_nodes.begin(), block.n_nodes.end());
   if (widest_sbp_table(order, longest).order == 2) return fmt::format("lines of {} nodes", longest);
-  const meshes::BlockMeasure measure(mesh, std::move(block), std::move(H), use);
-  for (const meshes::BoundaryGroup& group : mesh.boundary_groups) {
-    if (!measure.has_patch(group))
-      return fmt::format("group '{}' ends within the first nodes of a side", group.name);
-  }
-  return "";
+  return meshes::BlockMeasure(mesh, std::move(block), std::move(H), use).unfit_group();
 }
 
 std::vector<SbpLines> sbp_lines(const Mesh& mesh, int order) {

@@ -56,8 +56,12 @@ PatchArea BlockMeasure::patch(const BoundaryGroup& group) const {
       group.name, use_.asked, summed.sum.norm(), summed.whole.norm(), use_.instead));
 }
 
-bool BlockMeasure::has_patch(const BoundaryGroup& group) const {
-  return summed_patch(group).is_exact();
+std::string BlockMeasure::unfit_group() const {
+  for (const BoundaryGroup& group : mesh_.boundary_groups) {
+    if (!summed_patch(group).is_exact())
+      return fmt::format("group '{}' ends within the first nodes of a side", group.name);
+  }
+  return "";
 }
 
 BlockMeasure::SummedPatch BlockMeasure::summed_patch(const BoundaryGroup& group) const {

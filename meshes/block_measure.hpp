@@ -36,7 +36,8 @@ class BlockMeasure {
   Vec3 boundary_area(std::int64_t a) const;  ///< A_a N_a over all sides  [m^(d-1)]
   /// @throws base::InputError where a part of a side ends inside its boundary block
   PatchArea patch(const BoundaryGroup& group) const;
-  bool has_patch(const BoundaryGroup& group) const;  ///< patch(group) does not throw
+  /// The first group of the mesh of which patch() throws, for a message; empty: none.
+  std::string unfit_group() const;
 
  private:
   /// One of the two ends of the lines of a direction.

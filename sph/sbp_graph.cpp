@@ -94,12 +94,7 @@ std::string unsure_because(const meshes::Mesh& mesh, const Kernel& kernel, doubl
       return fmt::format("lines of {} nodes", block.n_nodes[d]);
   }
   std::vector<std::vector<double>> H = weights_of(block);
-  const meshes::BlockMeasure measure(mesh, std::move(block), std::move(H), use);
-  for (const meshes::BoundaryGroup& group : mesh.boundary_groups) {
-    if (!measure.has_patch(group))
-      return fmt::format("group '{}' ends within the first nodes of a side", group.name);
-  }
-  return "";
+  return meshes::BlockMeasure(mesh, std::move(block), std::move(H), use).unfit_group();
 }
 
 std::string sbp_text(double kappa) {

@@ -18,19 +18,26 @@ scheme::PairGraph in_precision(scheme::PairGraph graph, const std::string& preci
   return graph;
 }
 
-/// With gradient = "auto" the corrected gradient, where the face correction is asked for, which is
-/// for derivatives of second order, or volumes of cells, whose boundary areas are its own.
+/// Why a case that leaves the choice ("auto") has operators of second order, whatever the mesh;
+/// empty: it may have others. The face correction is for derivatives of second order; volumes of
+/// cells have boundary areas of their own, and derivatives along the lines of boxes (fvm) commute
+/// and need none.
+std::string second_order_because(const cases::Case& setup, const std::string& method) {
+  const bool is_sph = method == "sph";
+  if ((is_sph ? setup.sph.gradient : setup.fvm.stencil) != "auto") return "";
+  if (setup.scheme.face_correction != 0) return "the face correction is for it";
+  const bool has_cells = is_sph ? run::wants_cell_volumes(setup) : setup.scheme.volumes == "cells";
+  return has_cells ? "volumes of cells carry the pressure" : "";
+}
+
 sph::Options sph_options(const cases::Case& setup) {
-  const bool is_corrected = setup.sph.gradient == "auto" &&
-                            (setup.scheme.face_correction != 0 || run::wants_cell_volumes(setup));
+  const bool is_corrected = !second_order_because(setup, "sph").empty();
   return {setup.sph.kernel, setup.sph.kappa, setup.sph.closure,
           is_corrected ? "corrected" : setup.sph.gradient};
 }
 
-/// Along the lines of boxes derivatives commute, which needs no volumes of cells.
 fvm::Options fvm_options(const cases::Case& setup) {
-  const bool is_edge = setup.fvm.stencil == "auto" &&
-                       (setup.scheme.face_correction != 0 || setup.scheme.volumes == "cells");
+  const bool is_edge = !second_order_because(setup, "fvm").empty();
   return {is_edge ? "edge" : setup.fvm.stencil, setup.fvm.order};
 }
 
@@ -104,6 +111,10 @@ const base::Registry<GraphMaker>& method_menu() {
 GraphDescription graph_description(const std::string& method,
                                    const meshes::Mesh& mesh,
                                    const cases::Case& setup) {
+  if (const std::string because = second_order_because(setup, method); !because.empty()) {
+    const char* name = method == "sph" ? "corrected gradient" : "edge stencil";
+    return {fmt::format("{}: {}", name, because), {}};
+  }
   if (method == "sph") {
     const sph::Operators operators = sph::operators_of(mesh, sph_options(setup));
     return description_of(setup, operators.text, operators.notices, false);
