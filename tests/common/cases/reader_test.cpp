@@ -252,6 +252,54 @@ TEST(CaseReader, TakesAnOrderOfFiniteVolumesOnlyWhereItCounts) {
   EXPECT_THAT(refusal(small_case, {"fvm.stencil=sbp", "fvm.order=8"}), HasSubstr("fvm.order"));
 }
 
+TEST(CaseReader, RefusesOptionsOfTheSchemeThatDoNotGoTogether) {
+  EXPECT_THAT(refusal(small_case, {"scheme.reconstruction=none", "scheme.limiter=barth-jespersen"}),
+              HasSubstr("has no effect with reconstruction"));
+  EXPECT_EQ(refusal(small_case, {"scheme.reconstruction=none", "scheme.limiter=none"}), "accepted");
+  for (const char* other : {"scheme.impedance=exact", "scheme.limiter=barth-jespersen"})
+    EXPECT_THAT(refusal(small_case, {"scheme.reconstruction=objective", other}),
+                HasSubstr("reconstruction = \"linear\""));
+  EXPECT_EQ(
+      refusal(small_case, {"scheme.reconstruction=objective", "scheme.limiter=sign-preserving"}),
+      "accepted");
+  EXPECT_THAT(refusal(small_case, {"sph.gradient=sbp", "sph.closure=false"}),
+              HasSubstr("which closes"));
+  EXPECT_EQ(refusal(small_case, {"sph.closure=false"}), "accepted");
+}
+
+TEST(CaseReader, AsksForCausesOfQuantitiesThatBothMethodsHave) {
+  const auto apart = [](const std::string& quantity) {
+    return "\n[[probe]]\nname = \"tip\"\nunit = \"m\"\nat = [0, 0, 0]\nquantity = \"ux\"\n"
+           "[[apart]]\nquantity = \"" +
+           quantity + "\"\nbecause = \"measured\"\n";
+  };
+  const Case setup = read(small_case + apart("tip"));
+  ASSERT_EQ(setup.apart.size(), 1U);
+  EXPECT_EQ(setup.apart[0].because, "measured");
+  EXPECT_THAT(refusal(small_case + apart("kinetic enrgy")),
+              HasSubstr("did you mean 'kinetic energy'?"));
+  EXPECT_THAT(refusal(small_case + "\n[[apart]]\nquantity = \"min jacobian\"\n"),
+              HasSubstr("because"));
+}
+
+TEST(CaseReader, RefusesWhatIsSaidTwiceOfAGroupOrAProbe) {
+  const auto boundary = [](const std::string& type, const std::string& value) {
+    return "\n[[boundary]]\ngroup = \"z_min\"\ntype = \"" + type + "\"\n" + value;
+  };
+  const std::string traction = boundary("traction", "value = [0, 0, 1]\n");
+  const std::string pressure = boundary("pressure", "value = 1\n");
+  EXPECT_THAT(refusal(small_case + traction + traction), HasSubstr("already of type traction"));
+  EXPECT_THAT(refusal(small_case + boundary("fixed", "") + boundary("symmetry", "")),
+              HasSubstr("already of type fixed"));
+  EXPECT_EQ(refusal(small_case + traction + pressure), "accepted");
+  EXPECT_EQ(refusal(small_case + traction + boundary("symmetry", "")), "accepted");
+  EXPECT_THAT(refusal(small_case + boundary("traction", "value = \"manufactured\"\n")),
+              HasSubstr("needs a motion"));
+  const std::string probe =
+      "\n[[probe]]\nname = \"tip\"\nunit = \"m\"\nat = [0, 0, 0]\nquantity = \"ux\"\n";
+  EXPECT_THAT(refusal(small_case + probe + probe), HasSubstr("already called 'tip'"));
+}
+
 TEST(CaseHash, IsStableAndSeesTextAndOverrides) {
   EXPECT_EQ(case_hash("", {}), "af63bd4c8601b7df");  // FNV-1a of one zero byte
   EXPECT_EQ(case_hash(small_case, {"a=1", "b=2"}), case_hash(small_case, {"b=2", "a=1"}));
