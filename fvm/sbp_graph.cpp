@@ -3,6 +3,7 @@
 #include "common/scheme/graph/classify_rows.hpp"
 #include "fvm/sbp_operator.hpp"
 #include "meshes/block_measure.hpp"
+#include "meshes/line_slopes.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -58,6 +59,14 @@ void add_row(const meshes::BlockMeasure& measure,
   graph.row.push_back(graph.n_pairs());
 }
 
+/// Only nearest neighbours along lines dissipate, with slopes of the lines.
+void set_line_slopes(const meshes::BlockMeasure& measure, scheme::PairGraph& graph) {
+  constexpr double just_above = 1 + 1e-6;
+  graph.dissipation_metric = measure.edges().inverse() / just_above;
+  meshes::LineSlopes slopes = meshes::line_slopes(measure.block(), measure.edges());
+  graph.slopes = {std::move(slopes.row), std::move(slopes.neighbour), std::move(slopes.weight)};
+}
+
 }  // namespace
 
 scheme::PairGraph sbp_graph(const Mesh& mesh, int order) {
@@ -81,6 +90,7 @@ scheme::PairGraph sbp_graph(const Mesh& mesh, int order) {
   link_reverse_pairs(graph);
   set_classes(graph);
   graph.commutes = true;
+  set_line_slopes(measure, graph);
   validate(graph);
   return graph;
 }
@@ -90,8 +100,9 @@ std::string unsure_because(const Mesh& mesh, int order) {
   meshes::StructuredBlock block = meshes::structured_block(mesh, use);
   const std::vector<SbpOperator> along = operators_along(block, order);
   std::vector<std::vector<double>> H = weights_of(along, block);
+  if (order == 2) return "fvm.order = 2";
   const int longest = *std::max_element(block.n_nodes.begin(), block.n_nodes.end());
-  if (widest_sbp_table(order, longest).order == 2) return fmt::format("lines of {} nodes", longest);
+  if (longest < 3) return fmt::format("lines of {} nodes", longest);
   return meshes::BlockMeasure(mesh, std::move(block), std::move(H), use).unfit_group();
 }
 

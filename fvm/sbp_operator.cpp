@@ -42,6 +42,73 @@ constexpr std::array<Rational, 15> block_6{{{41863, 64800},
                                             {203, 288}}};      // row 4
 constexpr std::array<Rational, 3> interior_6{{{3, 4}, {-3, 20}, {1, 60}}};
 
+constexpr std::array<Rational, 3> H_of_3{{{1, 3}, {4, 3}, {1, 3}}};
+constexpr std::array<Rational, 3> Q_of_3{{{2, 3}, {-1, 6}, {2, 3}}};
+constexpr std::array<Rational, 4> H_of_4{{{3, 8}, {9, 8}, {9, 8}, {3, 8}}};
+constexpr std::array<Rational, 6> Q_of_4{
+    {{9, 16}, {0, 1}, {-1, 16}, {9, 16}, {0, 1}, {9, 16}}};
+constexpr std::array<Rational, 5> H_of_5{{{3, 8}, {7, 6}, {11, 12}, {7, 6}, {3, 8}}};
+constexpr std::array<Rational, 10> Q_of_5{{{7, 12},
+                                           {-1, 16},
+                                           {0, 1},
+                                           {-1, 48},  // row 0
+                                           {7, 12},
+                                           {0, 1},
+                                           {0, 1},  // row 1
+                                           {7, 12},
+                                           {-1, 16},  // row 2
+                                           {7, 12}}};
+constexpr std::array<Rational, 6> H_of_6{
+    {{3, 8}, {7, 6}, {23, 24}, {23, 24}, {7, 6}, {3, 8}}};
+constexpr std::array<Rational, 15> Q_of_6{{{83, 144},
+                                           {-7, 144},
+                                           {0, 1},
+                                           {-5, 144},
+                                           {1, 144},  // row 0
+                                           {83, 144},
+                                           {-7, 144},
+                                           {1, 12},
+                                           {-5, 144},  // row 1
+                                           {83, 144},
+                                           {-7, 144},
+                                           {0, 1},  // row 2
+                                           {83, 144},
+                                           {-7, 144},  // row 3
+                                           {83, 144}}};
+constexpr std::array<Rational, 7> H_of_7{
+    {{3, 8}, {7, 6}, {23, 24}, {1, 1}, {23, 24}, {7, 6}, {3, 8}}};
+constexpr std::array<Rational, 21> Q_of_7{{{7, 12},
+                                           {-5, 96},
+                                           {-1, 36},
+                                           {0, 1},
+                                           {0, 1},
+                                           {-1, 288},  // row 0
+                                           {7, 12},
+                                           {0, 1},
+                                           {0, 1},
+                                           {0, 1},
+                                           {0, 1},  // row 1
+                                           {7, 12},
+                                           {-5, 96},
+                                           {0, 1},
+                                           {0, 1},  // row 2
+                                           {7, 12},
+                                           {0, 1},
+                                           {-1, 36},  // row 3
+                                           {7, 12},
+                                           {-5, 96},  // row 4
+                                           {7, 12}}};
+
+constexpr int least_line = 3;
+const std::array<SbpTable, 5>& line_tables() {
+  static const std::array<SbpTable, 5> all{{{2, H_of_3, Q_of_3, {}, true},
+                                            {2, H_of_4, Q_of_4, {}, true},
+                                            {2, H_of_5, Q_of_5, {}, true},
+                                            {2, H_of_6, Q_of_6, {}, true},
+                                            {2, H_of_7, Q_of_7, {}, true}}};
+  return all;
+}
+
 const std::array<SbpTable, 3>& tables() {
   static const std::array<SbpTable, 3> all{
       {{2, H_2, {}, interior_2}, {4, H_4, block_4, interior_4}, {6, H_6, block_6, interior_6}}};
@@ -75,8 +142,14 @@ const SbpTable& sbp_table(int order) {
       fmt::format("order {} of operators that sum by parts is unknown; use 2, 4 or 6", order));
 }
 
+const SbpTable& sbp_line_table(int n) {
+  return line_tables()[static_cast<size_t>(n - least_line)];
+}
+
 const SbpTable& widest_sbp_table(int order, int n_nodes) {
   const SbpTable* widest = &sbp_table(order);
+  if (order > 2 && n_nodes >= least_line && n_nodes < sbp_table(4).least_nodes())
+    return sbp_line_table(n_nodes);
   while (widest->least_nodes() > n_nodes && widest->order > 2)
     --widest;
   return *widest;

@@ -9,10 +9,19 @@
 /// leaves one number free, here Q_45 = 203/288: beside the value at which the error of x^4 in the
 /// block, weighted with H, is least (0.70491; 11.3008 there and here), with the norm of
 /// H^(-1/2) Q H^(-1/2) at 2.1081 (2.129 where Q_05 is zero, 3.6 at Q_45 = 0.625).
-/// What is left of linear reconstructions in D_ab (notes 3.4) is symmetric and positive on
-/// order 2 alone: on a line, per c/h, the least eigenvalue of its symmetric part is -0.007 with
-/// order 4, which the rest of the boundary's damping outweighs, and -0.36 with order 6, where waves
-/// grow. Test: tests/graphs/sbp_operator_test.cpp, in exact fractions.
+/// Lines of three to seven nodes are too short for the blocks of order 4 and have tables of their own
+/// ("order 2" in texts): rows exact for polynomials up to degree two everywhere, weights exact for
+/// cubics (Gregory's, of three nodes Simpson's, of four the 3/8 rule; Hicken and Zingg, J. Comput.
+/// Appl. Math. 237 (2013) 111, on norms as quadratures), and Q_{i,i+1} the same along the line, so
+/// that D_ab of the slopes along lines takes energy from every motion (meshes/line_slopes.hpp). With
+/// these weights that leaves no freedom up to six nodes; of seven Q_14 = Q_15 = 0. Trapezoidal
+/// weights make a strip of two cells bend half as stiff again as it is.
+///
+/// What is left of linear reconstructions in D_ab (notes 3.4) is symmetric and positive on order 2
+/// alone: on a line, per c/h, the least eigenvalue of its symmetric part is -0.007 with order 4,
+/// which the rest of the boundary's damping outweighs, and -0.36 with order 6, where waves grow. With
+/// slopes along lines it is -1e-5 and -5e-4. Test: tests/graphs/sbp_operator_test.cpp, in exact
+/// fractions.
 
 #include <cstdint>
 #include <span>
@@ -33,14 +42,18 @@ struct SbpTable {
   std::span<const Rational> H;         ///< of the boundary block; 1 inside
   std::span<const Rational> block;     ///< Q_ij of the block with i < j, row by row
   std::span<const Rational> interior;  ///< Q_{i,i+1}, Q_{i,i+2}, ... wherever not both in a block
+  bool is_line = false;                ///< the block is a whole line
 
   int block_size() const { return static_cast<int>(H.size()); }
-  /// Two blocks side by side.
-  int least_nodes() const { return 2 * block_size(); }
+  /// Two blocks side by side, or the line.
+  int least_nodes() const { return is_line ? block_size() : 2 * block_size(); }
 };
 
 /// @param order  2, 4 or 6  @throws base::InputError on another one
 const SbpTable& sbp_table(int order);
+
+/// Of a line of n nodes, 3 to 7.
+const SbpTable& sbp_line_table(int n);
 
 /// The widest pair up to this order that fits on a line of n >= 2 nodes.
 const SbpTable& widest_sbp_table(int order, int n_nodes);
@@ -52,7 +65,7 @@ class SbpOperator {
     int node = 0;
     double Q = 0;
   };
-  /// @pre n_nodes >= table.least_nodes()
+  /// @pre n_nodes >= table.least_nodes(), the same where the table is of a line
   SbpOperator(const SbpTable& table, int n_nodes);
 
   double H(int i) const { return H_[static_cast<size_t>(i)]; }

@@ -2,6 +2,7 @@
 
 #include "common/scheme/graph/classify_rows.hpp"
 #include "meshes/block_measure.hpp"
+#include "meshes/line_slopes.hpp"
 #include "sph/lattice_operator.hpp"
 
 #include <algorithm>
@@ -77,6 +78,8 @@ scheme::PairGraph sbp_graph(const meshes::Mesh& mesh, const Kernel& kernel, doub
   }
   constexpr double just_above = 1 + 1e-6;
   graph.dissipation_metric = measure.edges().inverse() / just_above;
+  meshes::LineSlopes slopes = meshes::line_slopes(measure.block(), measure.edges());
+  graph.slopes = {std::move(slopes.row), std::move(slopes.neighbour), std::move(slopes.weight)};
   link_reverse_pairs(graph);
   set_classes(graph);
   validate(graph);

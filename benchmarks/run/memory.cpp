@@ -50,6 +50,7 @@ std::int64_t settled_memory() {
 }
 
 void release_pairs(scheme::PairGraph& graph) {
+  graph.slopes = {};
   const auto free = [](auto& array) { std::remove_reference_t<decltype(array)>().swap(array); };
   free(graph.row);
   free(graph.neighbour);

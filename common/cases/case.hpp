@@ -127,7 +127,7 @@ struct ReferenceCase {
 /// [scheme]
 struct SchemeCase {
   std::string unknowns = "FHJ";           ///< F, FJ or FHJ
-  std::string reconstruction = "linear";  ///< none, linear or objective
+  std::string reconstruction = "auto";  ///< auto, none, linear, quartic or objective
   std::string limiter = "none";           ///< entry of the limiter menu
   std::string impedance = "isotropic";    ///< isotropic or exact
   double dissipation = 1;                 ///< multiplies D_ab, >= 0

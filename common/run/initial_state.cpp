@@ -69,7 +69,7 @@ std::vector<Mat3> discrete_deformation(scheme::Body<Dim>& body,
   std::vector<Mat3> F(u.size(), Mat3::Identity());
   for (std::int64_t a = 0; a < n; ++a) {
     for (int k = 0; k < Dim * Dim; ++k)
-      F[a](k / Dim, k % Dim) += body.records.at(a, scheme::NodeRecord<Dim>::L + k);
+      F[a](k / Dim, k % Dim) += body.L(a, k);
   }
   return F;
 }

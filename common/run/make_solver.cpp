@@ -9,6 +9,8 @@
 #include "common/scheme/dissipation/limiters/limiter_menu.hpp"
 #include "common/scheme/option_menus.hpp"
 
+#include <fmt/format.h>
+
 namespace diptych::run {
 
 namespace {
@@ -119,10 +121,20 @@ scheme::TimeStepRule time_step_of(const cases::Case& setup,
           scheme::frequency_factor(setup.scheme.face_correction)};
 }
 
+scheme::Reconstruction reconstruction_of(const cases::Case& setup) {
+  switch (scheme::reconstruction_menu().at(setup.scheme.reconstruction)) {
+    case scheme::ReconstructionChoice::none:
+      return scheme::Reconstruction::none;
+    case scheme::ReconstructionChoice::objective:
+      return scheme::Reconstruction::objective;
+    default:
+      return scheme::Reconstruction::linear;
+  }
+}
+
 scheme::SweepOptions sweep_options_of(const cases::Case& setup) {
   scheme::SweepOptions options;
-  options.dissipation = {scheme::reconstruction_menu().at(setup.scheme.reconstruction),
-                         scheme::limiter_menu().at(setup.scheme.limiter),
+  options.dissipation = {reconstruction_of(setup), scheme::limiter_menu().at(setup.scheme.limiter),
                          scheme::impedance_menu().at(setup.scheme.impedance)};
   options.dissipation_factor = setup.scheme.dissipation;
   options.face_correction = setup.scheme.face_correction;
@@ -142,8 +154,8 @@ scheme::BodyOptions body_options_of(const cases::Case& setup,
   options.unknowns = scheme::unknowns_menu().at(setup.scheme.unknowns);
   options.exact_impedance =
       scheme::impedance_menu().at(setup.scheme.impedance) == scheme::Impedance::exact;
-  options.has_frames = scheme::reconstruction_menu().at(setup.scheme.reconstruction) ==
-                       scheme::Reconstruction::objective;
+  options.has_frames = reconstruction_of(setup) == scheme::Reconstruction::objective;
+  options.has_slopes = has_line_slopes(setup, graph);
   options.keeps_L_0 = integrator.gauss_relaxation && n_branches > 0;
   options.face_correction = setup.scheme.face_correction != 0;
   options.cell_volumes = has_cell_volumes(setup, graph);
@@ -188,6 +200,19 @@ std::unique_ptr<Solver> solver_in(const cases::Case& setup, const scheme::PairGr
 /// pressure is then the shear modulus, and the least critical one that was found is above it (notes
 /// 10.1).
 constexpr double least_bulk = 2.5;
+
+bool has_line_slopes(const cases::Case& setup, const scheme::PairGraph& graph) {
+  using Choice = scheme::ReconstructionChoice;
+  const Choice asked = scheme::reconstruction_menu().at(setup.scheme.reconstruction);
+  if (asked == Choice::quartic && graph.slopes.empty()) {
+    throw base::InputError(fmt::format(
+        "{}: scheme.reconstruction = \"quartic\" needs nodes on the lines of a box of hexahedra or "
+        "quadrilaterals, and operators that sum by parts along them; use \"linear\" or \"auto\"",
+        setup.file));
+  }
+  if (asked != Choice::automatic || graph.slopes.empty()) return asked == Choice::quartic;
+  return !scheme::limits_slopes(scheme::limiter_menu().at(setup.scheme.limiter));
+}
 
 bool wants_cell_volumes(const cases::Case& setup) {
   const scheme::Volumes volumes = scheme::volumes_menu().at(setup.scheme.volumes);

@@ -88,6 +88,10 @@ class Solver {
 /// "auto").
 bool wants_cell_volumes(const cases::Case& setup);
 
+/// Whether jumps are reconstructed with the slopes along lines of nodes that the graph has.
+/// @throws base::InputError where they are asked for and it has none
+bool has_line_slopes(const cases::Case& setup, const scheme::PairGraph& graph);
+
 /// Whether volumes of the cells of this graph carry the pressure of this case (scheme.volumes).
 /// @throws base::InputError where the graph lacks the cells that the case asks for
 bool has_cell_volumes(const cases::Case& setup, const scheme::PairGraph& graph);

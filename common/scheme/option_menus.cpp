@@ -10,11 +10,13 @@ const base::Registry<Unknowns>& unknowns_menu() {
   return menu;
 }
 
-const base::Registry<Reconstruction>& reconstruction_menu() {
-  static const auto menu = base::Registry<Reconstruction>("scheme.reconstruction")
-                               .add("none", Reconstruction::none)
-                               .add("linear", Reconstruction::linear)
-                               .add("objective", Reconstruction::objective);
+const base::Registry<ReconstructionChoice>& reconstruction_menu() {
+  static const auto menu = base::Registry<ReconstructionChoice>("scheme.reconstruction")
+                               .add("auto", ReconstructionChoice::automatic)
+                               .add("none", ReconstructionChoice::none)
+                               .add("linear", ReconstructionChoice::linear)
+                               .add("quartic", ReconstructionChoice::quartic)
+                               .add("objective", ReconstructionChoice::objective);
   return menu;
 }
 

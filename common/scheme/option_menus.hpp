@@ -11,7 +11,7 @@
 namespace diptych::scheme {
 
 const base::Registry<Unknowns>& unknowns_menu();
-const base::Registry<Reconstruction>& reconstruction_menu();
+const base::Registry<ReconstructionChoice>& reconstruction_menu();
 const base::Registry<Impedance>& impedance_menu();
 const base::Registry<Precision>& precision_menu();
 const base::Registry<Volumes>& volumes_menu();

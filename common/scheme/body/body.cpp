@@ -18,6 +18,7 @@ Body<Dim>::Body(const PairGraph& whole, const BodyOptions& what, SweepGraph<Dim>
       centroid(centroid_of(whole)) {
   list_fields();
   allocate();
+  if (!options.has_slopes) graph.slopes = {};
   if (options.cell_volumes) cells = CellVolumes<Dim>(whole.cells, whole.X);
 }
 
@@ -73,7 +74,8 @@ void Body<Dim>::list_fields() {
   in_block("L_0", "1/s", options.keeps_L_0 ? Layout::n_F : 0, step_begin, &Body::L_0);
 
   record("P", "Pa", Dim * Dim, derived, Record::P);
-  record("L", "1/s", Dim * Dim, derived, Record::L);
+  record(options.has_slopes ? "slopes" : "L", "1/s", Dim * Dim, derived, Record::L);
+  in_block("L", "1/s", options.has_slopes ? Dim * Dim : 0, derived, &Body::rates);
   record("z", "kg/(m^2 s)", 2, derived, Record::z_p);
   if (options.exact_impedance) {
     record("F", "-", Dim * Dim, derived, Record::F);

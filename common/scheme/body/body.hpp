@@ -34,12 +34,13 @@ enum class Role {
   accumulated  ///< summed over pairs: the internal forces
 };
 
-/// Layout of the record that neighbours read in the momentum sweep. The only home of H and of L. In
-/// rows a copy of v ends it, so that one gather brings all.
+/// Layout of the record that neighbours read in the momentum sweep. The only home of H, and of L
+/// where the reconstruction has no slopes of its own. In rows a copy of v ends it, so that one
+/// gather brings all.
 template <int Dim>
 struct NodeRecord {
   static constexpr int P = 0;                ///< in-plane first Piola stress, row-major [Pa]
-  static constexpr int L = P + Dim * Dim;    ///< velocity gradient dF/dt, row-major [1/s]
+  static constexpr int L = P + Dim * Dim;    ///< dF/dt or slopes along lines, row-major [1/s]
   static constexpr int H = L + Dim * Dim;    ///< H - I in plane, row-major [-]
   static constexpr int z_p = H + Dim * Dim;  ///< rho_R c_p [kg/(m^2 s)]
   static constexpr int z_s = z_p + 1;        ///< rho_R c_s
@@ -87,6 +88,7 @@ struct BodyOptions {
   Unknowns unknowns = Unknowns::FHJ;
   bool exact_impedance = false;
   bool has_frames = false;  ///< objective reconstruction
+  bool has_slopes = false;  ///< those of the graph stand in for dF/dt in the reconstruction
   bool keeps_L_0 = false;   ///< dF/dt at the beginning of the step, for GEXP (notes 5.3)
   bool face_correction = false;
   bool cell_volumes = false;  ///< those of the graph carry the pressure
@@ -144,7 +146,8 @@ struct Body {
                        ///< beginning of the step
   // at the beginning of the step
   BlockField v_0, u_0, F_0, H_0, J_0, L_0;
-  NodeTable records;  ///< NodeRecord: H, L = dF/dt, P and wave speeds
+  NodeTable records;  ///< NodeRecord: H, L, P and wave speeds
+  BlockField rates;   ///< dF/dt, where the records hold slopes along lines
   /// Internal force and loads on the node [N]. Runs, during the momentum sweep: twice that, and a
   /// last component with 2 rho_R Omega times the rate [kg/s].
   NodeTable T;
@@ -174,6 +177,10 @@ struct Body {
   bool in_runs() const { return graph.shape.arrangement == Arrangement::runs; }
   /// Reference position about the centroid  [m]
   Vec3 X_centred(std::int64_t node) const { return X[node] - centroid; }
+  /// Component k of dF/dt of a node, row-major  [1/s]
+  double L(std::int64_t node, int k) const {
+    return options.has_slopes ? rates.at(node, k) : records.at(node, NodeRecord<Dim>::L + k);
+  }
   /// Component k < Layout::n_H of H - I of a node, where H is evolved.
   double H(std::int64_t node, int k) const {
     return k < Dim * Dim ? records.at(node, NodeRecord<Dim>::H + k) : H_33.at(node, 0);

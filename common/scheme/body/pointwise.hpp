@@ -23,7 +23,19 @@ using physics::Response;
 /// dF/dt of block b.
 template <int Dim>
 DIPTYCH_INLINE Tensor<Lanes> velocity_gradient(const Body<Dim>& body, std::int64_t b) {
+  if (body.options.has_slopes) return get_tensor<Dim>(body.rates, b, 0);
   return get_tensor<Dim>(body.records, b, NodeRecord<Dim>::L);
+}
+template <int Dim>
+DIPTYCH_INLINE void put_velocity_gradient(Body<Dim>& body,
+                                          std::int64_t b,
+                                          const Lanes (&L)[Dim * Dim]) {
+  const auto put = [&](int k) DIPTYCH_INLINE_LAMBDA { return L[k]; };
+  if (body.options.has_slopes) {
+    body.rates.template put_each<Dim * Dim>(b, 0, put);
+  } else {
+    body.records.template put_each<Dim * Dim>(b, NodeRecord<Dim>::L, put);
+  }
 }
 
 /// H of block b, where it is evolved.

@@ -17,10 +17,14 @@ namespace diptych::scheme {
 
 enum class Reconstruction {
   none,
-  linear,    ///< velocities linear in X have no jump
+  linear,    ///< with slopes: velocities linear in X have no jump
   objective  ///< linear, and in the frame that spins with the pair (notes 3.4): nor have rigid
              ///< spins
 };
+/// What a case asks for: with the slopes of (18b) ("linear"), with those along lines of nodes where
+/// the graph has them ("quartic", meshes/line_slopes.hpp), or what suits graph and limiter.
+enum class ReconstructionChoice { automatic, none, linear, quartic, objective };
+
 enum class PairLimiter {
 #define DIPTYCH_LIMITER(name, id, Type) id,
 #include "common/scheme/dissipation/limiters/limiters.def"

@@ -8,6 +8,7 @@
 
 #include "common/algebra/vectors.hpp"
 #include "common/scheme/graph/row_classes.hpp"
+#include "common/scheme/graph/slope_graph.hpp"
 #include "common/scheme/graph/volume_cells.hpp"
 
 #include <array>
@@ -54,6 +55,9 @@ struct PairGraph {
   /// Pairs for which it makes |X_b - X_a| more than one dissipate nothing (dissipation_area.hpp).
   /// [1/m]
   Mat3 dissipation_metric = Mat3::Zero();
+  /// Along lines of nodes, which only nearest neighbours on them read (dissipation_metric); empty:
+  /// jumps are reconstructed with dF/dt.
+  SlopeRows slopes;
   bool commutes = false;  ///< its derivatives in different directions do, as of tensor products
   Precision precision = Precision::full;  ///< see set_precision
 

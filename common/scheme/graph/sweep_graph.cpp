@@ -308,7 +308,7 @@ void set_runs(const PairGraph& graph,
               const PairRuns& runs,
               SweepGraph<Dim>& sweep) {
   sweep.shape.arrangement = Arrangement::runs;
-  sweep.shape.guard = runs.reach + n_lanes;
+  sweep.shape.guard = std::max(runs.reach, graph.slopes.reach()) + n_lanes;
   copy(runs.row, sweep.row);
   copy(runs.offset, sweep.offset);
   sweep.first = algebra::AlignedArray<std::int64_t>(sweep.n_blocks);
@@ -346,6 +346,7 @@ SweepGraph<Dim>::SweepGraph(const PairGraph& graph, Arrangement arrangement, con
   } else {
     set_rows(graph, classes, *this);
   }
+  slopes = SlopeGraph<Dim>(graph.slopes, arrangement);
   X = algebra::NodeTable(n_nodes, Dim, vector_stride<Dim>, shape);
   set_nodes(graph, classes, *this);
 }
@@ -353,7 +354,7 @@ SweepGraph<Dim>::SweepGraph(const PairGraph& graph, Arrangement arrangement, con
 template <int Dim>
 std::int64_t SweepGraph<Dim>::bytes() const {
   return row.bytes() + neighbours.bytes() + offset.bytes() + first.bytes() + strain.bytes() +
-         force.bytes() + area.bytes() + face.bytes() + mutual.bytes() + X.bytes() +
+         force.bytes() + area.bytes() + face.bytes() + mutual.bytes() + slopes.bytes() + X.bytes() +
          inverse_Omega.bytes() + Omega.bytes() + C_sum.bytes();
 }
 

@@ -31,11 +31,6 @@ using algebra::Arrangement;
 template <int Dim>
 inline constexpr int vector_stride = Dim == 3 ? 4 : 2;
 
-/// The neighbours b_0..7 of eight pairs of one node a.
-struct Neighbours {
-  std::int32_t node[algebra::n_lanes];
-};
-
 /// A vector of eight pairs: C_ab for the strain rates, C_ba for the internal forces where each node
 /// sums its own (rows), S_ab for the face correction and the dissipation of rows;
 template <int Dim, class Real>
@@ -144,6 +139,7 @@ struct SweepGraph {
   algebra::AlignedArray<PairArea> area;          ///< rows
   algebra::AlignedArray<PairVectors<Dim, float>> face;  ///< S_ab, not in rows of single precision
   MutualPairs<Dim> mutual;
+  SlopeGraph<Dim> slopes;  ///< empty: jumps are reconstructed with dF/dt
   algebra::NodeTable X;  ///< m; in single precision from the middle of the body
   algebra::AlignedArray<double> inverse_Omega;  ///< [n_blocks * 8] 1/m^3, 0 in the padding
   algebra::AlignedArray<double> Omega;          ///< [n_blocks * 8] m^3, 0 in the padding
@@ -179,6 +175,18 @@ class VectorCursor {
 
  private:
   typename GeometryArray<PairVectors, Dim>::Cursor cursor_;
+};
+
+/// Weights of slopes of consecutive chunks.
+template <int Dim>
+struct SlopeCursor {
+  const SlopeWeights<Dim>* weights;
+  template <class T>
+  DIPTYCH_INLINE void next(T (&weight)[Dim]) {
+    for (int i = 0; i < Dim; ++i)
+      weight[i] = algebra::load_as<T>(weights->component[i]);
+    ++weights;
+  }
 };
 
 /// C_ab of two blocks of runs, side by side.

@@ -20,13 +20,18 @@ std::int64_t chunk_of_node(std::int64_t a) {
 /// read, those without a pair too.
 template <int Dim, class Use>
 void for_reads(const SweepGraph<Dim>& graph, const Use& use) {
+  const bool has_slopes = !graph.slopes.empty();
   if (graph.shape.arrangement == Arrangement::rows) {
-    for (std::int64_t a = 0; a < graph.n_nodes; ++a) {
-      for (std::int64_t chunk = graph.row[a]; chunk < graph.row[a + 1]; ++chunk) {
-        for (const std::int32_t b : graph.neighbours[chunk].node)
-          use(a, static_cast<std::int64_t>(b));
+    const auto for_rows = [&](const auto& of) {
+      for (std::int64_t a = 0; a < graph.n_nodes; ++a) {
+        for (std::int64_t chunk = of.row[a]; chunk < of.row[a + 1]; ++chunk) {
+          for (const std::int32_t b : of.neighbours[chunk].node)
+            use(a, static_cast<std::int64_t>(b));
+        }
       }
-    }
+    };
+    for_rows(graph);
+    if (has_slopes) for_rows(graph.slopes);
     return;
   }
   const auto for_lanes = [&](std::int64_t block, std::int64_t offset, const auto& both) {
@@ -38,6 +43,9 @@ void for_reads(const SweepGraph<Dim>& graph, const Use& use) {
   for (std::int64_t block = 0; block < graph.n_blocks; ++block) {
     for (std::int64_t chunk = graph.row[block]; chunk < graph.row[block + 1]; ++chunk)
       for_lanes(block, graph.offset[chunk], use);
+    for (std::int64_t chunk = has_slopes ? graph.slopes.row[block] : 0;
+         has_slopes && chunk < graph.slopes.row[block + 1]; ++chunk)
+      for_lanes(block, graph.slopes.offset[chunk], use);
     for (std::int64_t chunk = graph.mutual.row[block]; chunk < graph.mutual.row[block + 1];
          ++chunk) {
       for_lanes(block, graph.mutual.offset[chunk], [&](std::int64_t a, std::int64_t b) {

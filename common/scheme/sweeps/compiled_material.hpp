@@ -133,8 +133,7 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
   if (sweep.old_power != nullptr) totals.old_power += power_of_old_forces(body, b, L);
   const auto was_sound = sound_before<Dim, has_H>(body, b);
   if (sweep.stage != nullptr) update_deformation_of_block(body, *sweep.stage, b);
-  body.records.template put_each<Dim * Dim>(b, NodeRecord<Dim>::L,
-                                            [&](int k) DIPTYCH_INLINE_LAMBDA { return L[k]; });
+  put_velocity_gradient(body, b, L);
   if (sweep.drift != 0) drift_block(body, sweep.drift, b);
   const Deformation<Lanes> X = load_deformation(body, b);
   totals.least_J = algebra::smaller(totals.least_J, X.J);

@@ -18,8 +18,8 @@ template <InstructionSet isa, class Real, int n, int stride>
 class GatheredPairs {
  public:
   using T = algebra::Pack<Real>;
-  template <int Dim>
-  DIPTYCH_INLINE GatheredPairs(const SweepGraph<Dim>& graph,
+  template <class Graph>
+  DIPTYCH_INLINE GatheredPairs(const Graph& graph,
                                const NodeTable& table,
                                std::int64_t a,
                                std::int64_t chunk)
@@ -90,8 +90,9 @@ DIPTYCH_INLINE void prefetch_to_write(NodeTable& table, std::int64_t b) {
 
 /// @tparam n       components that are read
 /// @tparam stride  of the rows of the table
-template <InstructionSet isa, Arrangement arrangement, class Real, int n, int stride, int Dim>
-DIPTYCH_INLINE auto pairs_of(const SweepGraph<Dim>& graph,
+/// @tparam Graph   SweepGraph or SlopeGraph
+template <InstructionSet isa, Arrangement arrangement, class Real, int n, int stride, class Graph>
+DIPTYCH_INLINE auto pairs_of(const Graph& graph,
                              const NodeTable& table,
                              std::int64_t unit,
                              std::int64_t chunk) {
@@ -103,8 +104,8 @@ DIPTYCH_INLINE auto pairs_of(const SweepGraph<Dim>& graph,
 }
 
 /// The same of a table of vectors.
-template <InstructionSet isa, Arrangement arrangement, class Real, int Dim>
-DIPTYCH_INLINE auto vector_pairs_of(const SweepGraph<Dim>& graph,
+template <InstructionSet isa, Arrangement arrangement, class Real, int Dim, template <int> class Graph>
+DIPTYCH_INLINE auto vector_pairs_of(const Graph<Dim>& graph,
                                     const NodeTable& table,
                                     std::int64_t unit,
                                     std::int64_t chunk) {

@@ -35,9 +35,9 @@ DIPTYCH_INLINE void sum_gradients(std::int64_t n,
   }
 }
 
-/// The same for the eight nodes of block b, in runs.
-template <int Dim, class T, class Cursor>
-DIPTYCH_INLINE void sum_gradients_of_runs(const SweepGraph<Dim>& graph,
+/// The same for the eight nodes of block b, in runs. @tparam Graph  SweepGraph or SlopeGraph
+template <int Dim, class T, class Cursor, template <int> class Graph>
+DIPTYCH_INLINE void sum_gradients_of_runs(const Graph<Dim>& graph,
                                           const NodeTable& velocity,
                                           std::int64_t b,
                                           const Cursor& geometry,
@@ -51,17 +51,27 @@ DIPTYCH_INLINE void sum_gradients_of_runs(const SweepGraph<Dim>& graph,
       sum);
 }
 
+/// C_ab, or weights of slopes, of the chunks of a unit.
+template <int Dim>
+DIPTYCH_INLINE auto geometry_from(const SweepGraph<Dim>& graph, std::int64_t first) {
+  return VectorCursor<Dim>(graph.strain, first);
+}
+template <int Dim>
+DIPTYCH_INLINE auto geometry_from(const SlopeGraph<Dim>& graph, std::int64_t first) {
+  return SlopeCursor<Dim>{graph.weights.data() + first};
+}
+
 /// The same for the eight nodes of block b, in either arrangement, of a table in the precision of
 /// Real.
-template <InstructionSet isa, class Real, int Dim>
-DIPTYCH_INLINE void sum_gradients_of_block(const SweepGraph<Dim>& graph,
+template <InstructionSet isa, class Real, int Dim, template <int> class Graph>
+DIPTYCH_INLINE void sum_gradients_of_block(const Graph<Dim>& graph,
                                            const NodeTable& velocity,
                                            std::int64_t b,
                                            Lanes (&L)[Dim * Dim]) {
   using T = algebra::Pack<Real>;
   T sum[Dim * Dim];
-  if (graph.shape.arrangement == Arrangement::runs) {
-    sum_gradients_of_runs(graph, velocity, b, VectorCursor<Dim>(graph.strain, graph.first[b]), sum);
+  if (velocity.arrangement() == Arrangement::runs) {
+    sum_gradients_of_runs(graph, velocity, b, geometry_from(graph, graph.first[b]), sum);
 #pragma GCC unroll 9
     for (int k = 0; k < Dim * Dim; ++k)
       L[k] = algebra::widened(sum[k]);
@@ -70,7 +80,7 @@ DIPTYCH_INLINE void sum_gradients_of_block(const SweepGraph<Dim>& graph,
   for (int lane = 0; lane < n_lanes; ++lane) {
     const std::int64_t a = b * n_lanes + lane, first = graph.row[a];
     sum_gradients<Dim>(
-        graph.row[a + 1] - first, VectorCursor<Dim>(graph.strain, graph.first[a]),
+        graph.row[a + 1] - first, geometry_from(graph, graph.first[a]),
         [&](std::int64_t k) DIPTYCH_INLINE_LAMBDA {
           return vector_pairs_of<isa, Arrangement::rows, Real>(graph, velocity, a, first + k);
         },
@@ -102,6 +112,18 @@ DIPTYCH_INLINE void strain_rates_of_block(const Body<Dim>& body,
     sum_gradients_of_block<isa, double>(body.graph, body.v, b, L);
   }
   scale_gradients(body.graph, b, L);
+}
+
+/// Slopes along lines of the eight nodes of block b.
+template <InstructionSet isa, int Dim>
+DIPTYCH_INLINE void slopes_of_block(const Body<Dim>& body,
+                                    std::int64_t b,
+                                    Lanes (&slopes)[Dim * Dim]) {
+  if (body.is_single()) {
+    sum_gradients_of_block<isa, float>(body.graph.slopes, body.v, b, slopes);
+  } else {
+    sum_gradients_of_block<isa, double>(body.graph.slopes, body.v, b, slopes);
+  }
 }
 
 /// dF/dt of block b, and of b + 1 where both can be summed at once: singles whose pairs are at the

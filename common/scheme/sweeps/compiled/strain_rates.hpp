@@ -2,6 +2,7 @@
 /// The strain-rate sweep as it is compiled, for the files of both dimensions and for tests.
 
 #include "common/algebra/versions.hpp"
+#include "common/scheme/body/pointwise.hpp"
 #include "common/scheme/sweeps/face_correction.hpp"
 #include "common/scheme/sweeps/strain_rates.hpp"
 #include "common/scheme/sweeps/strain_sum.hpp"
@@ -13,7 +14,7 @@ DIPTYCH_INLINE void evaluate_blocks(const StrainRateSweep<Dim>& sweep,
                                     std::int64_t begin,
                                     std::int64_t end,
                                     std::int64_t chunk) {
-  const Body<Dim>& body = sweep.body;
+  Body<Dim>& body = sweep.body;
   const algebra::FlushToZero flush(body.is_single());
   const auto evaluate = block_physics<Dim>(sweep.material).evaluate;
   BlockTotals totals;
@@ -25,8 +26,15 @@ DIPTYCH_INLINE void evaluate_blocks(const StrainRateSweep<Dim>& sweep,
     } else {
       corrected_block<isa, Side::rates>(body.graph, body.gradients, sweep.face_correction, b, L[0]);
     }
-    for (int k = 0; k < n; ++k)
+    for (int k = 0; k < n; ++k) {
+      if (body.options.has_slopes) {
+        Lanes slopes[Dim * Dim];
+        slopes_of_block<isa>(body, b + k, slopes);
+        body.records.template put_each<Dim * Dim>(
+            b + k, NodeRecord<Dim>::L, [&](int c) DIPTYCH_INLINE_LAMBDA { return slopes[c]; });
+      }
       evaluate(sweep, b + k, L[k], totals);
+    }
     b += n;
   }
   sweep.viscous_dissipation[chunk] = totals.viscous_dissipation;
@@ -68,8 +76,7 @@ DIPTYCH_INLINE void gradients_of_blocks(Body<Dim>& body,
     } else {
       corrected_block<isa, Side::rates>(body.graph, body.gradients, kappa_f, b, L);
     }
-    body.records.template put_each<Dim * Dim>(b, NodeRecord<Dim>::L,
-                                              [&](int k) DIPTYCH_INLINE_LAMBDA { return L[k]; });
+    put_velocity_gradient(body, b, L);
   }
 }
 
