@@ -59,14 +59,6 @@ void add_row(const meshes::BlockMeasure& measure,
   graph.row.push_back(graph.n_pairs());
 }
 
-/// Only nearest neighbours along lines dissipate, with slopes of the lines.
-void set_line_slopes(const meshes::BlockMeasure& measure, scheme::PairGraph& graph) {
-  constexpr double just_above = 1 + 1e-6;
-  graph.dissipation_metric = measure.edges().inverse() / just_above;
-  meshes::LineSlopes slopes = meshes::line_slopes(measure.block(), measure.edges());
-  graph.slopes = {std::move(slopes.row), std::move(slopes.neighbour), std::move(slopes.weight)};
-}
-
 }  // namespace
 
 scheme::PairGraph sbp_graph(const Mesh& mesh, int order) {
@@ -90,7 +82,9 @@ scheme::PairGraph sbp_graph(const Mesh& mesh, int order) {
   link_reverse_pairs(graph);
   set_classes(graph);
   graph.commutes = true;
-  set_line_slopes(measure, graph);
+  meshes::LineSlopes slopes = meshes::line_slopes(measure.block(), measure.edges());
+  graph.slopes = {std::move(slopes.row), std::move(slopes.neighbour), std::move(slopes.weight),
+                  scheme::metric_of_lines(measure.edges())};
   validate(graph);
   return graph;
 }

@@ -8,7 +8,8 @@
 ///   A_aN_a = -+ H_j H_k M_1 at the two ends of the lines, and cyclic.
 /// Rows are exact for polynomials up to the order of the pair inside and half of it in the boundary
 /// blocks, closure is exact, and the derivatives commute. On lines too short for the pair (8 nodes
-/// for order 4, 12 for 6) the widest pair that fits. Order 2 is the edge stencil.
+/// for order 4, 12 for 6) the widest pair that fits, on three to seven nodes one that is exact for
+/// quadratics. Order 2 is the edge stencil.
 ///
 /// A boundary group that covers a part of a side has, at its edge, the part of H of its faces:
 /// exact where that is no nearer to the edge of the side than the boundary block; else it is

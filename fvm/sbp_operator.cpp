@@ -45,8 +45,7 @@ constexpr std::array<Rational, 3> interior_6{{{3, 4}, {-3, 20}, {1, 60}}};
 constexpr std::array<Rational, 3> H_of_3{{{1, 3}, {4, 3}, {1, 3}}};
 constexpr std::array<Rational, 3> Q_of_3{{{2, 3}, {-1, 6}, {2, 3}}};
 constexpr std::array<Rational, 4> H_of_4{{{3, 8}, {9, 8}, {9, 8}, {3, 8}}};
-constexpr std::array<Rational, 6> Q_of_4{
-    {{9, 16}, {0, 1}, {-1, 16}, {9, 16}, {0, 1}, {9, 16}}};
+constexpr std::array<Rational, 6> Q_of_4{{{9, 16}, {0, 1}, {-1, 16}, {9, 16}, {0, 1}, {9, 16}}};
 constexpr std::array<Rational, 5> H_of_5{{{3, 8}, {7, 6}, {11, 12}, {7, 6}, {3, 8}}};
 constexpr std::array<Rational, 10> Q_of_5{{{7, 12},
                                            {-1, 16},
@@ -58,8 +57,7 @@ constexpr std::array<Rational, 10> Q_of_5{{{7, 12},
                                            {7, 12},
                                            {-1, 16},  // row 2
                                            {7, 12}}};
-constexpr std::array<Rational, 6> H_of_6{
-    {{3, 8}, {7, 6}, {23, 24}, {23, 24}, {7, 6}, {3, 8}}};
+constexpr std::array<Rational, 6> H_of_6{{{3, 8}, {7, 6}, {23, 24}, {23, 24}, {7, 6}, {3, 8}}};
 constexpr std::array<Rational, 15> Q_of_6{{{83, 144},
                                            {-7, 144},
                                            {0, 1},
@@ -77,26 +75,12 @@ constexpr std::array<Rational, 15> Q_of_6{{{83, 144},
                                            {83, 144}}};
 constexpr std::array<Rational, 7> H_of_7{
     {{3, 8}, {7, 6}, {23, 24}, {1, 1}, {23, 24}, {7, 6}, {3, 8}}};
-constexpr std::array<Rational, 21> Q_of_7{{{7, 12},
-                                           {-5, 96},
-                                           {-1, 36},
-                                           {0, 1},
-                                           {0, 1},
-                                           {-1, 288},  // row 0
-                                           {7, 12},
-                                           {0, 1},
-                                           {0, 1},
-                                           {0, 1},
-                                           {0, 1},  // row 1
-                                           {7, 12},
-                                           {-5, 96},
-                                           {0, 1},
-                                           {0, 1},  // row 2
-                                           {7, 12},
-                                           {0, 1},
-                                           {-1, 36},  // row 3
-                                           {7, 12},
-                                           {-5, 96},  // row 4
+constexpr std::array<Rational, 21> Q_of_7{{{7, 12},   {-5, 96}, {-1, 36}, {0, 1}, {0, 1},
+                                           {-1, 288},                                      // row 0
+                                           {7, 12},   {0, 1},   {0, 1},   {0, 1}, {0, 1},  // row 1
+                                           {7, 12},   {-5, 96}, {0, 1},   {0, 1},          // row 2
+                                           {7, 12},   {0, 1},   {-1, 36},                  // row 3
+                                           {7, 12},   {-5, 96},                            // row 4
                                            {7, 12}}};
 
 constexpr int least_line = 3;

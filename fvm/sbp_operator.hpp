@@ -9,19 +9,20 @@
 /// leaves one number free, here Q_45 = 203/288: beside the value at which the error of x^4 in the
 /// block, weighted with H, is least (0.70491; 11.3008 there and here), with the norm of
 /// H^(-1/2) Q H^(-1/2) at 2.1081 (2.129 where Q_05 is zero, 3.6 at Q_45 = 0.625).
-/// Lines of three to seven nodes are too short for the blocks of order 4 and have tables of their own
+/// Lines of three to seven nodes are too short for the blocks of order 4 and have tables of their
+/// own
 /// ("order 2" in texts): rows exact for polynomials up to degree two everywhere, weights exact for
 /// cubics (Gregory's, of three nodes Simpson's, of four the 3/8 rule; Hicken and Zingg, J. Comput.
 /// Appl. Math. 237 (2013) 111, on norms as quadratures), and Q_{i,i+1} the same along the line, so
-/// that D_ab of the slopes along lines takes energy from every motion (meshes/line_slopes.hpp). With
-/// these weights that leaves no freedom up to six nodes; of seven Q_14 = Q_15 = 0. Trapezoidal
+/// that D_ab of the slopes along lines takes energy from every motion (meshes/line_slopes.hpp).
+/// With these weights that leaves no freedom up to six nodes; of seven Q_14 = Q_15 = 0. Trapezoidal
 /// weights make a strip of two cells bend half as stiff again as it is.
 ///
 /// What is left of linear reconstructions in D_ab (notes 3.4) is symmetric and positive on order 2
 /// alone: on a line, per c/h, the least eigenvalue of its symmetric part is -0.007 with order 4,
-/// which the rest of the boundary's damping outweighs, and -0.36 with order 6, where waves grow. With
-/// slopes along lines it is -1e-5 and -5e-4. Test: tests/graphs/sbp_operator_test.cpp, in exact
-/// fractions.
+/// which the rest of the boundary's damping outweighs, and -0.36 with order 6, where waves grow.
+/// With slopes along lines it is -1e-5 and -5e-4. Test: tests/graphs/sbp_operator_test.cpp, in
+/// exact fractions.
 
 #include <cstdint>
 #include <span>

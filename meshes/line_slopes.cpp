@@ -39,8 +39,7 @@ std::vector<std::pair<int, double>> line_slope(int i, int n) {
   for (int j = 0; j < n; ++j) {
     if (j == near || of_node[static_cast<size_t>(j)] == 0) continue;
     // seen from the other end places turn round, and with them the sign of differences
-    slope.emplace_back(is_far ? n - 1 - j : j,
-                       (is_far ? -1 : 1) * of_node[static_cast<size_t>(j)]);
+    slope.emplace_back(is_far ? n - 1 - j : j, (is_far ? -1 : 1) * of_node[static_cast<size_t>(j)]);
   }
   return slope;
 }
@@ -64,7 +63,8 @@ LineSlopes line_slopes(const StructuredBlock& block, const Mat3& edges) {
         row.emplace_back(block.node_at(at), weight * dual.col(d));
       }
     }
-    std::sort(row.begin(), row.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
+    std::sort(row.begin(), row.end(),
+              [](const auto& p, const auto& q) { return p.first < q.first; });
     for (const auto& [b, weight] : row) {
       slopes.neighbour.push_back(b);
       slopes.weight.push_back(weight);

@@ -5,13 +5,12 @@
 ///   G_a = sum_b (v_b - v_a) (x) weight_ab.
 /// With d_i = v_{i+1} - v_i they are, from the end of a line on,
 ///   (3 d_0 - d_1)/2,  (3 d_0 + 6 d_1 - d_2)/8,  (-d_{i-2} + 5 d_{i-1} + 5 d_i - d_{i+1})/8, ..
-/// so that the jumps of a line are D^T D d/16 with the second differences D: a fifth difference of v
-/// inside, which vanishes for polynomials of degree four, a third at the two ends. Hence
-/// sum d_i jump_i = |D d|^2/16 >= 0 on every line, and for waves of length 2 h it is d_i^2, as
-/// without slopes. On lines of three nodes D d is a first difference: (d_0 - d_1)/4.
-/// Source: notes 3.4; undivided differences of this form as dissipation beside operators that sum by
-/// parts: Mattsson, Svard, Nordstrom, J. Sci. Comput. 21 (2004) 57. Test:
-/// tests/graphs/line_slopes_test.cpp
+/// so that the jumps of a line are D^T D d/16 with the second differences D: a fifth difference of
+/// v inside, which vanishes for polynomials of degree four, a third at the two ends. Hence sum d_i
+/// jump_i = |D d|^2/16 >= 0 on every line, and for waves of length 2 h it is d_i^2, as without
+/// slopes. On lines of three nodes D d is a first difference: (d_0 - d_1)/4. Source: notes 3.4;
+/// undivided differences of this form as dissipation beside operators that sum by parts: Mattsson,
+/// Svard, Nordstrom, J. Sci. Comput. 21 (2004) 57. Test: tests/graphs/line_slopes_test.cpp
 
 #include "meshes/structured_block.hpp"
 

@@ -76,10 +76,10 @@ scheme::PairGraph sbp_graph(const meshes::Mesh& mesh, const Kernel& kernel, doub
     graph.patches.push_back({std::move(patch.name), std::move(patch.nodes), std::move(patch.area),
                              std::move(patch.faces)});
   }
-  constexpr double just_above = 1 + 1e-6;
-  graph.dissipation_metric = measure.edges().inverse() / just_above;
+  graph.dissipation_metric = scheme::metric_of_lines(measure.edges());
   meshes::LineSlopes slopes = meshes::line_slopes(measure.block(), measure.edges());
-  graph.slopes = {std::move(slopes.row), std::move(slopes.neighbour), std::move(slopes.weight)};
+  graph.slopes = {std::move(slopes.row), std::move(slopes.neighbour), std::move(slopes.weight),
+                  scheme::metric_of_lines(measure.edges())};
   link_reverse_pairs(graph);
   set_classes(graph);
   validate(graph);

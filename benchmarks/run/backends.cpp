@@ -85,7 +85,7 @@ void check_fvm(const cases::Case& setup) {
       scheme.limiter == "none") {
     throw base::InputError(fmt::format(
         "{}: fvm.stencil = \"sbp\" with fvm.order = 6 gains energy at boundaries from D_ab with "
-        "unlimited reconstruction; use fvm.order = 4, or scheme.limiter = \"sign-preserving\"",
+        "unlimited linear reconstruction; use scheme.reconstruction = \"quartic\" or fvm.order = 4",
         setup.file));
   }
 }

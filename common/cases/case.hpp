@@ -126,14 +126,14 @@ struct ReferenceCase {
 
 /// [scheme]
 struct SchemeCase {
-  std::string unknowns = "FHJ";           ///< F, FJ or FHJ
+  std::string unknowns = "FHJ";         ///< F, FJ or FHJ
   std::string reconstruction = "auto";  ///< auto, none, linear, quartic or objective
-  std::string limiter = "none";           ///< entry of the limiter menu
-  std::string impedance = "isotropic";    ///< isotropic or exact
-  double dissipation = 1;                 ///< multiplies D_ab, >= 0
-  double face_correction = 0;             ///< kappa_f of notes 3.8, 0: none
-  std::string volumes = "auto";           ///< auto, cells or nodes: scheme::Volumes
-  std::string precision = "double";       ///< double, mixed or single: scheme::Precision
+  std::string limiter = "none";         ///< entry of the limiter menu
+  std::string impedance = "isotropic";  ///< isotropic or exact
+  double dissipation = 1;               ///< multiplies D_ab, >= 0
+  double face_correction = 0;           ///< kappa_f of notes 3.8, 0: none
+  std::string volumes = "auto";         ///< auto, cells or nodes: scheme::Volumes
+  std::string precision = "double";     ///< double, mixed or single: scheme::Precision
   bool angular_momentum_projection = false;
   bool energy_budget = true;
 };

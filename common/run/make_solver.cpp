@@ -205,10 +205,11 @@ bool has_line_slopes(const cases::Case& setup, const scheme::PairGraph& graph) {
   using Choice = scheme::ReconstructionChoice;
   const Choice asked = scheme::reconstruction_menu().at(setup.scheme.reconstruction);
   if (asked == Choice::quartic && graph.slopes.empty()) {
-    throw base::InputError(fmt::format(
-        "{}: scheme.reconstruction = \"quartic\" needs nodes on the lines of a box of hexahedra or "
-        "quadrilaterals, and operators that sum by parts along them; use \"linear\" or \"auto\"",
-        setup.file));
+    throw base::InputError(
+        fmt::format("{}: scheme.reconstruction = \"quartic\" needs operators that sum by parts on "
+                    "an undistorted "
+                    "box of hexahedra or quadrilaterals; use \"linear\" or \"auto\"",
+                    setup.file));
   }
   if (asked != Choice::automatic || graph.slopes.empty()) return asked == Choice::quartic;
   return !scheme::limits_slopes(scheme::limiter_menu().at(setup.scheme.limiter));

@@ -158,12 +158,58 @@ TEST(SbpOperator, IsExactForPolynomialsOfHalfTheOrderOnShortLines) {
   }
 }
 
+// Of lines that are too short for blocks: exact for polynomials of degree two, weights for cubics,
+// and pairs of neighbours that all count the same.
+TEST(SbpTables, OfShortLinesAreExactForQuadratics) {
+  for (int n = 3; n <= 7; ++n) {
+    const SbpTable& table = fvm::sbp_line_table(n);
+    ASSERT_EQ(table.block_size(), n);
+    for (int i = 0; i < n; ++i) {
+      for (int k = 0; k <= 2; ++k) {
+        Fraction sum = i == n - 1 && k == 0 ? Fraction(1, 2) : Fraction(0);
+        for (int j = 0; j < n; ++j)
+          sum = sum + entry(table, i, j) * power(j - i, k);
+        EXPECT_TRUE(sum == (k == 1 ? Fraction(table.H[static_cast<size_t>(i)]) : Fraction(0)))
+            << n << " row " << i << " x^" << k;
+      }
+      if (i + 1 < n) {
+        EXPECT_TRUE(entry(table, i, i + 1) == entry(table, 0, 1)) << n << " " << i;
+      }
+    }
+    for (int k = 0; k <= 3; ++k) {
+      Fraction sum(0);
+      for (int i = 0; i < n; ++i)
+        sum = sum + Fraction(table.H[static_cast<size_t>(i)]) * power(i, k);
+      EXPECT_TRUE(sum == power(n - 1, k + 1) * Fraction(1, k + 1)) << n << " x^" << k;
+    }
+  }
+}
+
+TEST(SbpOperator, OfShortLinesSumsByParts) {
+  for (int n = 3; n <= 7; ++n) {
+    const fvm::SbpOperator D(fvm::widest_sbp_table(6, n), n);
+    std::map<std::pair<int, int>, double> Q;
+    for (int i = 0; i < n; ++i) {
+      EXPECT_EQ(D.H(i), D.H(n - 1 - i));
+      for (const auto& entry : D.row(i))
+        Q[{i, entry.node}] = entry.Q;
+    }
+    for (const auto& [place, value] : Q) {
+      const auto [i, j] = place;
+      EXPECT_EQ((Q[{j, i}]), -value) << n << " " << i << " " << j;
+      EXPECT_EQ((Q[{n - 1 - i, n - 1 - j}]), -value) << n << " " << i << " " << j;
+    }
+  }
+}
+
 TEST(SbpTables, FallToTheWidestThatFits) {
   const auto order = [](int asked, int n) { return fvm::widest_sbp_table(asked, n).order; };
   EXPECT_EQ(order(6, 12), 6);
   EXPECT_EQ(order(6, 11), 4);
   EXPECT_EQ(order(6, 8), 4);
   EXPECT_EQ(order(6, 7), 2);
+  EXPECT_TRUE(fvm::widest_sbp_table(6, 7).is_line);
+  EXPECT_FALSE(fvm::widest_sbp_table(2, 7).is_line);
   EXPECT_EQ(order(4, 100), 4);
   EXPECT_EQ(order(4, 2), 2);
   EXPECT_EQ(order(2, 100), 2);

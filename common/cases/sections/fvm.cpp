@@ -29,17 +29,16 @@ SectionEntry fvm_section() {
                    "(integral), or from operators that sum by parts (sbp): along the "
                    "lines of nodes of boxes of hexahedra or quadrilaterals, elsewhere "
                    "over two rings of cells of a body with plane sides. auto: sbp on such boxes "
-                   "with a line of eight nodes or more and boundary groups that cover whole sides "
+                   "with a line of three nodes or more and boundary groups that cover whole sides "
                    "or end far from their edges, but with a face correction; else edge.",
                    "\"sbp\""}))
           .key("order", &FvmCase::order,
                {"-", between(2, 6),
                 "With stencil = \"sbp\" or \"auto\" on a box, order of the derivatives inside: 2 "
-                "(the edge "
-                "stencil), 4 "
-                "or 6; half of it at boundaries. On lines of fewer than 8 (4) or 12 nodes (6) it "
-                "falls to the next. 6 takes scheme.limiter = \"sign-preserving\" or none of the "
-                "reconstruction.",
+                "(the edge stencil), 4 or 6; half of it at boundaries. On lines of fewer than 8 "
+                "(4) or 12 nodes (6) it falls to the next, on those of 3 to 7 to pairs that are "
+                "exact for quadratics. With reconstruction = \"linear\" 6 takes scheme.limiter = "
+                "\"sign-preserving\".",
                 "6"});
   return {{"fvm", false, "What only the finite volumes need."},
           keys.keys(),

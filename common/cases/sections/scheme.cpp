@@ -15,16 +15,17 @@ SectionKeys<SchemeCase> scheme_keys() {
           one_of(scheme::unknowns_menu().names(),
                  "Strain measures with evolution equations of their own; the others follow from F.",
                  "\"F\""))
-      .key("reconstruction", &SchemeCase::reconstruction,
-           one_of(
-               scheme::reconstruction_menu().names(),
-               "Reconstruction of the velocities on both sides of a pair. linear: with the slopes "
-               "dF/dt; objective: the same in a frame that spins with the pair, in which a deformed "
-               "body that spins rigidly dissipates nothing; quartic: with slopes along the lines of "
-               "nodes of a box, whose jumps are of fifth order where those of linear are of third. "
-               "auto: quartic where operators sum by parts on a box, but for limiters of slopes, "
-               "else linear.",
-               "\"objective\""))
+      .key(
+          "reconstruction", &SchemeCase::reconstruction,
+          one_of(
+              scheme::reconstruction_menu().names(),
+              "Reconstruction of the velocities on both sides of a pair. linear: with the slopes "
+              "dF/dt; objective: the same in a frame that spins with the pair, in which a deformed "
+              "body that spins rigidly dissipates nothing; quartic: with slopes along the lines of "
+              "nodes of a box, whose jumps are of fifth order where those of linear are of third. "
+              "auto: quartic where operators sum by parts on a box, but for limiters of slopes, "
+              "else linear.",
+              "\"objective\""))
       .key("limiter", &SchemeCase::limiter,
            one_of(scheme::limiter_menu().names(),
                   "Limiter of the linear reconstruction. At fronts: venkatakrishnan, with "

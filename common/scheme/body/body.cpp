@@ -18,17 +18,16 @@ Body<Dim>::Body(const PairGraph& whole, const BodyOptions& what, SweepGraph<Dim>
       centroid(centroid_of(whole)) {
   list_fields();
   allocate();
-  if (!options.has_slopes) graph.slopes = {};
   if (options.cell_volumes) cells = CellVolumes<Dim>(whole.cells, whole.X);
 }
 
 template <int Dim>
 Body<Dim>::Body(const PairGraph& whole, const BodyOptions& what)
-    : Body(whole, what, SweepGraph<Dim>(whole)) {}
+    : Body(whole, what, SweepGraph<Dim>(whole, what.has_slopes)) {}
 
 template <int Dim>
 Body<Dim>::Body(const PairGraph& whole, const BodyOptions& what, Arrangement arrangement)
-    : Body(whole, what, SweepGraph<Dim>(whole, arrangement)) {}
+    : Body(whole, what, SweepGraph<Dim>(whole, arrangement, what.has_slopes)) {}
 
 template <int Dim>
 void Body<Dim>::list_fields() {

@@ -186,6 +186,11 @@ void set_precision(PairGraph& graph, Precision precision) {
   }
 }
 
+Mat3 metric_of_lines(const Mat3& edges) {
+  constexpr double just_above = 1 + 1e-6;
+  return edges.inverse() / just_above;
+}
+
 void link_reverse_pairs(PairGraph& graph) {
   // Rows are ascending, so the rows that name b come by in the order of b's own row.
   std::vector<std::int64_t> next(graph.row.begin(), graph.row.end() - 1);

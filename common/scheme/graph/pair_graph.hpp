@@ -55,8 +55,7 @@ struct PairGraph {
   /// Pairs for which it makes |X_b - X_a| more than one dissipate nothing (dissipation_area.hpp).
   /// [1/m]
   Mat3 dissipation_metric = Mat3::Zero();
-  /// Along lines of nodes, which only nearest neighbours on them read (dissipation_metric); empty:
-  /// jumps are reconstructed with dF/dt.
+  /// Along lines of nodes, for jumps between the nearest on them; empty where there are no lines.
   SlopeRows slopes;
   bool commutes = false;  ///< its derivatives in different directions do, as of tensor products
   Precision precision = Precision::full;  ///< see set_precision
@@ -85,6 +84,10 @@ void validate(const PairGraph& graph);
 /// exactness hold to 1e-7.
 /// @throws base::InputError where squares of areas leave the range of single precision
 void set_precision(PairGraph& graph, Precision precision);
+
+/// The metric in which neighbours along the edges of a cell are at a distance of one, all others
+/// farther away.  @param edges  as columns  [m]
+Mat3 metric_of_lines(const Mat3& edges);
 
 /// Fills graph.reverse from rows and neighbours (which must be structurally symmetric).
 void link_reverse_pairs(PairGraph& graph);

@@ -198,6 +198,12 @@ void put(Real (&lanes)[Dim][n_lanes], int lane, const Vec3& value) {
     lanes[i][lane] = static_cast<Real>(value[i]);
 }
 
+/// Of the pairs that dissipate.
+template <int Dim>
+const Mat3& metric_of(const PairGraph& graph, const SweepGraph<Dim>& sweep) {
+  return sweep.slopes.empty() ? graph.dissipation_metric : graph.slopes.metric;
+}
+
 /// Of the pairs of every node, for its own sums.
 template <int Dim>
 void set_directed(const PairGraph& graph,
@@ -205,6 +211,7 @@ void set_directed(const PairGraph& graph,
                   const Layouts& layouts,
                   const EqualGroups& alike,
                   SweepGraph<Dim>& sweep) {
+  const Mat3& metric = metric_of(graph, sweep);
   const bool rows = sweep.shape.arrangement == Arrangement::rows,
              single = graph.precision != Precision::full;
   const auto allocate = [&](std::int64_t n) {
@@ -220,8 +227,7 @@ void set_directed(const PairGraph& graph,
     if (sweep.face.size() > 0) put(sweep.face[chunk].component, lane, S_ab);
     if (!rows) return;
     sweep.force.change(chunk, [&](auto& geometry) { put(geometry.component, lane, C_ba); });
-    sweep.area[chunk].area[lane] =
-        static_cast<float>(dissipation_area(S_ab, X_ab, graph.dissipation_metric));
+    sweep.area[chunk].area[lane] = static_cast<float>(dissipation_area(S_ab, X_ab, metric));
   };
   set_geometry(graph, classes, layouts, alike, sweep.first, allocate, set);
 }
@@ -233,6 +239,7 @@ void set_mutual(const PairGraph& graph,
                 const PairRuns& runs,
                 const EqualGroups& alike,
                 SweepGraph<Dim>& sweep) {
+  const Mat3& metric = metric_of(graph, sweep);
   MutualPairs<Dim>& mutual = sweep.mutual;
   const PairRuns half = upward(runs);
   copy(half.row, mutual.row);
@@ -247,8 +254,7 @@ void set_mutual(const PairGraph& graph,
     mutual.geometry.change(chunk, [&](auto& geometry) {
       put(geometry.C_ab, lane, C_ab);
       put(geometry.C_ba, lane, C_ba);
-      geometry.area[lane] =
-          static_cast<float>(dissipation_area(0.5 * (C_ab - C_ba), X_ab, graph.dissipation_metric));
+      geometry.area[lane] = static_cast<float>(dissipation_area(0.5 * (C_ab - C_ba), X_ab, metric));
     });
   };
   set_geometry(graph, classes, RunLayouts(graph, half), alike, mutual.first, allocate, set);
@@ -308,7 +314,8 @@ void set_runs(const PairGraph& graph,
               const PairRuns& runs,
               SweepGraph<Dim>& sweep) {
   sweep.shape.arrangement = Arrangement::runs;
-  sweep.shape.guard = std::max(runs.reach, graph.slopes.reach()) + n_lanes;
+  sweep.shape.guard =
+      std::max(runs.reach, sweep.slopes.empty() ? 0 : graph.slopes.reach()) + n_lanes;
   copy(runs.row, sweep.row);
   copy(runs.offset, sweep.offset);
   sweep.first = algebra::AlignedArray<std::int64_t>(sweep.n_blocks);
@@ -320,19 +327,25 @@ void set_runs(const PairGraph& graph,
 }  // namespace
 
 template <int Dim>
-SweepGraph<Dim>::SweepGraph(const PairGraph& graph) : SweepGraph(graph, find_runs(graph)) {}
+SweepGraph<Dim>::SweepGraph(const PairGraph& graph, bool has_slopes)
+    : SweepGraph(graph, has_slopes, find_runs(graph)) {}
 
 template <int Dim>
-SweepGraph<Dim>::SweepGraph(const PairGraph& graph, const PairRuns& runs)
-    : SweepGraph(
-          graph, runs.filling >= least_filling ? Arrangement::runs : Arrangement::rows, runs) {}
+SweepGraph<Dim>::SweepGraph(const PairGraph& graph, bool has_slopes, const PairRuns& runs)
+    : SweepGraph(graph,
+                 runs.filling >= least_filling ? Arrangement::runs : Arrangement::rows,
+                 has_slopes,
+                 runs) {}
 
 template <int Dim>
-SweepGraph<Dim>::SweepGraph(const PairGraph& graph, Arrangement arrangement)
-    : SweepGraph(graph, arrangement, find_runs(graph)) {}
+SweepGraph<Dim>::SweepGraph(const PairGraph& graph, Arrangement arrangement, bool has_slopes)
+    : SweepGraph(graph, arrangement, has_slopes, find_runs(graph)) {}
 
 template <int Dim>
-SweepGraph<Dim>::SweepGraph(const PairGraph& graph, Arrangement arrangement, const PairRuns& runs)
+SweepGraph<Dim>::SweepGraph(const PairGraph& graph,
+                            Arrangement arrangement,
+                            bool has_slopes,
+                            const PairRuns& runs)
     : n_nodes(graph.n_nodes()),
       n_blocks(algebra::n_blocks_of(graph.n_nodes())),
       n_pairs(graph.n_pairs()),
@@ -340,13 +353,13 @@ SweepGraph<Dim>::SweepGraph(const PairGraph& graph, Arrangement arrangement, con
       Omega(n_blocks * n_lanes),
       C_sum(arrangement == Arrangement::rows ? graph.n_nodes() : 0, Dim) {
   shape.single = graph.precision == Precision::single;
+  if (has_slopes) slopes = SlopeGraph<Dim>(graph.slopes, arrangement);
   const RowClasses classes = classes_of(graph);
   if (arrangement == Arrangement::runs) {
     set_runs(graph, classes, runs, *this);
   } else {
     set_rows(graph, classes, *this);
   }
-  slopes = SlopeGraph<Dim>(graph.slopes, arrangement);
   X = algebra::NodeTable(n_nodes, Dim, vector_stride<Dim>, shape);
   set_nodes(graph, classes, *this);
 }

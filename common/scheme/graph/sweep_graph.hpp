@@ -140,19 +140,23 @@ struct SweepGraph {
   algebra::AlignedArray<PairVectors<Dim, float>> face;  ///< S_ab, not in rows of single precision
   MutualPairs<Dim> mutual;
   SlopeGraph<Dim> slopes;  ///< empty: jumps are reconstructed with dF/dt
-  algebra::NodeTable X;  ///< m; in single precision from the middle of the body
+  algebra::NodeTable X;    ///< m; in single precision from the middle of the body
   algebra::AlignedArray<double> inverse_Omega;  ///< [n_blocks * 8] 1/m^3, 0 in the padding
   algebra::AlignedArray<double> Omega;          ///< [n_blocks * 8] m^3, 0 in the padding
   algebra::BlockField C_sum;                    ///< [n_nodes][Dim] sum_b C_ab
 
-  explicit SweepGraph(const PairGraph& graph);
+  /// @param has_slopes  those of the graph are used, between the pairs that they are for
+  explicit SweepGraph(const PairGraph& graph, bool has_slopes = false);
   /// In an arrangement of choice, for tests and measurements.
-  SweepGraph(const PairGraph& graph, Arrangement arrangement);
+  SweepGraph(const PairGraph& graph, Arrangement arrangement, bool has_slopes = false);
   std::int64_t bytes() const;
 
  private:
-  SweepGraph(const PairGraph& graph, const PairRuns& runs);
-  SweepGraph(const PairGraph& graph, Arrangement arrangement, const PairRuns& runs);
+  SweepGraph(const PairGraph& graph, bool has_slopes, const PairRuns& runs);
+  SweepGraph(const PairGraph& graph,
+             Arrangement arrangement,
+             bool has_slopes,
+             const PairRuns& runs);
 };
 
 /// As T: eight doubles or singles.

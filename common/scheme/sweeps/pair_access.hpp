@@ -104,7 +104,12 @@ DIPTYCH_INLINE auto pairs_of(const Graph& graph,
 }
 
 /// The same of a table of vectors.
-template <InstructionSet isa, Arrangement arrangement, class Real, int Dim, template <int> class Graph>
+template <InstructionSet isa,
+          Arrangement arrangement,
+          class Real,
+          int Dim,
+          template <int>
+          class Graph>
 DIPTYCH_INLINE auto vector_pairs_of(const Graph<Dim>& graph,
                                     const NodeTable& table,
                                     std::int64_t unit,
