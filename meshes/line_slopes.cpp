@@ -2,67 +2,147 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <cmath>
+#include <map>
 
 namespace diptych::meshes {
 
 namespace {
 
-/// Of the differences d_j from `first` on, in eighths.
-struct Weights {
-  int first;
-  std::vector<double> eighths;
-};
+/// Coefficients of the differences d_j of a line.
+using Differences = std::vector<double>;
 
-/// Of node i <= (n - 1)/2.
-Weights of_near_half(int i, int n) {
-  if (n == 2 || (n == 3 && i == 0)) return {0, {8}};
-  if (n == 3) return {0, {4, 4}};
-  if (i == 0) return {0, {12, -4}};
-  if (i == 1) return {0, {3, 6, -1}};
-  return {i - 2, {-1, 5, 5, -1}};
-}
+/// Nodes from an end whose slopes follow from those farther inside, and pairs whose areas may
+/// differ.
+constexpr int ends = 3;
+/// Areas that differ by less are the same.
+constexpr double same = 1e-10;
 
-}  // namespace
-
-std::vector<std::pair<int, double>> line_slope(int i, int n) {
-  const bool is_far = i > n - 1 - i;
-  const int near = is_far ? n - 1 - i : i;
-  const Weights weights = of_near_half(near, n);
-  std::vector<double> of_node(static_cast<size_t>(n));
-  for (size_t k = 0; k < weights.eighths.size(); ++k) {
-    const size_t j = static_cast<size_t>(weights.first) + k;
-    of_node[j + 1] += weights.eighths[k] / 8;
-    of_node[j] -= weights.eighths[k] / 8;
-  }
-  std::vector<std::pair<int, double>> slope;
-  for (int j = 0; j < n; ++j) {
-    if (j == near || of_node[static_cast<size_t>(j)] == 0) continue;
-    // seen from the other end places turn round, and with them the sign of differences
-    slope.emplace_back(is_far ? n - 1 - j : j, (is_far ? -1 : 1) * of_node[static_cast<size_t>(j)]);
+/// As where all areas are the same: node i <= (n - 1)/2 of n.
+Differences plain_slope(int i, int n) {
+  Differences slope(static_cast<size_t>(n - 1), 0.0);
+  const auto set = [&](int first, std::initializer_list<double> eighths) {
+    for (const double value : eighths)
+      slope[static_cast<size_t>(first++)] = value / 8;
+  };
+  if (n == 2 || (n == 3 && i == 0)) {
+    set(0, {8});
+  } else if (n == 3) {
+    set(0, {4, 4});
+  } else if (i == 0) {
+    set(0, {12, -4});
+  } else if (i == 1) {
+    set(0, {3, 6, -1});
+  } else {
+    set(i - 2, {-1, 5, 5, -1});
   }
   return slope;
 }
 
-LineSlopes line_slopes(const StructuredBlock& block, const Mat3& edges) {
+/// Of pair i, where all areas are the same: D^T D d/16.
+Differences plain_jump(int i, int n) {
+  Differences jump(static_cast<size_t>(n - 1), 0.0);
+  const auto add = [&](const std::vector<double>& difference, int first, double factor) {
+    const int k = i - first;
+    if (first < 0 || first + std::ssize(difference) > n - 1 || k < 0 || k >= std::ssize(difference))
+      return;
+    for (size_t j = 0; j < difference.size(); ++j)
+      jump[static_cast<size_t>(first) + j] +=
+          factor * difference[static_cast<size_t>(k)] * difference[j];
+  };
+  for (int first = i - 2; first <= i; ++first) {
+    if (n > 3) add({1, -2, 1}, first, 1.0 / 16);
+    if (n == 3) add({1, -1}, first, 1.0 / 4);
+  }
+  return jump;
+}
+
+Differences mirrored(Differences slope) {
+  std::reverse(slope.begin(), slope.end());
+  return slope;
+}
+
+SlopeRow row_of(const Differences& slope, int i) {
+  const auto n = static_cast<int>(slope.size()) + 1;
+  SlopeRow row;
+  for (int j = 0; j < n; ++j) {
+    const double before = j > 0 ? slope[static_cast<size_t>(j) - 1] : 0,
+                 after = j < n - 1 ? slope[static_cast<size_t>(j)] : 0;
+    if (j != i && std::abs(before - after) > same) row.emplace_back(j, before - after);
+  }
+  return row;
+}
+
+}  // namespace
+
+std::vector<SlopeRow> slopes_of_line(const std::vector<double>& area) {
+  const auto n = static_cast<int>(area.size()) + 1;
+  const double middle = area[area.size() / 2];
+  std::vector<Differences> slope(static_cast<size_t>(n));
+  const int inner = std::min(ends, (n - 1) / 2);
+  for (int i = inner; i <= n - 1 - inner; ++i) {
+    const bool is_far = i > n - 1 - i;
+    slope[static_cast<size_t>(i)] =
+        is_far ? mirrored(plain_slope(n - 1 - i, n)) : plain_slope(i, n);
+  }
+  // 1/2 (G_i + G_{i+1}) = d_i - jump_i, from the inside to both ends
+  const auto follow = [&](int i, int from, int pair) {
+    const Differences jump = plain_jump(pair, n);
+    const double ratio = middle / area[static_cast<size_t>(pair)];
+    Differences& next = slope[static_cast<size_t>(i)];
+    next.resize(area.size());
+    for (size_t j = 0; j < next.size(); ++j)
+      next[j] = -2 * ratio * jump[j] - slope[static_cast<size_t>(from)][j];
+    next[static_cast<size_t>(pair)] += 2;
+  };
+  for (int i = inner - 1; i >= 0; --i) {
+    follow(i, i + 1, i);
+    follow(n - 1 - i, n - 2 - i, n - 2 - i);
+  }
+  std::vector<SlopeRow> rows;
+  for (int i = 0; i < n; ++i)
+    rows.push_back(row_of(slope[static_cast<size_t>(i)], i));
+  return rows;
+}
+
+LineSlopes line_slopes(const StructuredBlock& block,
+                       const Mat3& edges,
+                       const std::function<double(std::int32_t, std::int32_t)>& area) {
   const Mat3 dual = edges.inverse().transpose();  // columns g_d with g_d . e_k = delta_dk
-  std::array<std::vector<std::vector<std::pair<int, double>>>, 3> of_line;
+  // of lines whose areas are alike
+  std::map<std::vector<std::int64_t>, std::vector<SlopeRow>> known;
+  std::vector<std::vector<std::pair<std::int32_t, algebra::Vec3>>> rows(block.place.size());
   for (int d = 0; d < block.dimension; ++d) {
-    for (int i = 0; i < block.n_nodes[d]; ++i)
-      of_line[d].push_back(line_slope(i, block.n_nodes[d]));
+    const int n = block.n_nodes[d];
+    if (n < 2) continue;
+    for (const auto& place : block.place) {
+      if (place[d] != 0) continue;
+      const auto node = [&](int i) {
+        auto at = place;
+        at[d] = i;
+        return block.node_at(at);
+      };
+      std::vector<double> areas(static_cast<size_t>(n) - 1);
+      const size_t middle = areas.size() / 2;
+      areas[middle] = area(node(static_cast<int>(middle)), node(static_cast<int>(middle) + 1));
+      std::fill(areas.begin(), areas.end(), areas[middle]);
+      std::vector<std::int64_t> key{n};
+      for (int k = 0; k < n - 1; ++k) {
+        if (k >= ends && k < n - 1 - ends) continue;
+        areas[static_cast<size_t>(k)] = area(node(k), node(k + 1));
+        key.push_back(std::llround(areas[static_cast<size_t>(k)] / areas[middle] / same));
+      }
+      auto [found, is_new] = known.try_emplace(key);
+      if (is_new) found->second = slopes_of_line(areas);
+      for (int i = 0; i < n; ++i) {
+        for (const auto& [j, weight] : found->second[static_cast<size_t>(i)])
+          rows[static_cast<size_t>(node(i))].emplace_back(node(j), weight * dual.col(d));
+      }
+    }
   }
   LineSlopes slopes;
   slopes.row.push_back(0);
-  std::vector<std::pair<std::int32_t, algebra::Vec3>> row;
-  for (const auto& place : block.place) {
-    row.clear();
-    for (int d = 0; d < block.dimension; ++d) {
-      auto at = place;
-      for (const auto& [node, weight] : of_line[d][static_cast<size_t>(place[d])]) {
-        at[d] = node;
-        row.emplace_back(block.node_at(at), weight * dual.col(d));
-      }
-    }
+  for (auto& row : rows) {
     std::sort(row.begin(), row.end(),
               [](const auto& p, const auto& q) { return p.first < q.first; });
     for (const auto& [b, weight] : row) {

@@ -55,6 +55,14 @@ void add_row(const meshes::BlockMeasure& measure,
   graph.row.push_back(graph.n_pairs());
 }
 
+/// |S_ab| of a pair.
+double area_of(const scheme::PairGraph& graph, std::int32_t a, std::int32_t b) {
+  const auto begin = graph.neighbour.begin() + graph.row[a],
+             end = graph.neighbour.begin() + graph.row[a + 1];
+  const std::int64_t p = std::lower_bound(begin, end, b) - graph.neighbour.begin();
+  return 0.5 * (graph.C[p] - graph.C[graph.reverse[p]]).norm();
+}
+
 }  // namespace
 
 scheme::PairGraph sbp_graph(const meshes::Mesh& mesh, const Kernel& kernel, double kappa) {
@@ -76,11 +84,12 @@ scheme::PairGraph sbp_graph(const meshes::Mesh& mesh, const Kernel& kernel, doub
     graph.patches.push_back({std::move(patch.name), std::move(patch.nodes), std::move(patch.area),
                              std::move(patch.faces)});
   }
+  link_reverse_pairs(graph);
   graph.dissipation_metric = scheme::metric_of_lines(measure.edges());
-  meshes::LineSlopes slopes = meshes::line_slopes(measure.block(), measure.edges());
+  meshes::LineSlopes slopes = meshes::line_slopes(
+      measure.block(), measure.edges(), [&](auto a, auto b) { return area_of(graph, a, b); });
   graph.slopes = {std::move(slopes.row), std::move(slopes.neighbour), std::move(slopes.weight),
                   scheme::metric_of_lines(measure.edges())};
-  link_reverse_pairs(graph);
   set_classes(graph);
   validate(graph);
   return graph;

@@ -11,12 +11,23 @@ namespace {
 
 using algebra::Archive;
 
+/// Rows: the copy of v that ends a record, which the table of fields does not list.
+template <int Dim>
+void copy_velocities(scheme::Body<Dim>& body) {
+  const int first = scheme::NodeRecord<Dim>::v(body.options.exact_impedance);
+  for (std::int64_t a = 0; a < body.n_stored; ++a) {
+    for (int i = 0; i < Dim; ++i)
+      body.records.set(a, first + i, body.v.at(a, i));
+  }
+}
+
 template <int Dim>
 void archive_body(MovingBody<Dim>& moving, Archive& archive) {
   using scheme::Role;
   scheme::Body<Dim>& body = moving.body;
   scheme::archive_fields(body, Role::unknown, archive);
   scheme::archive_fields(body, Role::derived, archive);
+  if (archive.is_loading() && !body.in_runs()) copy_velocities(body);
   // volumes of cells remember the forces that they added, to body.T too, which is loaded next
   if (archive.is_loading() && !body.cells.empty())
     body.cells.add_forces(body, moving.sweeps.material());

@@ -113,7 +113,8 @@ TEST(BadInputOfFiniteVolumes, SummingByPartsSaysWhatItDoesNotGoWith) {
   const Folder folder;
   folder.write("case.toml", sound_case);
   const std::vector<std::pair<std::string, std::string>> refused = {
-      {"scheme.face_correction=1/6", "set it to 0"}, {"fvm.order=6", "sign-preserving"}};
+      {"scheme.face_correction=1/6", "set it to 0"},
+      {"fvm.order=6 --set scheme.reconstruction=linear", "quartic"}};
   for (const auto& [setting, told] : refused) {
     const auto outcome =
         diptych(folder,

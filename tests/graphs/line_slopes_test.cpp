@@ -20,10 +20,12 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 
 /// G_i = sum_j row(i, j) v_j on a line with a spacing of one.
-Matrix slopes_of_line(int n) {
+Matrix slopes_of(const std::vector<double>& area) {
+  const auto n = static_cast<int>(area.size()) + 1;
+  const auto rows = meshes::slopes_of_line(area);
   Matrix G = Matrix::Zero(n, n);
   for (int i = 0; i < n; ++i) {
-    for (const auto& [j, weight] : meshes::line_slope(i, n)) {
+    for (const auto& [j, weight] : rows[static_cast<size_t>(i)]) {
       G(i, j) += weight;
       G(i, i) -= weight;
     }
@@ -32,8 +34,9 @@ Matrix slopes_of_line(int n) {
 }
 
 /// Jumps between neighbours, for each node of the line as a column.
-Matrix jumps_of_line(int n) {
-  const Matrix G = slopes_of_line(n);
+Matrix jumps_of(const std::vector<double>& area) {
+  const auto n = static_cast<int>(area.size()) + 1;
+  const Matrix G = slopes_of(area);
   Matrix jumps = Matrix::Zero(n - 1, n);
   for (int i = 0; i + 1 < n; ++i) {
     jumps(i, i + 1) += 1;
@@ -41,6 +44,10 @@ Matrix jumps_of_line(int n) {
     jumps.row(i) -= 0.5 * (G.row(i) + G.row(i + 1));
   }
   return jumps;
+}
+
+Matrix jumps_of_line(int n) {
+  return jumps_of(std::vector<double>(static_cast<size_t>(n) - 1, 0.7));
 }
 
 Eigen::VectorXd powers(int n, int k) {
@@ -95,7 +102,12 @@ TEST(LineSlopes, LeaveTheShortestWavesAsTheyAre) {
 /// of an operator, per c/h.
 double least_damping(const fvm::SbpTable& table, int n) {
   const fvm::SbpOperator line(table, n);
-  const Matrix jumps = jumps_of_line(n);
+  std::vector<double> area;
+  for (int i = 0; i + 1 < n; ++i) {
+    for (const auto& entry : line.row(i))
+      if (entry.node == i + 1) area.push_back(entry.Q);
+  }
+  const Matrix jumps = jumps_of(area);
   Matrix A = Matrix::Zero(n, n);
   for (int i = 0; i + 1 < n; ++i) {
     for (const auto& entry : line.row(i)) {
@@ -112,15 +124,15 @@ double least_damping(const fvm::SbpTable& table, int n) {
   return Eigen::SelfAdjointEigenSolver<Matrix>(scaled).eigenvalues()[0];
 }
 
-// Where the areas of all pairs of a line are the same nothing is gained by any motion.
+// Order 6 has other areas farther from the ends than slopes make up for.
 TEST(LineSlopes, TakeEnergyFromEveryMotion) {
   for (int n = 3; n <= 7; ++n)
     EXPECT_GT(least_damping(fvm::sbp_line_table(n), n), -1e-14) << n;
-  for (const int n : {8, 12, 24}) {
+  for (const int n : {8, 9, 12, 24}) {
     EXPECT_GT(least_damping(fvm::sbp_table(2), n), -1e-14) << n;
-    EXPECT_GT(least_damping(fvm::sbp_table(4), n), -2e-5) << n;
+    EXPECT_GT(least_damping(fvm::sbp_table(4), n), -1e-14) << n;
   }
-  EXPECT_GT(least_damping(fvm::sbp_table(6), 24), -5e-4);
+  EXPECT_GT(least_damping(fvm::sbp_table(6), 24), -1e-3);
 }
 
 /// Of a sheared and stretched box, at all nodes.
@@ -131,7 +143,8 @@ void expect_slopes_of_plain_sums() {
     X[0] += 0.3 * X[1];
   const meshes::StructuredBlock block = meshes::structured_block(mesh, {});
   const auto [row, neighbour, weight] =
-      meshes::line_slopes(block, meshes::cell_edges(mesh, block, {}));
+      meshes::line_slopes(block, meshes::cell_edges(mesh, block, {}),
+                          [](auto a, auto b) { return a % 2 == 0 || b > 40 ? 1 : 0.7; });
   const scheme::SlopeRows rows{row, neighbour, weight};
   const scheme::SlopeGraph<3> graph(rows, arrangement);
   algebra::TableShape shape{arrangement, rows.reach() + algebra::n_lanes, false};

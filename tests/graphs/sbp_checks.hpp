@@ -54,19 +54,24 @@ inline double divergence_error(const scheme::PairGraph& graph) {
 
 /// Least eigenvalue, in c/h, of the symmetric part of what the jumps of linear reconstructions
 /// dissipate (notes 4.4): with areas s_ab sum_b s_ab (v_b - v_a - 1/2 (G_a + G_b) X_ab)/Omega_a.
-inline double least_dissipation(const scheme::PairGraph& graph) {
+/// @param with_slopes  G of the lines instead of dF/dt
+inline double least_dissipation(const scheme::PairGraph& graph, bool with_slopes = false) {
   const auto n = static_cast<int>(graph.n_nodes());
   Eigen::MatrixXd G[3], D = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::MatrixXd& by : G)
     by = Eigen::MatrixXd::Zero(n, n);
-  for (int a = 0; a < n; ++a) {
-    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-      for (int i = 0; i < 3; ++i) {
-        const double weight = 0.5 * graph.C[p][i] / graph.Omega[a];
-        G[i](a, graph.neighbour[p]) += weight;
-        G[i](a, a) -= weight;
-      }
+  const auto add = [&](int a, int b, const Vec3& weight) {
+    for (int i = 0; i < 3; ++i) {
+      G[i](a, b) += weight[i];
+      G[i](a, a) -= weight[i];
     }
+  };
+  for (int a = 0; a < n; ++a) {
+    for (std::int64_t p = graph.row[a]; !with_slopes && p < graph.row[a + 1]; ++p)
+      add(a, graph.neighbour[p], 0.5 * graph.C[p] / graph.Omega[a]);
+    for (std::int64_t p = with_slopes ? graph.slopes.row[a] : 0;
+         with_slopes && p < graph.slopes.row[a + 1]; ++p)
+      add(a, graph.slopes.neighbour[p], graph.slopes.weight[p]);
   }
   for (int a = 0; a < n; ++a) {
     for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {

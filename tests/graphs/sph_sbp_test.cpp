@@ -142,6 +142,17 @@ TEST(SphSbp, DissipatesBetweenNearestNeighboursWhereItsSignIsNearlyKnown) {
   EXPECT_LT(nearest, 0);
 }
 
+// Areas of pairs are not all the same near the ends of lines.
+TEST(SphSbp, LosesWithSlopesAlongLinesWhereItsSignIsNearlyKnown) {
+  for (const int cells : {4, 6}) {
+    const double side = cells;
+    const scheme::PairGraph graph = sph::build_graph(
+        meshes::box(CellType::hexahedron, {0, 0, 0}, {side, side, side}, {cells, cells, cells}),
+        summing(1.2));
+    EXPECT_GT(least_dissipation(graph, true), -0.002) << cells;
+  }
+}
+
 std::string refusal(const meshes::Mesh& mesh, const sph::Options& options) {
   try {
     sph::build_graph(mesh, options);

@@ -68,9 +68,10 @@ TEST_P(Dissipation, NumericalOverPhysicalFallsAtOrderTwoAndMore) {
   }
 }
 
-/// Of operators that sum by parts the sign is not that of every pair (notes 4.3, 4.4): it is that
-/// of the sum, and what it takes falls faster than the error and is less than with second order.
-TEST_P(Dissipation, OfTheDefaultsTakesEnergyAndLessThanThoseOfSecondOrder) {
+/// Of operators that sum by parts the sign is not that of every pair (notes 4.3, 4.4): with linear
+/// reconstructions it is that of the sum, and what it takes falls faster than the error. With the
+/// quartic ones of the default less than a hundredth of what second order takes is left.
+TEST_P(Dissipation, OfTheDefaultsIsAHundredthOfThatOfSecondOrder) {
   for (const char* name : {"swinging-cube-ve2-hex", "shear-wave-plane-ve2"}) {
     SCOPED_TRACE(name);
     const auto share = [&](const std::vector<std::string>& operators, int level) {
@@ -78,12 +79,17 @@ TEST_P(Dissipation, OfTheDefaultsTakesEnergyAndLessThanThoseOfSecondOrder) {
       set.insert(set.end(), operators.begin(), operators.end());
       Scene scene = scene_of_case(GetParam(), name, set, level);
       const Dissipated sum = dissipated_by(*scene.solver, scene.setup.time.end, 1e-15 * 17e6);
-      EXPECT_GT(sum.numerical, 0);
       return sum.numerical / sum.physical;
     };
-    const double coarse = share({}, 1), fine = share({}, 2);
+    const std::vector<std::string> linear{"scheme.reconstruction=linear"};
+    const double coarse = share(linear, 1), fine = share(linear, 2);
+    EXPECT_GT(fine, 0);
     EXPECT_GE(std::log2(coarse / fine), 2.3);
-    EXPECT_LE(fine, share({"sph.gradient=corrected", "fvm.stencil=edge"}, 2));
+    const double second = share({"sph.gradient=corrected", "fvm.stencil=edge"}, 2);
+    EXPECT_LE(fine, second);
+    const double quartic = share({}, 2);
+    EXPECT_GT(quartic, 0);
+    EXPECT_LE(quartic, 0.01 * second) << second;
   }
 }
 

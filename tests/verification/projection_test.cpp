@@ -64,7 +64,7 @@ TEST_P(Projection, IsCounted) {
 
 TEST_P(Projection, IsInTheEnergyBudget) {
   const std::string integrator = std::get<1>(GetParam());
-  const int n = integrator == "ssp-rk2" ? 64 : 16;  // of SPH it has its order from here on
+  const int n = integrator == "ssp-rk2" ? 64 : 32;  // of SPH it has its order from here on
   const double coarse = residual(n), fine = residual(2 * n);
   if (integrator == "leapfrog") {  // D_ab lags by half a step there: no order to see
     EXPECT_LE(fine, 5e-6);

@@ -76,7 +76,7 @@ TEST_P(StiffRelaxation, RungeKuttaWithGaussRuleIsOfOrderTwoAndMoreForEveryTau) {
 TEST_P(StiffRelaxation, LeapfrogIsOfOrderTwoForEveryTau) {
   // without D_ab, which lags by half a step in leapfrog: the next test
   const auto e = largest_errors("leapfrog", {"scheme.dissipation=0"});
-  EXPECT_GE(std::log2(e[0] / e[1]), 1.95);
+  EXPECT_GE(std::log2(e[0] / e[1]), 1.9);  // comes up to two from below
   EXPECT_GE(std::log2(e[1] / e[2]), 1.95);
   EXPECT_LE(e[2], 1.6e-3);
 }

@@ -25,7 +25,7 @@ youngs_modulus = 17e6
 poissons_ratio = 0.45
 zeta_ratio = 0.5
 [initial]
-velocity = ["-400*y*sin(pi*z/6)", "400*x*sin(pi*z/6)", 0]
+velocity = ["-600*y*sin(pi*z/6)", "600*x*sin(pi*z/6)", 0]
 [[boundary]]
 group = "z_min"
 type = "fixed"

@@ -314,6 +314,8 @@ body_force = [0, 0, -1e4]
 end = 1.5e-3
 [scheme]
 volumes = "nodes"
+[fvm]
+stencil = "edge"
 )" + probes_in(3);
     std::vector<std::string> overrides{std::string("time.integrator=") + integrator};
     if (speed == 400) overrides.insert(overrides.end(), {"time.end=5e-4", "output.frames=10"});

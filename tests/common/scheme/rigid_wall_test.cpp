@@ -122,7 +122,8 @@ TEST_P(RigidWall, MomentumIsTheImpulseOfTheWallAndEnergyIsOnlyTaken) {
 
 TEST_P(RigidWall, EnergyBudgetClosesWithTheStep) {
   const auto residual = [&](double factor) {
-    Scene s = scene({}, factor);
+    // with the quartic reconstruction next to nothing is left that could fall
+    Scene s = scene({"scheme.reconstruction=linear"}, factor);
     const scheme::Balance start = s.solver->balance();
     tests::run_to(*s.solver, s.setup.time.end);
     const scheme::Balance end = s.solver->balance();
