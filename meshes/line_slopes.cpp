@@ -109,40 +109,46 @@ LineSlopes line_slopes(const StructuredBlock& block,
                        const Mat3& edges,
                        const std::function<double(std::int32_t, std::int32_t)>& area) {
   const Mat3 dual = edges.inverse().transpose();  // columns g_d with g_d . e_k = delta_dk
-  // of lines whose areas are alike
-  std::map<std::vector<std::int64_t>, std::vector<SlopeRow>> known;
-  std::vector<std::vector<std::pair<std::int32_t, algebra::Vec3>>> rows(block.place.size());
+  std::map<std::vector<std::int64_t>, std::vector<SlopeRow>> known;  // lines with such areas
+  std::vector<std::array<const SlopeRow*, 3>> of_node(block.place.size(),
+                                                      {nullptr, nullptr, nullptr});
   for (int d = 0; d < block.dimension; ++d) {
     const int n = block.n_nodes[d];
-    if (n < 2) continue;
     for (const auto& place : block.place) {
-      if (place[d] != 0) continue;
+      if (place[d] != 0 || n < 2) continue;
       const auto node = [&](int i) {
         auto at = place;
         at[d] = i;
         return block.node_at(at);
       };
-      std::vector<double> areas(static_cast<size_t>(n) - 1);
-      const size_t middle = areas.size() / 2;
-      areas[middle] = area(node(static_cast<int>(middle)), node(static_cast<int>(middle) + 1));
-      std::fill(areas.begin(), areas.end(), areas[middle]);
+      const int middle = (n - 1) / 2;
+      std::vector<double> areas(static_cast<size_t>(n) - 1, area(node(middle), node(middle + 1)));
       std::vector<std::int64_t> key{n};
       for (int k = 0; k < n - 1; ++k) {
         if (k >= ends && k < n - 1 - ends) continue;
-        areas[static_cast<size_t>(k)] = area(node(k), node(k + 1));
-        key.push_back(std::llround(areas[static_cast<size_t>(k)] / areas[middle] / same));
+        const double ratio = area(node(k), node(k + 1)) / areas[static_cast<size_t>(middle)];
+        areas[static_cast<size_t>(k)] *= k == middle ? 1 : ratio;
+        key.push_back(std::llround(ratio / same));
       }
       auto [found, is_new] = known.try_emplace(key);
       if (is_new) found->second = slopes_of_line(areas);
-      for (int i = 0; i < n; ++i) {
-        for (const auto& [j, weight] : found->second[static_cast<size_t>(i)])
-          rows[static_cast<size_t>(node(i))].emplace_back(node(j), weight * dual.col(d));
-      }
+      for (int i = 0; i < n; ++i)
+        of_node[static_cast<size_t>(node(i))][d] = &found->second[static_cast<size_t>(i)];
     }
   }
   LineSlopes slopes;
   slopes.row.push_back(0);
-  for (auto& row : rows) {
+  std::vector<std::pair<std::int32_t, algebra::Vec3>> row;
+  for (size_t a = 0; a < of_node.size(); ++a) {
+    row.clear();
+    for (int d = 0; d < block.dimension; ++d) {
+      if (of_node[a][d] == nullptr) continue;
+      auto at = block.place[a];
+      for (const auto& [j, weight] : *of_node[a][d]) {
+        at[d] = j;
+        row.emplace_back(block.node_at(at), weight * dual.col(d));
+      }
+    }
     std::sort(row.begin(), row.end(),
               [](const auto& p, const auto& q) { return p.first < q.first; });
     for (const auto& [b, weight] : row) {

@@ -32,6 +32,7 @@ constexpr double of_plane = 0.64;        ///< of the nodes of 3-D
 constexpr double of_mixed = 48;          ///< stored pair
 constexpr double exact_impedance = 200;  ///< a node
 constexpr double frames = 128;           ///< a node, of the objective reconstruction
+constexpr double lines = 420;            ///< a node, of slopes along lines
 constexpr double cell_bytes = 30;
 constexpr double volume_corner = 70;  ///< of a cell that carries pressure
 constexpr double volume_node = 60;    ///< of a node of such
@@ -339,6 +340,8 @@ MemoryEstimate estimate_memory(const cases::Case& setup, const std::string& meth
   const double n_class_pairs =
       is_regular ? classes_of(lattice, places) * size.pairs / size.nodes : 0;
   size.bytes = bytes_of(setup, method, size, n_class_pairs);
+  const bool has_lines = is_sph ? sums_on_lattice(setup) : sums_along_lines(setup);
+  if (has_lines) size.bytes += size.nodes * lines * (lattice.dimension == 2 ? of_plane : 1);
   return size;
 }
 
