@@ -1,6 +1,7 @@
 #include "fvm/sbp_graph.hpp"
 
 #include "common/scheme/graph/classify_rows.hpp"
+#include "common/scheme/graph/dissipation_area.hpp"
 #include "fvm/sbp_operator.hpp"
 #include "meshes/block_measure.hpp"
 #include "meshes/line_slopes.hpp"
@@ -59,14 +60,6 @@ void add_row(const meshes::BlockMeasure& measure,
   graph.row.push_back(graph.n_pairs());
 }
 
-/// |S_ab| of a pair.
-double area_of(const scheme::PairGraph& graph, std::int32_t a, std::int32_t b) {
-  const auto begin = graph.neighbour.begin() + graph.row[a],
-             end = graph.neighbour.begin() + graph.row[a + 1];
-  const std::int64_t p = std::lower_bound(begin, end, b) - graph.neighbour.begin();
-  return 0.5 * (graph.C[p] - graph.C[graph.reverse[p]]).norm();
-}
-
 }  // namespace
 
 scheme::PairGraph sbp_graph(const Mesh& mesh, int order) {
@@ -91,7 +84,7 @@ scheme::PairGraph sbp_graph(const Mesh& mesh, int order) {
   set_classes(graph);
   graph.commutes = true;
   meshes::LineSlopes slopes = meshes::line_slopes(
-      measure.block(), measure.edges(), [&](auto a, auto b) { return area_of(graph, a, b); });
+      measure.block(), measure.edges(), [&](auto a, auto b) { return area_between(graph, a, b); });
   graph.slopes = {std::move(slopes.row), std::move(slopes.neighbour), std::move(slopes.weight),
                   scheme::metric_of_lines(measure.edges())};
   validate(graph);

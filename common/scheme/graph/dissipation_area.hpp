@@ -3,6 +3,8 @@
 
 #include "common/scheme/graph/pair_graph.hpp"
 
+#include <algorithm>
+
 namespace diptych::scheme {
 
 /// |S_ab|, S_ab = (C_ab - C_ba)/2, of pairs whose area points from a to b; others, which wide
@@ -24,6 +26,14 @@ namespace diptych::scheme {
 /// @param metric  PairGraph::dissipation_metric
 inline double dissipation_area(const Vec3& S_ab, const Vec3& X_ab, const Mat3& metric) {
   return S_ab.dot(X_ab) > 0 && (metric * X_ab).squaredNorm() <= 1 ? S_ab.norm() : 0;
+}
+
+/// |S_ab| of the pair of neighbours a and b  [m^2]
+inline double area_between(const PairGraph& graph, std::int32_t a, std::int32_t b) {
+  const auto first = graph.neighbour.begin();
+  const auto found = std::lower_bound(first + graph.row[a], first + graph.row[a + 1], b);
+  const std::int64_t p = found - first;
+  return 0.5 * (graph.C[p] - graph.C[graph.reverse[p]]).norm();
 }
 
 }  // namespace diptych::scheme
