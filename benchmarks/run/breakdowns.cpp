@@ -66,17 +66,23 @@ int exit_code_of_study(const std::vector<report::Breakdown>& breakdowns,
                    .c_str(),
                stderr);
   }
-  bool is_sound = breakdowns.empty();
-  for (const io::RunSummary& run : runs) {
-    if (run.status != "unsound") continue;
-    is_sound = false;
-    std::fputs(fmt::format("diptych: {} level {} is unsound: from t = {:.4g} s on cells are inside "
-                           "out\n",
-                           run.column(), run.level, run.inverted_from.value_or(run.end_time))
-                   .c_str(),
+  bool is_sound = breakdowns.empty(), is_met = true;
+  const auto say = [](const io::RunSummary& run, const std::string& what) {
+    std::fputs(fmt::format("diptych: {} level {} {}\n", run.column(), run.level, what).c_str(),
                stderr);
+  };
+  for (const io::RunSummary& run : runs) {
+    if (run.status == "unsound") {
+      is_sound = false;
+      say(run, fmt::format("is unsound: from t = {:.4g} s on cells are inside out",
+                           run.inverted_from.value_or(run.end_time)));
+    }
+    if (run.unmet.empty()) continue;
+    is_met = false;
+    say(run, "does not hold what the case asks: " + run.unmet);
   }
-  return is_sound ? 0 : static_cast<int>(base::ExitCode::breakdown);
+  if (!is_sound) return static_cast<int>(base::ExitCode::breakdown);
+  return static_cast<int>(is_met ? base::ExitCode::done : base::ExitCode::bound_not_met);
 }
 
 }  // namespace diptych::harness

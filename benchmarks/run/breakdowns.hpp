@@ -19,8 +19,9 @@ std::string breakdown_message(const io::RunSummary& run);
 /// A table and, below it, what each run said; empty where there is none.
 std::string breakdown_table(const std::vector<report::Breakdown>& breakdowns);
 
-/// 130 after an interrupt, else 3 after a breakdown or an unsound end, else 0, with lines on the
-/// standard error stream. @param to_go_on  what the user finds and does after an interrupt
+/// 130 after an interrupt, else 3 after a breakdown or an unsound end, else 5 where a run does not
+/// hold what its case asks, else 0, with lines on the standard error stream. @param to_go_on  what
+/// the user finds and does after an interrupt
 int exit_code_of_study(const std::vector<report::Breakdown>& breakdowns,
                        const std::vector<io::RunSummary>& runs,
                        const std::string& to_go_on);

@@ -5,8 +5,22 @@
 #include "meshes/cell_checks.hpp"
 
 #include <filesystem>
+#include <limits>
 
 namespace diptych::harness {
+
+namespace {
+
+/// The share of the energy that numerical dissipation may take: what the case says, else half of it
+/// unless it has a limiter of shocks, which dissipate.
+double largest_loss(const cases::Case& setup) {
+  if (setup.guards.numerical_dissipation > 0) return setup.guards.numerical_dissipation;
+  const std::string& limiter = setup.scheme.limiter;
+  const bool has_shocks = limiter != "none" && limiter != "sign-preserving";
+  return has_shocks ? std::numeric_limits<double>::infinity() : 0.5;
+}
+
+}  // namespace
 
 CaseObservers::CaseObservers(const cases::Case& setup,
                              const RunOptions& options,
@@ -33,7 +47,7 @@ CaseObservers::CaseObservers(const cases::Case& setup,
   if (setup.guards.inverted_cells == "stop") cell_guard_.emplace(cells_);
   if (setup.scheme.energy_budget) {
     energy_guard_.emplace(
-        scene.solver->balance(), setup.guards.energy_residual,
+        scene.solver->balance(), setup.guards.energy_residual, largest_loss(setup),
         run::energy_of_rounding(setup.material.density, scene.solver->undeformed_speed(),
                                 scene.graph.Omega));
   }

@@ -61,7 +61,8 @@ std::map<std::string, double> run_figures(const io::RunSummary& run,
     figures[probe.name + ", final"] = probe.final_value;
     figures[probe.name + ", least"] = probe.least;
     figures[probe.name + ", greatest"] = probe.greatest;
-    if (probe.n_periods > 0) figures[probe.name + ", period"] = probe.period;
+    figures[probe.name + ", period"] =
+        probe.n_periods > 0 ? probe.period : std::numeric_limits<double>::quiet_NaN();
   }
   return figures;
 }
@@ -99,6 +100,35 @@ std::vector<AskedBound> asked_of(const io::RunSummary& run,
   return asked;
 }
 
+namespace {
+
+/// "numerical share 0.02, asked <= 0.01; ...", empty where all bounds hold.
+std::string missed(const std::vector<AskedBound>& all) {
+  std::vector<std::string> texts;
+  for (const AskedBound& asked : all) {
+    if (!asked.is_met()) texts.push_back(asked.text());
+  }
+  return base::joined(texts, "; ");
+}
+
+}  // namespace
+
+std::string unmet_of(const cases::ExpectCase& expect,
+                     const io::RunSummary& run,
+                     const std::vector<io::HistoryRow>& history) {
+  if (!expect.is_given) return "";
+  if (!expect.stops.empty())
+    return fmt::format("came to its end, asked to be stopped with \"{}\"", expect.stops);
+  return missed(asked_of(run, history, expect.holds));
+}
+
+void check_figures(const cases::Case& setup) {
+  io::RunSummary run;
+  for (const cases::ProbeCase& probe : setup.probes)
+    run.quantities.emplace_back().name = probe.name;
+  asked_of(run, {}, setup.expect.holds);
+}
+
 const char* word_of(Outcome outcome) {
   switch (outcome) {
     case Outcome::stable:
@@ -120,12 +150,8 @@ Judgement judged(const io::RunSummary& run,
     return {run.status == "breakdown" ? Outcome::stopped : Outcome::refused,
             message.substr(0, message.find('\n'))};
   }
-  std::vector<std::string> missed;
-  for (const AskedBound& asked : asked_of(run, history, bounds)) {
-    if (!asked.is_met()) missed.push_back(asked.text());
-  }
-  if (missed.empty()) return {Outcome::stable, ""};
-  return {Outcome::wrong, base::joined(missed, "; ")};
+  const std::string unmet = missed(asked_of(run, history, bounds));
+  return {unmet.empty() ? Outcome::stable : Outcome::wrong, unmet};
 }
 
 }  // namespace diptych::harness

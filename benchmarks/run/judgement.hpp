@@ -45,6 +45,16 @@ std::vector<AskedBound> asked_of(const io::RunSummary& run,
                                  const std::vector<io::HistoryRow>& history,
                                  const std::vector<cases::BoundCase>& bounds);
 
+/// What the pass numbers of a case ([expect]) ask of a run that came to its end and does not hold,
+/// as a text for people; empty where all does or the case asks nothing.
+/// @throws base::InputError for a figure that the run does not have
+std::string unmet_of(const cases::ExpectCase& expect,
+                     const io::RunSummary& run,
+                     const std::vector<io::HistoryRow>& history);
+
+/// @throws base::InputError for a figure in the pass numbers of a case that its runs will not have
+void check_figures(const cases::Case& setup);
+
 enum class Outcome {
   stable,   ///< came to its end, every bound holds
   stopped,  ///< code 3

@@ -119,8 +119,10 @@ bool contains(const std::vector<std::string>& paths, const fs::path& path) {
 
 bool is_finished(const fs::path& run) {
   const std::string text = io::read_file((run / "summary.json").string());
-  return text.find("\"status\": \"done\"") != std::string::npos ||
-         text.find("\"status\": \"unsound\"") != std::string::npos;
+  for (const char* status : {"done", "unmet", "unsound"}) {
+    if (text.find(fmt::format("\"status\": \"{}\"", status)) != std::string::npos) return true;
+  }
+  return false;
 }
 
 /// Nothing where the run did not finish.

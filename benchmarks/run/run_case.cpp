@@ -4,6 +4,7 @@
 #include "benchmarks/run/case_observers.hpp"
 #include "benchmarks/run/checkpoints.hpp"
 #include "benchmarks/run/interruption.hpp"
+#include "benchmarks/run/judgement.hpp"
 #include "benchmarks/run/memory.hpp"
 #include "benchmarks/run/provenance.hpp"
 #include "benchmarks/run/ranked_runs.hpp"
@@ -110,6 +111,7 @@ class CaseRun {
 
 CaseRun::CaseRun(const cases::Case& setup, const RunOptions& options)
     : setup_(setup), options_(options), folder_(options.directory) {
+  check_figures(setup);
   parallel::set_threads(options.threads);
   scene_ = scene_of_run(setup, options);
   identify();
@@ -264,7 +266,11 @@ void CaseRun::finish() {
   result_.final_state = simulation_->take_state();
   result_.order = std::move(scene_->mesh.order);
   result_.graph = std::move(scene_->graph);
-  if (s.status == "done" && s.most_inverted_cells > 0) s.status = "unsound";
+  if (s.status == "done") {
+    s.unmet = unmet_of(setup_.expect, s, result_.history);
+    if (!s.unmet.empty()) s.status = "unmet";
+    if (s.most_inverted_cells > 0) s.status = "unsound";
+  }
   if (s.is_ended()) {
     s.measures =
         measured(options_.measures, {result_.graph, result_.final_state, observers_->errors()});

@@ -121,7 +121,8 @@ StudyRuns runs_of_study(const StudyRequest& request,
     WorkCurve& curve = runs.curves[number % runs.curves.size()];
     if (run.status != "breakdown") {
       add_to_curve(run, *plan[number].setup, curve);
-      if (run.status == "unsound" && plan[number].repetition == 1) runs.unsound.push_back(run);
+      if ((run.status == "unsound" || !run.unmet.empty()) && plan[number].repetition == 1)
+        runs.unsound.push_back(run);
     } else if (plan[number].repetition == 1) {
       add_breakdown(run, curve.variant, runs);
     }

@@ -34,7 +34,7 @@ struct StudyRuns {
   std::vector<WorkCurve> curves;              ///< those with a run at least
   std::string field;                          ///< whose error is shown, or empty
   std::vector<report::Breakdown> breakdowns;  ///< with the variant in the message
-  std::vector<io::RunSummary> unsound;        ///< of the runs in the curves
+  std::vector<io::RunSummary> unsound;        ///< or unmet, of the runs in the curves
 };
 
 /// Runs all variants, methods and levels. Where the case has an exact solution, prints the table of

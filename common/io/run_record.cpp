@@ -384,6 +384,7 @@ std::string to_json(const RunSummary& summary) {
   };
   if (!summary.references.empty()) file["references"] = references_json(summary.references);
   if (!summary.variant.empty()) file["variant"] = summary.variant;
+  if (!summary.unmet.empty()) file["unmet"] = summary.unmet;
   if (summary.failure) file["failure"] = failure_json(*summary.failure);
   // Texts come from the user's case: bytes that are not UTF-8 become U+FFFD instead of an
   // exception.
@@ -410,6 +411,7 @@ RunSummary summary_from_json(const std::string& text, const std::string& path) {
   summary.provenance = read_provenance(file.section("provenance"));
   if (file.has("references")) summary.references = read_references(file.section("references"));
   if (file.has("variant")) summary.variant = file.text("variant");
+  if (file.has("unmet")) summary.unmet = file.text("unmet");
   if (file.has("failure")) summary.failure = read_failure(file.section("failure"));
   return summary;
 }

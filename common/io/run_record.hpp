@@ -85,9 +85,11 @@ struct RunSummary {
   std::int64_t projections = 0, resynchronisations = 0, limited_pairs = 0;
   int threads = 1, ranks = 1;
   std::string precision = "double", integrator;
-  /// running, done, unsound, step limit, interrupted, breakdown, failed. Unsound: it came to its
-  /// end with cells inside out on the way, which the case allows (guards.inverted_cells = "warn").
+  /// running, done, unmet, unsound, step limit, interrupted, breakdown, failed. Unmet: it came to
+  /// its end, and something that its case asks ([expect]) does not hold. Unsound: the same with
+  /// cells inside out on the way, which the case allows (guards.inverted_cells = "warn").
   std::string status = "done";
+  std::string unmet;  ///< "numerical share 0.02, asked <= 0.01", or empty
   std::optional<RunFailure> failure;
   std::string arrangement;  ///< of pairs in the sweeps: runs or rows
   double end_time = 0;
@@ -125,7 +127,7 @@ struct RunSummary {
 
   std::string column() const { return column_name(method, variant); }
   /// It is of the whole time of its case, sound or not.
-  bool is_ended() const { return status == "done" || status == "unsound"; }
+  bool is_ended() const { return status == "done" || status == "unmet" || status == "unsound"; }
 };
 
 /// JSON text with the key names of the contract: method, case, level, ..., steps, stages,
@@ -134,7 +136,8 @@ struct RunSummary {
 /// involution{H,J}, min_jacobian, cells{least_J,most_inverted,inverted_from}, state_hash,
 /// provenance{...}; where the case has values from elsewhere references{name{probe,source,times,
 /// until,greatest,greatest_at,rms,at_end,uncertainty}}; where the run was not finished,
-/// failure{message,time,step,node,place}; of a variant its name.
+/// failure{message,time,step,node,place}; where pass numbers of the case do not hold, unmet; of a
+/// variant its name.
 std::string to_json(const RunSummary& summary);
 
 /// @throws base::InputError on malformed text, a missing key, NaN

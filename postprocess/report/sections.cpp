@@ -67,7 +67,8 @@ std::string panel(const RunSummary& run, const std::vector<std::string>& fields)
   const std::string warning =
       run.status == "done"
           ? ""
-          : fmt::format("<p class=\"warning\">this run ended as: {}</p>\n", escaped(run.status));
+          : fmt::format("<p class=\"warning\">this run ended as: {}{}</p>\n", escaped(run.status),
+                        run.unmet.empty() ? "" : " (" + escaped(run.unmet) + ")");
   return fmt::format(
       "<article {}>\n<h3>{} <small>level {}</small></h3>\n{}{}<dl>\n{}</dl>\n"
       "</article>\n",

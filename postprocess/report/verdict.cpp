@@ -219,6 +219,9 @@ Sentences warnings(const StudyReport& study) {
     if (!run.is_ended() && !is_told)
       sentences.push_back(fmt::format("{} did not come to its end on level {}: {}.", name,
                                       run.level, escaped(run.status)));
+    if (!run.unmet.empty())
+      sentences.push_back(fmt::format("{} does not hold what the case asks on level {}: {}.", name,
+                                      run.level, escaped(run.unmet)));
     if (run.inverted_from)
       sentences.push_back(
           fmt::format("Cells of {} lie inside out from t = {} s on: what comes after "

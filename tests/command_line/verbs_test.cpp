@@ -45,6 +45,27 @@ TEST(Verbs, RunLeavesSummaryHistoryAndFields) {
   }
 }
 
+TEST(Verbs, RunSaysWhatItsCaseAsksAndDoesNotHold) {
+  const Folder folder;
+  const std::string run =
+      "run vibrating-bar --method fvm --quiet --no-fields --threads 1 --set time.end=0.002 ";
+  const auto unmet = diptych(folder, run + "--out unmet --set 'expect.holds=[\"steps <= 1\"]'");
+  EXPECT_EQ(unmet.exit_code, 5) << unmet.text;
+  EXPECT_THAT(unmet.text,
+              HasSubstr("diptych: fvm level 0 does not hold what the case asks: steps "));
+  EXPECT_THAT(unmet.text, HasSubstr("status unmet"));
+  const auto path = folder.path() / "unmet" / "fvm" / "summary.json";
+  const auto summary = io::summary_from_json(text_of(path), "summary.json");
+  EXPECT_EQ(summary.status, "unmet");
+  EXPECT_THAT(summary.unmet, HasSubstr(", asked <= 1"));
+  const auto met = diptych(folder, run + "--out met --set 'expect.holds=[\"steps >= 1\"]'");
+  EXPECT_EQ(met.exit_code, 0) << met.text;
+  const auto wrong = diptych(folder, run + "--out wrong --set 'expect.holds=[\"stepps <= 1\"]'");
+  EXPECT_EQ(wrong.exit_code, 2) << wrong.text;
+  EXPECT_THAT(wrong.text, HasSubstr("did you mean 'steps'?"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "wrong")) << "before anything is written";
+}
+
 TEST(Verbs, RunWarnsWhereCellsHaveTurnedInsideOut) {
   const Folder folder;
   const std::string run =

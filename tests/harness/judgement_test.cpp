@@ -65,6 +65,29 @@ TEST_F(JudgedRun, IsStoppedWithTheFirstLineOfItsMessage) {
   EXPECT_EQ(outcome(), Outcome::refused);
 }
 
+TEST_F(JudgedRun, SaysWhatItsCaseAsksAndDoesNotHold) {
+  cases::ExpectCase expect;
+  expect.holds = {bound("kinetic growth", true, 1)};
+  EXPECT_EQ(unmet_of(expect, run, history), "") << "a case without [expect]";
+  expect.is_given = true;
+  EXPECT_EQ(unmet_of(expect, run, history), "kinetic growth 3, asked <= 1");
+  expect.holds = {bound("kinetic growth", true, 3)};
+  EXPECT_EQ(unmet_of(expect, run, history), "");
+  expect.stops = "cells are inside out";
+  EXPECT_THAT(unmet_of(expect, run, history), HasSubstr("asked to be stopped"));
+}
+
+TEST_F(JudgedRun, HasItsFiguresCheckedBeforeItBegins) {
+  cases::Case setup;
+  setup.probes.emplace_back().name = "tip";
+  for (const char* figure : {"tip, greatest", "tip, period", "numerical share", "kinetic growth"}) {
+    setup.expect.holds = {bound(figure, true, 1)};
+    EXPECT_NO_THROW(check_figures(setup)) << figure;
+  }
+  setup.expect.holds = {bound("tipp, greatest", true, 1)};
+  EXPECT_THROW(check_figures(setup), base::InputError);
+}
+
 TEST_F(JudgedRun, KnowsTheNamesOfItsFigures) {
   try {
     judged(run, history, {bound("tip, finall", true, 1)});

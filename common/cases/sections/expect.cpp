@@ -35,7 +35,8 @@ SectionEntry expect_section() {
   return {{"expect", false,
            "The pass numbers of a case, which the regression asks of every run on level 0 with "
            "and without a baseline: it comes to its end, the energy residual is at most 1e-2, no "
-           "cell is inside out at any output, and the bounds below hold."},
+           "cell is inside out at any output, and the bounds below hold. A run on any level whose "
+           "pass numbers do not hold has the status \"unmet\" and code 5."},
           keys.keys(),
           [keys](Reading& reading, Case& setup) {
             if (reading.table("expect") == nullptr) return;

@@ -16,6 +16,15 @@ SectionEntry guards_section() {
                "the first 20 steps of a body at rest. Needs "
                "scheme.energy_budget.",
                "0.02"})
+          .key("numerical_dissipation", &GuardsCase::numerical_dissipation,
+               optional({"-", Range{0, 1, false, true},
+                         "The run is stopped (code 3) where numerical dissipation has taken more "
+                         "than this share of the largest energy so far, at the same steps but for "
+                         "the first 20 after a state of rest: what is left is no solution of the "
+                         "equations. Needs scheme.energy_budget.",
+                         "0.05",
+                         "optional; 0.5, and no bound with a limiter of shocks (all but \"none\" "
+                         "and \"sign-preserving\"): shocks dissipate"}))
           .key("involution", &GuardsCase::involution,
                {"-", above(0),
                 "The run is stopped (code 3) where |H - cof F| or |J - det F| of a node is more "

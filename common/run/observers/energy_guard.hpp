@@ -1,6 +1,8 @@
 #pragma once
 /// Stops a run whose energy budget does not close, or whose numerical dissipation gives energy in
 /// place of taking it: an unstable run makes energy of nothing long before a J or a value shows it.
+/// Stops one, too, whose numerical dissipation has taken most of the energy: what is left is no
+/// solution.
 /// Test: tests/common/run/guards_test.cpp
 
 #include "common/run/energy_record.hpp"
@@ -15,13 +17,20 @@ class EnergyGuard : public Observer {
   /// @param initial       of the body at t = 0
   /// @param threshold     largest admissible |residual|, and dissipation below zero, as a share of
   ///                      the largest energy so far
+  /// @param largest_loss  largest admissible numerical dissipation, the same; infinite: any
   /// @param least_energy  J, what rounding makes of the energies: a body that holds no more is at
   ///                      rest, and as much of any residual is not judged
-  EnergyGuard(const scheme::Balance& initial, double threshold, double least_energy)
-      : energy_(initial), threshold_(threshold), least_energy_(least_energy) {}
+  EnergyGuard(const scheme::Balance& initial,
+              double threshold,
+              double largest_loss,
+              double least_energy)
+      : energy_(initial),
+        threshold_(threshold),
+        largest_loss_(largest_loss),
+        least_energy_(least_energy) {}
 
-  /// A residual that is not finite is refused at once. Others are not judged while the body is at
-  /// rest, nor in the first steps after it: see steps_of_start.
+  /// A residual that is not finite is refused at once. Others, and what numerical dissipation took,
+  /// are not judged while the body is at rest, nor in the first steps after it: see steps_of_start.
   /// @throws base::BreakdownError
   void at_check(const Check& check) override;
   void at_output(const Output& output) override {
@@ -38,8 +47,12 @@ class EnergyGuard : public Observer {
   static constexpr std::int64_t steps_of_start = 20;
 
  private:
+  /// @throws base::BreakdownError
+  void refuse_gain(const Check& check, double gained) const;
+  void refuse_loss(const Check& check, double lost) const;
+
   EnergyRecord energy_;
-  double threshold_, least_energy_;
+  double threshold_, largest_loss_, least_energy_;
   std::int64_t judged_from_ = 0;  // step
 };
 

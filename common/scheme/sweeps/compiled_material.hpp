@@ -96,15 +96,16 @@ void mark_bad(Body<Dim>& body, std::int64_t b, const algebra::PositiveLanes& sou
   }
 }
 
-/// And ends with as sound ones: J > 0; dF/dt, P and, where a step ends, u finite. What is not a
-/// number in F, H or internal variables is none in P, velocities in dF/dt.
+/// And ends with as sound ones: J > 0; dF/dt, P, what the step dissipated and, where it ends, u
+/// finite. What is not a number in F, H or internal variables is none in P, velocities in dF/dt.
 template <int Dim>
 DIPTYCH_INLINE algebra::PositiveLanes sound_after(const StrainRateSweep<Dim>& sweep,
                                                   std::int64_t b,
                                                   const Lanes (&L)[Dim * Dim],
                                                   const Lanes& J,
-                                                  const Tensor<Lanes>& P) {
-  Lanes sum{};  // not finite where one of them is not
+                                                  const Tensor<Lanes>& P,
+                                                  const Lanes& dissipation) {
+  Lanes sum = dissipation;  // not finite where one of them is not
   for (int k = 0; k < Dim * Dim; ++k)
     sum += L[k] + P(k / Dim, k % Dim);
   if (sweep.drift != 0 || (sweep.stage != nullptr && sweep.stage->last)) {
@@ -156,7 +157,8 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
           });
   if (!body.cells.empty()) response.Sigma_J -= model.material.volumetric_stress(X.J);
   const Tensor<Lanes> P = physics::piola_stress<has_H>(response, X);
-  if (__builtin_expect(!sound_after<Dim>(sweep, b, L, X.J, P).all(), 0)) totals.is_sound = false;
+  if (__builtin_expect(!sound_after<Dim>(sweep, b, L, X.J, P, dissipation).all(), 0))
+    totals.is_sound = false;
   if (__builtin_expect(!was_sound.all(), 0)) {
     totals.is_sound = false;
     mark_bad(body, b, was_sound);

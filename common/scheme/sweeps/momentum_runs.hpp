@@ -163,10 +163,10 @@ DIPTYCH_INLINE void add_forces_of_blocks(const MomentumSweep<Dim>& sweep,
 template <class Real, int Dim, bool exact>
 DIPTYCH_INLINE void prefetch_layers(const MomentumSweep<Dim>& sweep, std::int64_t b, int n_blocks) {
   const MutualPairs<Dim>& mutual = sweep.body.graph.mutual;
-  const std::int64_t last = mutual.row[b + 1];
-  for (std::int64_t c = mutual.row[b]; c < last; ++c) {
+  const std::int64_t prefetched = mutual.row[b + 1];
+  for (std::int64_t c = mutual.row[b]; c < prefetched; ++c) {
     const std::int64_t offset = mutual.offset.data()[c];
-    if (c + 1 < last && mutual.offset.data()[c + 1] - offset < far_apart) continue;
+    if (c + 1 < prefetched && mutual.offset.data()[c + 1] - offset < far_apart) continue;
     for (int k = 0; k < n_blocks; ++k) {
       prefetch_ahead<Real, NodeRecord<Dim>::n(exact)>(sweep.body.records, b + k, offset);
       prefetch_ahead<Real, Dim>(sweep.body.v, b + k, offset);

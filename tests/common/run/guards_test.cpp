@@ -10,12 +10,15 @@
 
 #include <cmath>
 #include <gmock/gmock.h>
+#include <limits>
 
 namespace diptych::run {
 namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+
+constexpr double any_loss = std::numeric_limits<double>::infinity();
 
 /// A free cube that is thrown at itself, slowly.
 const std::string free_cube = R"([mesh]
@@ -48,7 +51,8 @@ struct Guarded {
                                                  : LeastCell{1, 0, 64};
         }),
         history(*scene.solver, probes, cells),
-        energy_guard(scene.solver->balance(), scene.setup.guards.energy_residual, least_energy),
+        energy_guard(
+            scene.solver->balance(), scene.setup.guards.energy_residual, any_loss, least_energy),
         cell_guard(cells) {}
 
   /// @param guards_cells  as guards.inverted_cells = "stop"
@@ -90,7 +94,7 @@ TEST(EnergyGuard, StopsWhereNumericalDissipationGivesEnergy) {
   Guarded run("fvm", {});
   const scheme::Balance initial = run.scene.solver->balance();
   for (const double part : {0.009, 0.011}) {
-    EnergyGuard guard(initial, 0.01, 0);
+    EnergyGuard guard(initial, 0.01, any_loss, 0);
     scheme::Balance now = initial;
     scheme::Audit audit;
     audit.numerical_dissipation = -part * initial.kinetic;
@@ -108,6 +112,51 @@ TEST(EnergyGuard, StopsWhereNumericalDissipationGivesEnergy) {
                                       HasSubstr("guards.energy_residual")));
     }
   }
+}
+
+/// The budget closes here, too; a body without energy is not judged, nor the first steps after.
+TEST(EnergyGuard, StopsWhereNumericalDissipationHasTakenMoreThanItMay) {
+  scheme::Balance initial, now;
+  initial.kinetic = 10;
+  const auto judge = [&](EnergyGuard& guard, std::int64_t number, double taken) {
+    scheme::Audit audit;
+    audit.numerical_dissipation = taken;
+    now.kinetic = initial.kinetic - taken;
+    StepReport step;
+    step.step = number;
+    guard.at_check({step, now, audit});
+  };
+  EnergyGuard guard(initial, 0.01, 0.5, 1e-9), free(initial, 0.01, any_loss, 1e-9);
+  EXPECT_NO_THROW(judge(guard, 1, 4.9));
+  EXPECT_NO_THROW(judge(free, 2, 9.9));
+  try {
+    judge(guard, 2, 5.1);
+    ADD_FAILURE() << "not stopped";
+  } catch (const base::BreakdownError& error) {
+    EXPECT_THAT(error.what(),
+                AllOf(HasSubstr("numerical dissipation has taken 0.51 of the largest energy so "
+                                "far, bound 0.5, step 2, "),
+                      HasSubstr("--level"), HasSubstr("scheme.limiter"),
+                      HasSubstr("guards.numerical_dissipation")));
+  }
+}
+
+TEST(EnergyGuard, DoesNotJudgeLossesInTheFirstStepsOfABodyAtRest) {
+  const scheme::Balance rest;
+  EnergyGuard guard(rest, 0.01, 0.5, 1e-9);
+  const auto judge = [&](std::int64_t number, double work, double taken) {
+    scheme::Balance now;
+    now.kinetic = work - taken;
+    scheme::Audit audit;
+    audit.external_work = work;
+    audit.numerical_dissipation = taken;
+    StepReport step;
+    step.step = number;
+    guard.at_check({step, now, audit});
+  };
+  judge(0, 0, 0);
+  EXPECT_NO_THROW(judge(EnergyGuard::steps_of_start - 1, 1, 0.8));
+  EXPECT_THROW(judge(EnergyGuard::steps_of_start, 1, 0.8), base::BreakdownError);
 }
 
 /// The step at which the energy of a body first is more than its budget allows.

@@ -1,7 +1,7 @@
 /// The sweeps over a whole body, of rows and of runs, in doubles and in singles, against sums that
 /// are written out pair by pair from the graph: forces, numerical dissipation, step bound, limited
-/// pairs (18a); strain rates (18b); both sides of the face correction. The areas of the graph are
-/// random, so that nothing cancels.
+/// pairs (18a); strain rates (18b); slopes along lines; both sides of the face correction. The
+/// areas of the graph are random, so that nothing cancels.
 
 #include "common/scheme/sweeps/compiled/momentum.hpp"
 #include "common/scheme/sweeps/face_correction.hpp"
@@ -116,7 +116,7 @@ scheme::PairGraph empty_first_block() {
 class RandomBody {
  public:
   RandomBody(scheme::PairGraph of, Arrangement arrangement, bool exact = false)
-      : graph(std::move(of)), body(graph, options_of(exact), arrangement) {
+      : graph(std::move(of)), body(graph, options_of(graph, exact), arrangement) {
     std::mt19937 random(9);
     while (nodes.size() < graph.X.size()) {
       for (NodeOfPair& node : tests::random_pair<3>(random, true, 1))
@@ -131,9 +131,10 @@ class RandomBody {
   std::vector<NodeOfPair> nodes;
 
  private:
-  static scheme::BodyOptions options_of(bool exact) {
+  static scheme::BodyOptions options_of(const scheme::PairGraph& graph, bool exact) {
     scheme::BodyOptions options;
     options.rho_R = 1.3;
+    options.has_slopes = !graph.slopes.empty();
     options.exact_impedance = exact;
     return options;
   }
@@ -288,6 +289,50 @@ TEST_P(Arrangements, StrainRatesAreSumsOverPairs) {
       b += n;
     }
     EXPECT_EQ(n_twos > 0, precision == Precision::single && GetParam() == Arrangement::runs);
+  }
+}
+
+/// Slopes of every node over up to four others of its line, with weights of its own.
+scheme::SlopeRows random_slopes(const scheme::PairGraph& graph) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  scheme::SlopeRows slopes;
+  slopes.row = {0};
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+    for (const std::int64_t b : {a - 2, a - 1, a + 1, a + 2}) {
+      if (b < 0 || b >= graph.n_nodes()) continue;
+      slopes.neighbour.push_back(static_cast<std::int32_t>(b));
+      slopes.weight.emplace_back(uniform(random), uniform(random), uniform(random));
+    }
+    slopes.row.push_back(static_cast<std::int64_t>(slopes.neighbour.size()));
+  }
+  return slopes;
+}
+
+TEST_P(Arrangements, SlopesAlongLinesAreSumsOverTheirRows) {
+  for (const Precision precision : {Precision::full, Precision::single}) {
+    scheme::PairGraph graph = random_lattice(precision);
+    graph.slopes = random_slopes(graph);
+    const RandomBody random(std::move(graph), GetParam());
+    const scheme::SlopeRows& rows = random.graph.slopes;
+    for (std::int64_t b = 0; b < random.body.n_blocks; ++b) {
+      Lanes slopes[9];
+      scheme::slopes_of_block<isa>(random.body, b, slopes);
+      for (std::int64_t a = b * 8; a < std::min<std::int64_t>(random.graph.n_nodes(), b * 8 + 8);
+           ++a) {
+        const auto node = static_cast<size_t>(a);
+        Mat3 slope = Mat3::Zero();
+        for (auto p = static_cast<size_t>(rows.row[node]);
+             p < static_cast<size_t>(rows.row[node + 1]); ++p) {
+          const auto other = static_cast<size_t>(rows.neighbour[p]);
+          slope += (random.nodes[other].v - random.nodes[node].v) * rows.weight[p].transpose();
+        }
+        for (int k = 0; k < 9; ++k)
+          ASSERT_NEAR(slopes[k][a % 8], slope(k / 3, k % 3),
+                      precision == Precision::full ? 1e-14 : 2e-6)
+              << "node " << a;
+      }
+    }
   }
 }
 
