@@ -76,9 +76,9 @@ bool is_smooth(const Mesh& mesh, const std::vector<LatticeBlock>& blocks) {
   Sum second, fourth;
   std::int64_t n_cells = 0, n_fit = 0;
   for (const LatticeBlock& block : blocks) {
-    bool fits = true;
+    int n_thin = 0;
     for (int d = 0; d < block.dimension; ++d) {
-      fits = fits && block.n_nodes[d] >= 3;
+      n_thin += block.n_nodes[d] < 3 ? 1 : 0;
       const std::vector<Sum> of_second = layers(mesh, block, d, 2),
                              of_fourth = layers(mesh, block, d, 4);
       for (size_t i = 0; i < of_fourth.size(); ++i) {
@@ -89,7 +89,7 @@ bool is_smooth(const Mesh& mesh, const std::vector<LatticeBlock>& blocks) {
       }
     }
     n_cells += std::ssize(block.cell);
-    n_fit += fits ? std::ssize(block.cell) : 0;
+    n_fit += n_thin <= 1 ? std::ssize(block.cell) : 0;
   }
   const bool is_even = fourth.squares <= smallest * smallest * fourth.n ||
                        fourth.squares <= rough * rough * second.squares;

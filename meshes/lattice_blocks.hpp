@@ -51,7 +51,8 @@ std::vector<LatticeBlock> lattice_blocks(const Mesh& mesh);
 /// differences of the places of nodes are less than twice the second ones in root mean square (on
 /// nodes moved at random they are 3.4 times as large, on a circle of n cells (2 sin pi/n)^2), or
 /// less than a thousandth of a spacing; and at least half of the cells are in blocks with three
-/// nodes or more on every line.
+/// nodes or more on every line but those of one direction (a sheet of one cell is thick enough; the
+/// patches of a paved mesh are not).
 bool is_smooth(const Mesh& mesh, const std::vector<LatticeBlock>& blocks);
 
 }  // namespace diptych::meshes

@@ -124,6 +124,9 @@ TEST(LatticeBlocks, AreSmoothUnlessNodesAreMovedAtRandom) {
   for (const meshes::Mesh& mesh :
        {curved_block(8, 0), curved_block(6, 6), disc(8, 4), ring(10, 3, 4), bent_l(8, 0)})
     EXPECT_TRUE(meshes::is_smooth(mesh, meshes::lattice_blocks(mesh)));
+  EXPECT_TRUE(meshes::is_smooth(ring(16, 1, 8), meshes::lattice_blocks(ring(16, 1, 8))));
+  const meshes::Mesh patches = disc(1, 1);
+  EXPECT_FALSE(meshes::is_smooth(patches, meshes::lattice_blocks(patches)));
   for (const double share : {0.01, 0.1, 0.3}) {
     for (const int n_z : {0, 8}) {
       meshes::Mesh mesh =
