@@ -5,6 +5,7 @@
 #include "common/closure/summation_by_parts.hpp"
 #include "common/scheme/graph/classify_rows.hpp"
 #include "fvm/cell_stencil.hpp"
+#include "fvm/sbp_blocks_graph.hpp"
 #include "fvm/sbp_cells_graph.hpp"
 #include "fvm/sbp_graph.hpp"
 #include "fvm/sbp_operator.hpp"
@@ -89,8 +90,10 @@ const std::vector<std::string>& stencil_names() {
 scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) {
   const Stencil stencil = choice_of(mesh, options).stencil;
   if (stencil == Stencil::sbp) {
-    return meshes::is_undistorted_block(mesh) ? sbp_graph(mesh, options.order)
-                                              : sbp_graph_of_cells(mesh);
+    if (meshes::is_undistorted_block(mesh)) return sbp_graph(mesh, options.order);
+    const std::vector<meshes::LatticeBlock> blocks = smooth_blocks(mesh);
+    return blocks.empty() ? sbp_graph_of_cells(mesh)
+                          : sbp_blocks_graph(mesh, blocks, options.order);
   }
   return graph_of_cells(
       mesh, stencil == Stencil::edge ? meshes::Quadrature::vertex : meshes::Quadrature::exact);
@@ -99,9 +102,13 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
 Operators operators_of(const meshes::Mesh& mesh, const Options& options) {
   const Choice choice = choice_of(mesh, options);
   if (choice.stencil != Stencil::sbp) return {choice.text, {}};
-  if (!meshes::is_undistorted_block(mesh))
+  if (!meshes::is_undistorted_block(mesh)) {
+    const std::vector<meshes::LatticeBlock> blocks = smooth_blocks(mesh);
+    if (!blocks.empty())
+      return {blocks_text(blocks, options.order), blocks_notices(blocks, options.order)};
     return {fmt::format("sbp: order 2 on the cells around {} nodes", mesh.n_nodes()),
             {closure::sign_notice}};
+  }
   const std::vector<SbpLines> lines = sbp_lines(mesh, options.order);
   Operators operators{lines_text(lines), {}};
   for (const SbpLines& line : lines) {

@@ -2,8 +2,8 @@
 /// Vertex-centred finite volumes as a pair graph: nodal-quadrature edge stencil
 /// C_ab = 2 sum_e w_a^e grad N_b(X_a) (quadrilaterals, hexahedra; notes 4.2), or
 /// C_ab = 2 int N_a grad N_b dV (notes 4.1), or operators that sum by parts: along the lines of a
-/// block (sbp_graph.hpp; notes 4.3), elsewhere over two rings of cells (sbp_cells_graph.hpp; notes
-/// 4.5).
+/// block (sbp_graph.hpp; notes 4.3) or of curved blocks glued at their nodes (sbp_blocks_graph.hpp;
+/// notes 4.6), elsewhere over two rings of cells (sbp_cells_graph.hpp; notes 4.5).
 
 #include "common/scheme/graph/pair_graph.hpp"
 #include "meshes/mesh.hpp"

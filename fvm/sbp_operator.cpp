@@ -139,6 +139,32 @@ const SbpTable& widest_sbp_table(int order, int n_nodes) {
   return *widest;
 }
 
+const SbpTable& widest_closed_table(int order, int n_nodes) {
+  const SbpTable* widest = &sbp_table(order);
+  while (2 * std::ssize(widest->interior) >= n_nodes && widest->order > 2)
+    --widest;
+  return *widest;
+}
+
+SbpOperator SbpOperator::closed(int order, int n_nodes) {
+  const SbpTable& table = widest_closed_table(order, n_nodes);
+  const auto width = static_cast<int>(table.interior.size());
+  SbpOperator ring;
+  ring.H_.assign(static_cast<size_t>(n_nodes), 1.0);
+  ring.first_.push_back(0);
+  for (int i = 0; i < n_nodes; ++i) {
+    for (int step = -width; step <= width; ++step) {
+      if (step == 0) continue;
+      const double Q = table.interior[static_cast<size_t>(std::abs(step) - 1)].value();
+      ring.entries_.push_back({(i + step + n_nodes) % n_nodes, step > 0 ? Q : -Q});
+    }
+    std::sort(ring.entries_.begin() + ring.first_.back(), ring.entries_.end(),
+              [](const Entry& a, const Entry& b) { return a.node < b.node; });
+    ring.first_.push_back(static_cast<std::int64_t>(ring.entries_.size()));
+  }
+  return ring;
+}
+
 SbpOperator::SbpOperator(const SbpTable& table, int n_nodes) : first_(1, 0) {
   const int size = table.block_size();
   const int reach = std::max(size - 1, static_cast<int>(table.interior.size()));

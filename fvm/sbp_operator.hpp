@@ -59,6 +59,9 @@ const SbpTable& sbp_line_table(int n);
 /// The widest pair up to this order that fits on a line of n >= 2 nodes.
 const SbpTable& widest_sbp_table(int order, int n_nodes);
 
+/// The same on a ring of n >= 3 nodes.
+const SbpTable& widest_closed_table(int order, int n_nodes);
+
 /// The operator on a line of n nodes, with a spacing of one.
 class SbpOperator {
  public:
@@ -68,6 +71,9 @@ class SbpOperator {
   };
   /// @pre n_nodes >= table.least_nodes(), the same where the table is of a line
   SbpOperator(const SbpTable& table, int n_nodes);
+  /// On a ring of n >= 3 nodes: H = 1, the interior weights of the widest pair up to this order
+  /// that does not reach half around; exact for waves up to that order. Q + Q^T = 0.
+  static SbpOperator closed(int order, int n_nodes);
 
   double H(int i) const { return H_[static_cast<size_t>(i)]; }
   /// Q_ij != 0 of row i with j != i, ascending.
@@ -78,6 +84,8 @@ class SbpOperator {
   }
 
  private:
+  SbpOperator() = default;
+
   std::vector<double> H_;
   std::vector<Entry> entries_;
   std::vector<std::int64_t> first_;

@@ -202,6 +202,33 @@ TEST(SbpOperator, OfShortLinesSumsByParts) {
   }
 }
 
+/// On rings Q is skew, H one, and waves have the derivative of the interior weights.
+TEST(SbpOperator, OfRingsIsTheInteriorEverywhere) {
+  for (const auto& [order, n] : {std::pair{2, 3}, {4, 5}, {4, 24}, {6, 7}, {6, 24}}) {
+    const fvm::SbpOperator D = fvm::SbpOperator::closed(order, n);
+    EXPECT_EQ(fvm::widest_closed_table(order, n).order, order);
+    const double step = 2 * std::acos(-1.0) / n;
+    double symbol = 0;
+    for (size_t k = 0; k < fvm::sbp_table(order).interior.size(); ++k)
+      symbol += 2 * fvm::sbp_table(order).interior[k].value() *
+                std::sin(static_cast<double>(k + 1) * step);
+    for (int i = 0; i < n; ++i) {
+      EXPECT_EQ(D.H(i), 1);
+      double sum = 0, derivative = 0;
+      for (const auto& [j, Q] : D.row(i)) {
+        sum += Q;
+        derivative += Q * std::sin(j * step);
+        for (const auto& back : D.row(j))
+          EXPECT_TRUE(back.node != i || back.Q == -Q);
+      }
+      EXPECT_NEAR(sum, 0, 1e-15);
+      EXPECT_NEAR(derivative, symbol * std::cos(i * step), 1e-15);
+    }
+  }
+  EXPECT_EQ(fvm::widest_closed_table(6, 6).order, 4);
+  EXPECT_EQ(fvm::widest_closed_table(6, 4).order, 2);
+}
+
 TEST(SbpTables, FallToTheWidestThatFits) {
   const auto order = [](int asked, int n) { return fvm::widest_sbp_table(asked, n).order; };
   EXPECT_EQ(order(6, 12), 6);

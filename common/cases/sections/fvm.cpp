@@ -27,17 +27,20 @@ SectionEntry fvm_section() {
                   {"-", any,
                    "Pair areas by nodal quadrature (edge), by 2 int N_a grad N_b dV "
                    "(integral), or from operators that sum by parts (sbp): along the "
-                   "lines of nodes of boxes of hexahedra or quadrilaterals, elsewhere "
+                   "lines of nodes of boxes of hexahedra or quadrilaterals and of smooth curved "
+                   "blocks of them, glued where they meet (transfinite meshes of Gmsh), elsewhere "
                    "over two rings of cells of a body with plane sides. auto: sbp on such boxes "
                    "with a line of three nodes or more and boundary groups that cover whole sides "
                    "or end far from their edges, but with a face correction; else edge.",
                    "\"sbp\""}))
           .key("order", &FvmCase::order,
                {"-", between(2, 6),
-                "With stencil = \"sbp\" or \"auto\" on a box, order of the derivatives inside: 2 "
+                "With stencil = \"sbp\" or \"auto\" on a box or blocks, order of the derivatives "
+                "inside: 2 "
                 "(the edge stencil), 4 or 6; half of it at boundaries. On lines of fewer than 8 "
                 "(4) or 12 nodes (6) it falls to the next, on those of 3 to 7 to pairs that are "
-                "exact for quadratics. With reconstruction = \"linear\" 6 takes scheme.limiter = "
+                "exact for quadratics. Curved blocks take at most 4. With reconstruction = "
+                "\"linear\" 6 takes scheme.limiter = "
                 "\"sign-preserving\".",
                 "6"});
   return {{"fvm", false, "What only the finite volumes need."},

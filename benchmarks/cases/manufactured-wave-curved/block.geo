@@ -1,0 +1,52 @@
+// A block of hexahedra with twelve curved edges of about 1 m and six curved sides.
+DefineConstant[ h = 0.125 ];
+n = Max(2, Round(1/h)) + 1;  // nodes along each edge
+Point(1) = {-0.5, -0.5, -0.5};
+Point(2) = {0.45, -0.4, -0.55};
+Point(3) = {0.5, 0.5, -0.45};
+Point(4) = {-0.55, 0.4, -0.5};
+Point(5) = {-0.5, -0.45, 0.5};
+Point(6) = {0.5, -0.5, 0.45};
+Point(7) = {0.45, 0.55, 0.5};
+Point(8) = {-0.45, 0.5, 0.55};
+Point(11) = {0, -0.35, -0.5};
+Point(12) = {0.6, 0.05, -0.5};
+Point(13) = {0, 0.55, -0.4};
+Point(14) = {-0.4, 0, -0.55};
+Point(15) = {0.05, -0.55, 0.6};
+Point(16) = {0.55, 0, 0.4};
+Point(17) = {0, 0.45, 0.5};
+Point(18) = {-0.55, 0, 0.45};
+Point(21) = {-0.4, -0.55, 0};
+Point(22) = {0.55, -0.4, 0.05};
+Point(23) = {0.4, 0.6, 0};
+Point(24) = {-0.6, 0.45, 0};
+BSpline(1) = {1, 11, 2};
+BSpline(2) = {2, 12, 3};
+BSpline(3) = {3, 13, 4};
+BSpline(4) = {4, 14, 1};
+BSpline(5) = {5, 15, 6};
+BSpline(6) = {6, 16, 7};
+BSpline(7) = {7, 17, 8};
+BSpline(8) = {8, 18, 5};
+BSpline(9) = {1, 21, 5};
+BSpline(10) = {2, 22, 6};
+BSpline(11) = {3, 23, 7};
+BSpline(12) = {4, 24, 8};
+Curve Loop(1) = {1, 2, 3, 4};
+Curve Loop(2) = {5, 6, 7, 8};
+Curve Loop(3) = {1, 10, -5, -9};
+Curve Loop(4) = {2, 11, -6, -10};
+Curve Loop(5) = {3, 12, -7, -11};
+Curve Loop(6) = {4, 9, -8, -12};
+For k In {1:6}
+  Surface(k) = {k};
+EndFor
+Surface Loop(1) = {1:6};
+Volume(1) = {1};
+Transfinite Curve{1:12} = n;
+Transfinite Surface{1:6};
+Recombine Surface{1:6};
+Transfinite Volume{1};
+Physical Surface("surface") = {1:6};
+Physical Volume("body") = {1};

@@ -1,0 +1,33 @@
+// An L of three blocks of hexahedra: arms of 0.5 m in a square of 1 m, 0.5 m thick.
+DefineConstant[ h = 0.125 ];
+n = Max(2, Round(0.5/h)) + 1;  // nodes along 0.5 m
+Point(1) = {-0.5, -0.5, -0.25};
+Point(2) = {0, -0.5, -0.25};
+Point(3) = {0.5, -0.5, -0.25};
+Point(4) = {0.5, 0, -0.25};
+Point(5) = {0, 0, -0.25};
+Point(6) = {-0.5, 0, -0.25};
+Point(7) = {0, 0.5, -0.25};
+Point(8) = {-0.5, 0.5, -0.25};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 1};
+Line(7) = {2, 5};
+Line(8) = {5, 7};
+Line(9) = {7, 8};
+Line(10) = {8, 6};
+Curve Loop(1) = {1, 7, 5, 6};
+Curve Loop(2) = {2, 3, 4, -7};
+Curve Loop(3) = {-5, 8, 9, 10};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Plane Surface(3) = {3};
+Transfinite Curve{1:10} = n;
+Transfinite Surface{1:3};
+Recombine Surface{1:3};
+all[] = Extrude {0, 0, 0.5} { Surface{1:3}; Layers{n - 1}; Recombine; };
+Physical Volume("body") = {1:3};
+Physical Surface("surface") = CombinedBoundary{ Volume{1:3}; };
