@@ -12,7 +12,6 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -33,14 +32,20 @@ void hold_standard_streams() {
   }
 }
 
+/// With what was changed in the environment or the limits. Where it fails the run goes on as it is.
+void start_once_more(char** argv) {
+  execv("/proc/self/exe", argv);
+}
+
 /// A stack that is too small ends the program without a word: as much as a usual one is taken where
-/// it may be, before the program starts itself once more. @throws base::EnvironmentError
-void require_stack() {
+/// it may be, for its threads too. @throws base::EnvironmentError
+void require_stack(char** argv) {
   constexpr rlim_t least = 256 << 10, usual = 8 << 20;
   rlimit limit{};
   if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= usual) return;
+  const rlim_t had = limit.rlim_cur;
   limit.rlim_cur = std::min(limit.rlim_max, usual);
-  setrlimit(RLIMIT_STACK, &limit);
+  if (limit.rlim_cur > had && setrlimit(RLIMIT_STACK, &limit) == 0) start_once_more(argv);
   if (limit.rlim_cur >= least) return;
   throw base::EnvironmentError(
       fmt::format("the stack of a process is limited to {} KiB, {} KiB are needed: ulimit -s 8192",
@@ -48,20 +53,21 @@ void require_stack() {
 }
 
 /// On a shared machine a thread that spins at a barrier takes the processor from the one it waits
-/// for: loops became thirty times slower. OpenMP's runtime reads its settings when it is loaded, so
-/// the program starts itself once more with a short spin; settings of the user's own are kept. One
-/// thread waits for nobody: such a run is not started twice.
-void limit_spinning(int argc, char** argv) {
-  if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
-  for (int k = 1; k < argc; ++k) {
-    const bool is_one = std::strcmp(argv[k], "--threads=1") == 0 ||
-                        (std::strcmp(argv[k], "--threads") == 0 && k + 1 < argc &&
-                         std::strcmp(argv[k + 1], "1") == 0);
-    if (is_one) return;
-  }
+/// for: loops became thirty times slower. Settings of the user's own are kept.
+/// @return whether there were none
+bool limit_spinning() {
+  if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr)
+    return false;
   setenv("GOMP_SPINCOUNT", "10000", 1);
-  execv("/proc/self/exe", argv);  // where this fails the run goes on as it is
+  return true;
 }
+
+#ifdef DIPTYCH_OPENMP_INSIDE
+/// OpenMP's runtime is in the program and reads its settings when its constructors run, later.
+[[gnu::constructor(101)]] void limit_spinning_first() {
+  limit_spinning();
+}
+#endif
 
 /// What was printed has arrived. @throws base::EnvironmentError where it has not
 void check_output() {
@@ -91,8 +97,10 @@ int main(int argc, char** argv) {
   hold_standard_streams();
   std::signal(SIGPIPE, SIG_IGN);
   try {
-    require_stack();
-    limit_spinning(argc, argv);
+    require_stack(argv);
+#ifndef DIPTYCH_OPENMP_INSIDE
+    if (limit_spinning()) start_once_more(argv);  // OpenMP's runtime reads it when it is loaded
+#endif
     harness::catch_interrupts();
     const parallel::Ranks ranks;
     if (harness::is_following()) return follow();

@@ -47,7 +47,6 @@ RunSummary full_summary() {
                   {"swing", "mm", 1, -2, 3, 4, 0.65, 0.1, 2, 0.2}};
   s.involution_H = 9e-7, s.involution_J = 1e-6;
   s.least_cell_J = -0.25, s.most_inverted_cells = 12;
-  s.unmet = "numerical share 0.02, asked <= 0.01";
   s.rejected_steps = 3;
   s.restarts = 2;
   s.projections = 5, s.resynchronisations = 6, s.limited_pairs = 7;
@@ -77,6 +76,14 @@ TEST(RunRecord, SaysSinceWhenCellsAreInvertedOnlyWhereTheyAre) {
   EXPECT_FALSE(summary_from_json(to_json(summary), "summary.json").inverted_from);
   summary.inverted_from = 0.045;
   EXPECT_EQ(summary_from_json(to_json(summary), "summary.json").inverted_from, 0.045);
+}
+
+TEST(RunRecord, SaysWhatItsCaseAsksAndDoesNotHoldOnlyWhereSomethingDoesNot) {
+  RunSummary summary = full_summary();
+  EXPECT_FALSE(as_json(summary).contains("unmet"));
+  EXPECT_EQ(summary_from_json(to_json(summary), "summary.json").unmet, "");
+  summary.unmet = "numerical share 0.02, asked <= 0.01";
+  EXPECT_EQ(summary_from_json(to_json(summary), "summary.json").unmet, summary.unmet);
 }
 
 TEST(RunRecord, SaysWhyARunWasNotFinishedWhereItWasNot) {
