@@ -11,13 +11,15 @@ namespace diptych::harness {
 
 namespace {
 
-/// The share of the energy that numerical dissipation may take: what the case says, else half of it
-/// unless it has a limiter of shocks, which dissipate.
+/// The share of the energy that numerical dissipation may take: what the case says, all of it where
+/// that is 1 (and the error of the steps with it), else half of it unless it has a limiter of
+/// shocks, which dissipate.
 double largest_loss(const cases::Case& setup) {
-  if (setup.guards.numerical_dissipation > 0) return setup.guards.numerical_dissipation;
+  constexpr double all = std::numeric_limits<double>::infinity();
+  const double given = setup.guards.numerical_dissipation;
+  if (given > 0) return given < 1 ? given : all;
   const std::string& limiter = setup.scheme.limiter;
-  const bool has_shocks = limiter != "none" && limiter != "sign-preserving";
-  return has_shocks ? std::numeric_limits<double>::infinity() : 0.5;
+  return limiter == "none" || limiter == "sign-preserving" ? 0.5 : all;
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ struct TimeCase {
 /// [guards]
 struct GuardsCase {
   double energy_residual = 0.01;        ///< > 0, share of the largest energy so far
-  double numerical_dissipation = 0;     ///< (0, 1], the same; 0: 0.5, with a limiter of shocks none
+  double numerical_dissipation = 0;     ///< the same, 1: any; 0: 0.5, with a limiter of shocks any
   double involution = 0.01;             ///< > 0, |H - cof F| and |J - det F|
   double least_step = 1e-7;             ///< > 0, share of the first step
   std::string inverted_cells = "stop";  ///< stop or warn

@@ -42,5 +42,16 @@ TEST(Threads, AreThoseOfTheEnvironmentAndOfTheRange) {
   EXPECT_THAT(limited.text, HasSubstr("OMP_THREAD_LIMIT"));
 }
 
+TEST(Threads, SpinShortlyUnlessTheUserSaysOtherwise) {
+  const Folder folder;
+  const auto spin_with = [&](const std::string& before) {
+    return shell(folder, "unset OMP_WAIT_POLICY; export OMP_DISPLAY_ENV=verbose; " + before +
+                             " $diptych --version")
+        .text;
+  };
+  EXPECT_THAT(spin_with(""), HasSubstr("GOMP_SPINCOUNT = '10000'"));
+  EXPECT_THAT(spin_with("GOMP_SPINCOUNT=77"), HasSubstr("GOMP_SPINCOUNT = '77'"));
+}
+
 }  // namespace
 }  // namespace diptych

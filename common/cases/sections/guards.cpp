@@ -21,7 +21,7 @@ SectionEntry guards_section() {
                          "The run is stopped (code 3) where numerical dissipation has taken more "
                          "than this share of the largest energy so far, at the same steps but for "
                          "the first 20 after a state of rest: what is left is no solution of the "
-                         "equations. Needs scheme.energy_budget.",
+                         "equations. 1: no bound. Needs scheme.energy_budget.",
                          "0.05",
                          "optional; 0.5, and no bound with a limiter of shocks (all but \"none\" "
                          "and \"sign-preserving\"): shocks dissipate"}))
