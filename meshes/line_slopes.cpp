@@ -1,9 +1,12 @@
 #include "meshes/line_slopes.hpp"
 
+#include "common/parallel/for_chunks.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 namespace diptych::meshes {
 
@@ -137,26 +140,34 @@ LineSlopes line_slopes(const StructuredBlock& block,
     }
   }
   LineSlopes slopes;
+  slopes.row.reserve(of_node.size() + 1);
   slopes.row.push_back(0);
-  std::vector<std::pair<std::int32_t, algebra::Vec3>> row;
-  for (size_t a = 0; a < of_node.size(); ++a) {
-    row.clear();
-    for (int d = 0; d < block.dimension; ++d) {
-      if (of_node[a][d] == nullptr) continue;
-      auto at = block.place[a];
-      for (const auto& [j, weight] : *of_node[a][d]) {
-        at[d] = j;
-        row.emplace_back(block.node_at(at), weight * dual.col(d));
-      }
-    }
-    std::sort(row.begin(), row.end(),
-              [](const auto& p, const auto& q) { return p.first < q.first; });
-    for (const auto& [b, weight] : row) {
-      slopes.neighbour.push_back(b);
-      slopes.weight.push_back(weight);
-    }
-    slopes.row.push_back(static_cast<std::int64_t>(slopes.neighbour.size()));
+  for (const auto& of_lines : of_node) {
+    std::int64_t n = 0;
+    for (const SlopeRow* row : of_lines)
+      n += row == nullptr ? 0 : std::ssize(*row);
+    slopes.row.push_back(slopes.row.back() + n);
   }
+  slopes.neighbour.resize(static_cast<size_t>(slopes.row.back()));
+  slopes.weight.resize(slopes.neighbour.size());
+  parallel::for_chunks(std::ssize(of_node), [&](auto begin, auto end, auto) {
+    std::vector<std::pair<std::int32_t, algebra::Vec3>> row;
+    for (std::int64_t a = begin; a < end; ++a) {
+      row.clear();
+      for (int d = 0; d < block.dimension; ++d) {
+        if (of_node[a][d] == nullptr) continue;
+        auto at = block.place[a];
+        for (const auto& [j, weight] : *of_node[a][d]) {
+          at[d] = j;
+          row.emplace_back(block.node_at(at), weight * dual.col(d));
+        }
+      }
+      std::sort(row.begin(), row.end(),
+                [](const auto& p, const auto& q) { return p.first < q.first; });
+      for (size_t k = 0; k < row.size(); ++k)
+        std::tie(slopes.neighbour[slopes.row[a] + k], slopes.weight[slopes.row[a] + k]) = row[k];
+    }
+  });
   return slopes;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace diptych::meshes {
@@ -38,13 +39,95 @@ std::string node_text(const Mesh& mesh, std::int64_t a) {
 
 constexpr std::int32_t unknown = std::numeric_limits<std::int32_t>::min();
 
+CellType type_of_block(const Mesh& mesh) {
+  return mesh.dimension == 3 ? CellType::hexahedron : CellType::quadrilateral;
+}
+
+/// Nodes that are numbered line by line, as those of a box are, the first direction fastest;
+/// directions as corner 0 of cell 0 has them. Such places need no walk: each cell has its corners
+/// where its first node says, and each place has one cell.
+class LineNumbers {
+ public:
+  explicit LineNumbers(const Mesh& mesh) : mesh_(mesh), corners_(corners_of(type_of_block(mesh))) {
+    const auto nodes = mesh.cell(0);
+    stride_[2] = mesh.n_nodes();
+    for (int d = 0; d < mesh.dimension; ++d)
+      stride_[d] = nodes[corners_[0].neighbours[d]] - nodes[corners_[0].node];
+    for (const LocalCorner& corner : corners_)
+      difference_.push_back(nodes[corner.node] - nodes[corners_[0].node]);
+  }
+
+  bool hold() const {
+    if (stride_[0] != 1 || stride_[1] < 2 || stride_[2] < 2 * stride_[1]) return false;
+    if (stride_[2] % stride_[1] != 0 || mesh_.n_nodes() % stride_[2] != 0) return false;
+    std::int64_t n_cells = 1;
+    for (int d = 0; d < mesh_.dimension; ++d)
+      n_cells *= count(d) - 1;
+    return n_cells == mesh_.n_cells() && first_cell_is_a_box() && all_cells_are_as_the_first();
+  }
+
+  Place place_of(std::int64_t a) const {
+    return {static_cast<std::int32_t>(a % stride_[1]),
+            static_cast<std::int32_t>(a % stride_[2] / stride_[1]),
+            static_cast<std::int32_t>(a / stride_[2])};
+  }
+
+ private:
+  /// Nodes along direction d.
+  std::int64_t count(int d) const {
+    return d == 2 ? mesh_.n_nodes() / stride_[2] : stride_[d + 1] / stride_[d];
+  }
+
+  /// Corners at the places 0 and 1, of which those of an edge differ in one direction.
+  bool first_cell_is_a_box() const {
+    const auto nodes = mesh_.cell(0);
+    const auto place_in_cell = [&](int corner) {
+      const std::int64_t difference = nodes[corner] - nodes[corners_[0].node];
+      return difference < 0 ? Place{-1, -1, -1} : place_of(difference);
+    };
+    for (const LocalCorner& corner : corners_) {
+      const Place at = place_in_cell(corner.node);
+      for (int d = 0; d < 3; ++d)
+        if (at[d] < 0 || at[d] > 1) return false;
+      for (int k = 0; k < mesh_.dimension; ++k) {
+        const Place beside = place_in_cell(corner.neighbours[k]);
+        int n_apart = 0;
+        for (int d = 0; d < 3; ++d)
+          n_apart += at[d] != beside[d] ? 1 : 0;
+        if (n_apart != 1) return false;
+      }
+    }
+    return true;
+  }
+
+  bool all_cells_are_as_the_first() const {
+    std::vector<char> has_cell(static_cast<size_t>(mesh_.n_nodes()), 0);
+    for (std::int64_t c = 0; c < mesh_.n_cells(); ++c) {
+      const auto nodes = mesh_.cell(c);
+      const std::int32_t a = nodes[corners_[0].node];
+      const Place at = place_of(a);
+      for (int d = 0; d < mesh_.dimension; ++d)
+        if (at[d] + 1 >= count(d)) return false;
+      for (size_t k = 0; k < corners_.size(); ++k)
+        if (nodes[corners_[k].node] - a != difference_[k]) return false;
+      if (has_cell[a]++ != 0) return false;
+    }
+    return true;
+  }
+
+  const Mesh& mesh_;
+  std::span<const LocalCorner> corners_;
+  std::array<std::int64_t, 3> stride_{};  ///< of node numbers along the directions
+  std::vector<std::int64_t> difference_;  ///< [corners] of node numbers from corner 0, of cell 0
+};
+
 /// Walks from cell 0, whose first corner is the origin, through the faces of cells.
 class Walk {
  public:
   Walk(const Mesh& mesh, const BlockUse& use)
       : mesh_(mesh),
         use_(use),
-        type_(mesh.dimension == 3 ? CellType::hexahedron : CellType::quadrilateral),
+        type_(type_of_block(mesh)),
         around_(cells_around_nodes(mesh)),
         visited_(static_cast<size_t>(mesh.n_cells()), 0),
         place_(mesh.nodes.size(), Place{unknown, unknown, unknown}) {}
@@ -177,11 +260,22 @@ class Walk {
 };
 
 void check_types(const Mesh& mesh, const BlockUse& use) {
-  const CellType wanted = mesh.dimension == 3 ? CellType::hexahedron : CellType::quadrilateral;
+  const CellType wanted = type_of_block(mesh);
   for (std::int64_t c = 0; c < mesh.n_cells(); ++c) {
     if (mesh.cell_types[c] == wanted) continue;
     refuse(use, fmt::format("{} is a {}", cell_text(mesh, c), name_of(mesh.cell_types[c])));
   }
+}
+
+/// Places of all nodes, of which some may be the same.
+std::vector<Place> places_of(const Mesh& mesh, const BlockUse& use) {
+  const LineNumbers numbers(mesh);
+  if (!numbers.hold()) return Walk(mesh, use).places();
+  std::vector<Place> places;
+  places.reserve(mesh.nodes.size());
+  for (std::int64_t a = 0; a < mesh.n_nodes(); ++a)
+    places.push_back(numbers.place_of(a));
+  return places;
 }
 
 /// Counts from zero, and how many there are along each direction.
@@ -236,7 +330,7 @@ StructuredBlock structured_block(const Mesh& mesh, const BlockUse& use) {
   check_types(mesh, use);
   StructuredBlock block;
   block.dimension = mesh.dimension;
-  block.place = Walk(mesh, use).places();
+  block.place = places_of(mesh, use);
   for (std::int64_t a = 0; a < mesh.n_nodes(); ++a) {
     if (block.place[a][0] == unknown) refuse(use, node_text(mesh, a) + " belongs to no cell");
   }

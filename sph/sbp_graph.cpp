@@ -1,5 +1,6 @@
 #include "sph/sbp_graph.hpp"
 
+#include "common/parallel/for_chunks.hpp"
 #include "common/scheme/graph/classify_rows.hpp"
 #include "common/scheme/graph/dissipation_area.hpp"
 #include "meshes/block_measure.hpp"
@@ -7,7 +8,9 @@
 #include "sph/lattice_operator.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fmt/format.h>
+#include <tuple>
 
 namespace diptych::sph {
 
@@ -27,33 +30,146 @@ std::vector<std::vector<double>> weights_of(const StructuredBlock& block) {
   return H;
 }
 
-/// Adds row a to the graph.
-void add_row(const meshes::BlockMeasure& measure,
-             const LatticeOperator& lattice,
+/// A neighbour of a node by its offset on the lattice.
+struct LatticePair {
+  LatticeOffset offset;
+  Vec3 C;  ///< m^2
+};
+
+/// Rows of the nodes of a block. A row depends on where its node is near to an end of a line, no
+/// farther than its support or the layers reach, and is the same elsewhere: each stands once.
+class RowsOfBlock {
+ public:
+  RowsOfBlock(const meshes::BlockMeasure& measure, const LatticeOperator& lattice)
+      : block_(measure.block()) {
+    for (const LatticeOffset& offset : lattice.offsets()) {
+      for (const int component : offset)
+        near_ = std::max(near_, std::abs(component));
+    }
+    for (int k = 0; k < n_kinds(2); ++k) {
+      for (int j = 0; j < n_kinds(1); ++j) {
+        for (int i = 0; i < n_kinds(0); ++i)
+          rows_.push_back(
+              row_of({first_of(0, i), first_of(1, j), first_of(2, k)}, measure, lattice));
+      }
+    }
+  }
+
+  size_t n_kinds() const { return rows_.size(); }
+  size_t kind(std::int64_t a) const {
+    const auto& at = block_.place[a];
+    return static_cast<size_t>((kind(2, at[2]) * n_kinds(1) + kind(1, at[1])) * n_kinds(0) +
+                               kind(0, at[0]));
+  }
+  const std::vector<LatticePair>& row(std::int64_t a) const { return rows_[kind(a)]; }
+
+ private:
+  bool is_long(int d) const { return block_.n_nodes[d] > 2 * near_ + 1; }
+  int n_kinds(int d) const { return is_long(d) ? 2 * near_ + 1 : block_.n_nodes[d]; }
+  int kind(int d, int place) const {
+    const int from_end = block_.n_nodes[d] - 1 - place;
+    if (!is_long(d) || place < near_) return place;
+    return from_end < near_ ? 2 * near_ - from_end : near_;
+  }
+  /// The first place of a kind.
+  int first_of(int d, int kind) const {
+    return kind <= near_ || !is_long(d) ? kind : block_.n_nodes[d] - 1 - (2 * near_ - kind);
+  }
+
+  std::vector<LatticePair> row_of(const LatticeOffset& place,
+                                  const meshes::BlockMeasure& measure,
+                                  const LatticeOperator& lattice) const {
+    std::vector<LatticePair> row;
+    for (const LatticeOffset& offset : lattice.offsets()) {
+      bool is_inside = true;
+      for (int d = 0; d < block_.dimension; ++d) {
+        const int at = place[d] + offset[d];
+        is_inside = is_inside && at >= 0 && at < block_.n_nodes[d];
+      }
+      if (!is_inside) continue;
+      const Vec3 C = lattice.C(place, offset);
+      Vec3 in_space = Vec3::Zero();
+      for (int d = 0; d < block_.dimension; ++d)
+        in_space += C[d] * measure.face(d);
+      row.push_back({offset, in_space});
+    }
+    std::sort(row.begin(), row.end(), [](const LatticePair& p, const LatticePair& q) {
+      return std::lexicographical_compare(p.offset.rbegin(), p.offset.rend(), q.offset.rbegin(),
+                                          q.offset.rend());
+    });
+    return row;
+  }
+
+  const StructuredBlock& block_;
+  int near_ = lattice_layers;
+  std::vector<std::vector<LatticePair>> rows_;
+};
+
+/// Puts row a where graph.row says, ascending.
+/// @return whether the pairs stood in that order in the row of its kind
+bool put_row(const StructuredBlock& block,
+             const std::vector<LatticePair>& row,
              std::int64_t a,
              scheme::PairGraph& graph) {
-  const StructuredBlock& block = measure.block();
-  std::vector<std::pair<std::int32_t, Vec3>> row;
-  for (const LatticeOffset& offset : lattice.offsets()) {
+  const std::int64_t first = graph.row[a];
+  std::int64_t p = first;
+  for (const LatticePair& pair : row) {
     auto at = block.place[a];
-    bool is_inside = true;
-    for (int d = 0; d < block.dimension; ++d) {
-      at[d] += offset[d];
-      is_inside = is_inside && at[d] >= 0 && at[d] < block.n_nodes[d];
-    }
-    if (!is_inside) continue;
-    const Vec3 C = lattice.C(block.place[a], offset);
-    Vec3 in_space = Vec3::Zero();
     for (int d = 0; d < block.dimension; ++d)
-      in_space += C[d] * measure.face(d);
-    row.emplace_back(block.node_at(at), in_space);
+      at[d] += pair.offset[d];
+    graph.neighbour[p] = block.node_at(at);
+    graph.C[p++] = pair.C;
   }
-  std::sort(row.begin(), row.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
-  for (const auto& [b, C] : row) {
-    graph.neighbour.push_back(b);
-    graph.C.push_back(C);
+  const auto begin = graph.neighbour.begin() + first, end = graph.neighbour.begin() + p;
+  if (std::is_sorted(begin, end)) return true;
+  std::vector<std::pair<std::int32_t, Vec3>> sorted;
+  for (std::int64_t q = first; q < p; ++q)
+    sorted.emplace_back(graph.neighbour[q], graph.C[q]);
+  std::sort(sorted.begin(), sorted.end(),
+            [](const auto& u, const auto& v) { return u.first < v.first; });
+  for (std::int64_t q = first; q < p; ++q)
+    std::tie(graph.neighbour[q], graph.C[q]) = sorted[static_cast<size_t>(q - first)];
+  return false;
+}
+
+/// Volumes, boundary areas, pairs and, where they stand in the common order, classes of rows.
+void put_nodes(const meshes::BlockMeasure& measure,
+               const RowsOfBlock& rows,
+               scheme::PairGraph& graph) {
+  const std::int64_t n = graph.n_nodes();
+  graph.row.assign(1, 0);
+  graph.row.reserve(static_cast<size_t>(n) + 1);
+  for (std::int64_t a = 0; a < n; ++a)
+    graph.row.push_back(graph.row.back() + static_cast<std::int64_t>(rows.row(a).size()));
+  graph.Omega.resize(static_cast<size_t>(n));
+  graph.boundary_area.resize(static_cast<size_t>(n));
+  graph.neighbour.resize(static_cast<size_t>(graph.row.back()));
+  graph.C.resize(graph.neighbour.size());
+  std::vector<char> in_order(static_cast<size_t>(parallel::n_chunks_of(n)), 1);
+  parallel::for_chunks(n, [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      graph.Omega[a] = measure.volume(a);
+      graph.boundary_area[a] = measure.boundary_area(a);
+      if (!put_row(measure.block(), rows.row(a), a, graph)) in_order[chunk] = 0;
+    }
+  });
+  if (std::find(in_order.begin(), in_order.end(), 0) != in_order.end()) {
+    set_classes(graph);
+    return;
   }
-  graph.row.push_back(graph.n_pairs());
+  scheme::EqualGroups alike;  // in the order of their first nodes
+  std::vector<std::int32_t> group(rows.n_kinds(), -1);
+  alike.of.reserve(static_cast<size_t>(n));
+  for (std::int64_t a = 0; a < n; ++a) {
+    std::int32_t& of = group[rows.kind(a)];
+    if (of < 0) {
+      of = static_cast<std::int32_t>(alike.representative.size());
+      alike.representative.push_back(static_cast<std::int32_t>(a));
+    }
+    alike.of.push_back(of);
+  }
+  set_classes(graph, alike);
+  if (!graph.classes.order.empty()) graph.classes = {};  // its edges turn the order round
 }
 
 }  // namespace
@@ -66,12 +182,7 @@ scheme::PairGraph sbp_graph(const meshes::Mesh& mesh, const Kernel& kernel, doub
   scheme::PairGraph graph;
   graph.dimension = mesh.dimension;
   graph.X = mesh.nodes;
-  graph.row.assign(1, 0);
-  for (std::int64_t a = 0; a < mesh.n_nodes(); ++a) {
-    graph.Omega.push_back(measure.volume(a));
-    graph.boundary_area.push_back(measure.boundary_area(a));
-    add_row(measure, lattice, a, graph);
-  }
+  put_nodes(measure, RowsOfBlock(measure, lattice), graph);
   for (const meshes::BoundaryGroup& group : mesh.boundary_groups) {
     meshes::PatchArea patch = measure.patch(group);
     graph.patches.push_back({std::move(patch.name), std::move(patch.nodes), std::move(patch.area),
@@ -83,7 +194,6 @@ scheme::PairGraph sbp_graph(const meshes::Mesh& mesh, const Kernel& kernel, doub
       measure.block(), measure.edges(), [&](auto a, auto b) { return area_between(graph, a, b); });
   graph.slopes = {std::move(slopes.row), std::move(slopes.neighbour), std::move(slopes.weight),
                   scheme::metric_of_lines(measure.edges())};
-  set_classes(graph);
   validate(graph);
   return graph;
 }

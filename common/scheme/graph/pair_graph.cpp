@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <fmt/format.h>
 #include <limits>
 
@@ -83,6 +84,23 @@ void check_row(const PairGraph& graph, std::int64_t a) {
                          node_text(graph, b)));
     }
   }
+}
+
+/// All of them, at once; of those that are refused the first is named.
+void check_nodes(const PairGraph& graph, void (*check)(const PairGraph&, std::int64_t)) {
+  std::vector<std::exception_ptr> refused(
+      static_cast<size_t>(parallel::n_chunks_of(graph.n_nodes())));
+  parallel::for_chunks(graph.n_nodes(),
+                       [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
+                         try {
+                           for (std::int64_t a = begin; a < end; ++a)
+                             check(graph, a);
+                         } catch (const base::InputError&) {
+                           refused[chunk] = std::current_exception();
+                         }
+                       });
+  for (const std::exception_ptr& error : refused)
+    if (error) std::rethrow_exception(error);
 }
 
 void check_patch(const PairGraph& graph, const BoundaryPatch& patch) {
@@ -167,10 +185,8 @@ GraphQuality quality(const PairGraph& graph) {
 
 void validate(const PairGraph& graph) {
   check_sizes(graph);
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a)
-    check_node(graph, a);
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a)
-    check_row(graph, a);
+  check_nodes(graph, check_node);
+  check_nodes(graph, check_row);
   for (const BoundaryPatch& patch : graph.patches)
     check_patch(graph, patch);
 }
