@@ -19,6 +19,10 @@ install(FILES ${man_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md VERIFICATION.md LITERATURE.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${CMAKE_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
+# HDF5 and GCC's OpenMP runtime are inside the program: their notices go with it.
+string(REGEX MATCH "^[0-9]+" gcc_major "${CMAKE_CXX_COMPILER_VERSION}")
+install(FILES /usr/share/doc/libhdf5-dev/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright.hdf5 OPTIONAL)
+install(FILES /usr/share/doc/gcc-${gcc_major}-base/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright.gcc OPTIONAL)
 
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON PARENT_SCOPE) # the tests need not be built for it
 set(CPACK_GENERATOR DEB)
