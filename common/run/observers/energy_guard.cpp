@@ -8,24 +8,39 @@
 
 namespace diptych::run {
 
+namespace {
+
+std::string instant_of(const StepReport& step) {
+  return fmt::format("step {}, time {:.6g} s, dt {:.4g} s", step.step, step.time, step.dt);
+}
+
+}  // namespace
+
 void EnergyGuard::refuse_gain(const Check& check, double gained) const {
   throw base::BreakdownError(fmt::format(
       "numerical dissipation has given the body {:.3g} of the largest energy so far, bound {:g}, "
-      "step {}, time {:.6g} s, dt {:.4g} s\n"
+      "{}\n"
       "  what is left of linear reconstructions has the wrong sign here: use scheme.limiter = "
       "\"sign-preserving\" or scheme.reconstruction = \"none\"; guards.energy_residual raises the "
       "bound",
-      gained / energy_.scale(), threshold_, check.step.step, check.step.time, check.step.dt));
+      gained / energy_.scale(), threshold_, instant_of(check.step)));
 }
 
 void EnergyGuard::refuse_loss(const Check& check, double lost) const {
   throw base::BreakdownError(fmt::format(
-      "numerical dissipation has taken {:.3g} of the largest energy so far, bound {:g}, step {}, "
-      "time {:.6g} s, dt {:.4g} s\n"
-      "  the mesh does not resolve the motion: use a finer one (--level); where shocks dissipate, "
-      "a "
-      "limiter says so (scheme.limiter); guards.numerical_dissipation sets the bound",
-      lost / energy_.scale(), largest_loss_, check.step.step, check.step.time, check.step.dt));
+      "numerical dissipation has taken {:.3g} of the largest energy so far, bound {:g}, {}\n"
+      "  the mesh does not resolve the motion: use a finer one (--level); a limiter "
+      "(scheme.limiter) says that shocks dissipate; guards.numerical_dissipation sets the bound",
+      lost / energy_.scale(), largest_loss_, instant_of(check.step)));
+}
+
+void EnergyGuard::refuse_residual(const Check& check, double residual) const {
+  throw base::BreakdownError(fmt::format(
+      "the energy budget does not close: residual {:.3g} of the largest energy so far, bound {:g}, "
+      "{}\n"
+      "  the step is too large, or the scheme is unstable here: try a smaller time.cfl or a finer "
+      "mesh; guards.energy_residual raises the bound",
+      residual, threshold_, instant_of(check.step)));
 }
 
 void EnergyGuard::at_check(const Check& check) {
@@ -33,22 +48,15 @@ void EnergyGuard::at_check(const Check& check) {
   const double residual = energy.relative_residual;
   const double held =
       std::max(energy.kinetic + std::abs(energy.strain), std::abs(energy.external_work));
-  const StepReport& step = check.step;
-  const double lost = energy.numerical_dissipation;
-  if (-lost > threshold_ * energy_.scale() + least_energy_) refuse_gain(check, -lost);
-  if (std::isfinite(residual)) {
-    if (held <= least_energy_) judged_from_ = step.step + steps_of_start;
-    if (step.step < judged_from_) return;
-    if (lost > largest_loss_ * energy_.scale() + least_energy_) refuse_loss(check, lost);
-    if (std::abs(residual) * energy_.scale() <= threshold_ * energy_.scale() + least_energy_)
-      return;
-  }
-  throw base::BreakdownError(fmt::format(
-      "the energy budget does not close: residual {:.3g} of the largest energy so far, bound {:g}, "
-      "step {}, time {:.6g} s, dt {:.4g} s\n"
-      "  the step is too large, or the scheme is unstable here: try a smaller time.cfl or a finer "
-      "mesh; guards.energy_residual raises the bound",
-      residual, threshold_, step.step, step.time, step.dt));
+  const double lost = energy.numerical_dissipation, scale = energy_.scale();
+  if (-lost > threshold_ * scale + least_energy_) refuse_gain(check, -lost);
+  if (!std::isfinite(residual)) refuse_residual(check, residual);
+  if (held <= least_energy_) judged_from_ = check.step.step + steps_of_start;
+  if (check.step.step < judged_from_) return;
+  // first what an unstable step does, which dissipates, too
+  if (std::abs(residual) * scale > threshold_ * scale + least_energy_)
+    refuse_residual(check, residual);
+  if (lost > largest_loss_ * scale + least_energy_) refuse_loss(check, lost);
 }
 
 }  // namespace diptych::run

@@ -50,6 +50,7 @@ class EnergyGuard : public Observer {
   /// @throws base::BreakdownError
   void refuse_gain(const Check& check, double gained) const;
   void refuse_loss(const Check& check, double lost) const;
+  void refuse_residual(const Check& check, double residual) const;
 
   EnergyRecord energy_;
   double threshold_, largest_loss_, least_energy_;
