@@ -12,8 +12,9 @@ BlockMetrics::BlockMetrics(const meshes::Mesh& mesh, const meshes::LatticeBlock&
     : block_(block), T_(static_cast<size_t>(block.n_places())) {
   for (int d = 0; d < block.dimension; ++d) {
     const int n = block.n_nodes[d];
-    along_.push_back(block.is_closed[d] ? SbpOperator::closed(order, n)
-                                        : SbpOperator(widest_sbp_table(order, n), n));
+    along_.push_back(block.is_closed[d]
+                         ? closure::SbpOperator::closed(order, n)
+                         : closure::SbpOperator(closure::widest_sbp_table(order, n), n));
   }
   for (std::int64_t p = 0; p < block.n_places(); ++p) {
     const Vec3& X = mesh.nodes[block.node[p]];
@@ -23,7 +24,7 @@ BlockMetrics::BlockMetrics(const meshes::Mesh& mesh, const meshes::LatticeBlock&
     for (int d = 0; d < block.dimension; ++d) {
       T[d].setZero();
       auto at = place;
-      for (const SbpOperator::Entry& entry : along(d).row(place[d])) {
+      for (const closure::SbpOperator::Entry& entry : along(d).row(place[d])) {
         at[d] = entry.node;
         T[d] += entry.Q * (mesh.nodes[block.node[block.index(at)]] - X);
       }

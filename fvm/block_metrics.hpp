@@ -7,7 +7,7 @@
 /// map; sum_d D_d M_d is zero in 2-D and on extruded blocks, because the D_d commute, and of the
 /// order of the derivatives elsewhere. Source: notes 4.6. Test: tests/graphs/sbp_blocks_test.cpp
 
-#include "fvm/sbp_operator.hpp"
+#include "common/closure/sbp_operator.hpp"
 #include "meshes/lattice_blocks.hpp"
 
 #include <array>
@@ -21,14 +21,14 @@ class BlockMetrics {
   BlockMetrics(const meshes::Mesh& mesh, const meshes::LatticeBlock& block, int order);
 
   const meshes::LatticeBlock& block() const { return block_; }
-  const SbpOperator& along(int d) const { return along_[static_cast<size_t>(d)]; }
+  const closure::SbpOperator& along(int d) const { return along_[static_cast<size_t>(d)]; }
   double volume(std::int64_t place) const;  ///< H_1 H_2 H_3 det  [m^d]
   /// H_t M_d: pseudo-area per unit of Q_ij along d  [m^(d-1)]
   algebra::Vec3 area(std::int64_t place, int d) const;
 
  private:
   const meshes::LatticeBlock& block_;
-  std::vector<SbpOperator> along_;
+  std::vector<closure::SbpOperator> along_;
   std::vector<std::array<algebra::Vec3, 3>> T_;  ///< [n_places]
 };
 

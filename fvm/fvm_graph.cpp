@@ -2,13 +2,13 @@
 
 #include "common/base/registry.hpp"
 #include "common/closure/closure_repair.hpp"
+#include "common/closure/sbp_operator.hpp"
 #include "common/closure/summation_by_parts.hpp"
 #include "common/scheme/graph/classify_rows.hpp"
 #include "fvm/cell_stencil.hpp"
 #include "fvm/sbp_blocks_graph.hpp"
 #include "fvm/sbp_cells_graph.hpp"
 #include "fvm/sbp_graph.hpp"
-#include "fvm/sbp_operator.hpp"
 #include "meshes/cell_shares.hpp"
 #include "meshes/dual_measure.hpp"
 #include "meshes/structured_block.hpp"
@@ -117,7 +117,7 @@ Operators operators_of(const meshes::Mesh& mesh, const Options& options) {
         "order {} instead of {} along ({:.3g}, {:.3g}, {:.3g}): its lines have {} nodes, order {} "
         "takes {}",
         line.order, options.order, line.direction[0], line.direction[1], line.direction[2],
-        line.n_nodes, options.order, sbp_table(options.order).least_nodes()));
+        line.n_nodes, options.order, closure::sbp_table(options.order).least_nodes()));
   }
   return operators;
 }

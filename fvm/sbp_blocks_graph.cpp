@@ -29,7 +29,7 @@ void add_pairs(const BlockMetrics& metrics, Rows& rows) {
     for (int d = 0; d < block.dimension; ++d) {
       const Vec3 M = metrics.area(p, d);
       auto at = place;
-      for (const SbpOperator::Entry& entry : metrics.along(d).row(place[d])) {
+      for (const closure::SbpOperator::Entry& entry : metrics.along(d).row(place[d])) {
         at[d] = entry.node;
         const auto b = block.node[static_cast<size_t>(block.index(at))];
         rows[static_cast<size_t>(block.node[static_cast<size_t>(p)])].push_back(
@@ -71,8 +71,8 @@ std::vector<Line> lines_of(const std::vector<LatticeBlock>& blocks, int order) {
   for (const LatticeBlock& block : blocks) {
     for (int d = 0; d < block.dimension; ++d) {
       const int n = block.n_nodes[d];
-      const SbpTable& table =
-          block.is_closed[d] ? widest_closed_table(order, n) : widest_sbp_table(order, n);
+      const closure::SbpTable& table = block.is_closed[d] ? closure::widest_closed_table(order, n)
+                                                          : closure::widest_sbp_table(order, n);
       lines.push_back({n, table.order, block.is_closed[d]});
     }
   }
@@ -156,11 +156,11 @@ std::vector<std::string> blocks_notices(const std::vector<LatticeBlock>& blocks,
     has_sixes = has_sixes || (line.n_nodes == sixes && !line.is_closed && most > 2);
   }
   for (const auto& [key, line] : lost) {
-    texts.push_back(fmt::format("order {} instead of {} on {} of {} nodes, order {} takes {}",
-                                line.order, most, line.is_closed ? "rings" : "lines", line.n_nodes,
-                                most,
-                                line.is_closed ? 2 * std::ssize(sbp_table(most).interior) + 1
-                                               : sbp_table(most).least_nodes()));
+    texts.push_back(
+        fmt::format("order {} instead of {} on {} of {} nodes, order {} takes {}", line.order, most,
+                    line.is_closed ? "rings" : "lines", line.n_nodes, most,
+                    line.is_closed ? 2 * std::ssize(closure::sbp_table(most).interior) + 1
+                                   : closure::sbp_table(most).least_nodes()));
   }
   if (has_sixes) {
     texts.emplace_back(

@@ -1,8 +1,8 @@
 #include "fvm/sbp_graph.hpp"
 
+#include "common/closure/sbp_operator.hpp"
 #include "common/scheme/graph/classify_rows.hpp"
 #include "common/scheme/graph/dissipation_area.hpp"
-#include "fvm/sbp_operator.hpp"
 #include "meshes/block_measure.hpp"
 #include "meshes/line_slopes.hpp"
 
@@ -19,14 +19,14 @@ using meshes::Mesh;
 const meshes::BlockUse use{"fvm.stencil = \"sbp\"", "fvm.stencil = \"edge\" or \"integral\""};
 
 /// The operator of every direction.
-std::vector<SbpOperator> operators_along(const meshes::StructuredBlock& block, int order) {
-  std::vector<SbpOperator> along;
+std::vector<closure::SbpOperator> operators_along(const meshes::StructuredBlock& block, int order) {
+  std::vector<closure::SbpOperator> along;
   for (int d = 0; d < block.dimension; ++d)
-    along.emplace_back(widest_sbp_table(order, block.n_nodes[d]), block.n_nodes[d]);
+    along.emplace_back(closure::widest_sbp_table(order, block.n_nodes[d]), block.n_nodes[d]);
   return along;
 }
 
-std::vector<std::vector<double>> weights_of(const std::vector<SbpOperator>& along,
+std::vector<std::vector<double>> weights_of(const std::vector<closure::SbpOperator>& along,
                                             const meshes::StructuredBlock& block) {
   std::vector<std::vector<double>> H;
   for (int d = 0; d < block.dimension; ++d) {
@@ -39,7 +39,7 @@ std::vector<std::vector<double>> weights_of(const std::vector<SbpOperator>& alon
 
 /// Adds row a to the graph.
 void add_row(const meshes::BlockMeasure& measure,
-             const std::vector<SbpOperator>& along,
+             const std::vector<closure::SbpOperator>& along,
              std::int64_t a,
              scheme::PairGraph& graph) {
   const meshes::StructuredBlock& block = measure.block();
@@ -47,7 +47,7 @@ void add_row(const meshes::BlockMeasure& measure,
   for (int d = 0; d < block.dimension; ++d) {
     const Vec3 M = measure.area(a, d);
     auto at = block.place[a];
-    for (const SbpOperator::Entry& entry : along[d].row(block.place[a][d])) {
+    for (const closure::SbpOperator::Entry& entry : along[d].row(block.place[a][d])) {
       at[d] = entry.node;
       row.emplace_back(block.node_at(at), 2 * entry.Q * M);
     }
@@ -64,7 +64,7 @@ void add_row(const meshes::BlockMeasure& measure,
 
 scheme::PairGraph sbp_graph(const Mesh& mesh, int order) {
   meshes::StructuredBlock block = meshes::structured_block(mesh, use);
-  const std::vector<SbpOperator> along = operators_along(block, order);
+  const std::vector<closure::SbpOperator> along = operators_along(block, order);
   std::vector<std::vector<double>> H = weights_of(along, block);
   const meshes::BlockMeasure measure(mesh, std::move(block), std::move(H), use);
   scheme::PairGraph graph;
@@ -94,7 +94,7 @@ scheme::PairGraph sbp_graph(const Mesh& mesh, int order) {
 std::string unsure_because(const Mesh& mesh, int order) {
   if (!meshes::is_undistorted_block(mesh)) return "the mesh is no box";
   meshes::StructuredBlock block = meshes::structured_block(mesh, use);
-  const std::vector<SbpOperator> along = operators_along(block, order);
+  const std::vector<closure::SbpOperator> along = operators_along(block, order);
   std::vector<std::vector<double>> H = weights_of(along, block);
   if (order == 2) return "fvm.order = 2";
   const int longest = *std::max_element(block.n_nodes.begin(), block.n_nodes.end());
@@ -109,7 +109,7 @@ std::vector<SbpLines> sbp_lines(const Mesh& mesh, int order) {
   for (int d = 0; d < block.dimension; ++d) {
     const int n = block.n_nodes[d];
     const Vec3 direction = edges.col(d).normalized() + Vec3::Zero();  // no -0
-    lines.push_back({direction, n, widest_sbp_table(order, n).order});
+    lines.push_back({direction, n, closure::widest_sbp_table(order, n).order});
   }
   return lines;
 }

@@ -6,6 +6,7 @@
 #include "meshes/block_measure.hpp"
 #include "meshes/line_slopes.hpp"
 #include "sph/lattice_operator.hpp"
+#include "sph/volume_lines.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -189,6 +190,7 @@ scheme::PairGraph sbp_graph(const meshes::Mesh& mesh, const Kernel& kernel, doub
                              std::move(patch.faces)});
   }
   link_reverse_pairs(graph);
+  graph.lines = volume_lines(measure);
   graph.dissipation_metric = scheme::metric_of_lines(measure.edges());
   meshes::LineSlopes slopes = meshes::line_slopes(
       measure.block(), measure.edges(), [&](auto a, auto b) { return area_between(graph, a, b); });
@@ -205,8 +207,7 @@ std::string unsure_because(const meshes::Mesh& mesh, const Kernel& kernel, doubl
   if (support > widest_sure_support) return "the support is more than four spacings";
   StructuredBlock block = meshes::structured_block(mesh, use);
   for (int d = 0; d < block.dimension; ++d) {
-    if (block.n_nodes[d] < least_sure_nodes)
-      return fmt::format("lines of {} nodes", block.n_nodes[d]);
+    if (block.n_nodes[d] < least_nodes) return fmt::format("lines of {} nodes", block.n_nodes[d]);
   }
   std::vector<std::vector<double>> H = weights_of(block);
   return meshes::BlockMeasure(mesh, std::move(block), std::move(H), use).unfit_group();
@@ -226,9 +227,9 @@ std::vector<std::string> sbp_notices(const meshes::Mesh& mesh) {
     if (block.n_nodes[d] >= enough) continue;
     const Vec3 e = edges.col(d).normalized() + Vec3::Zero();  // no -0
     notices.push_back(fmt::format(
-        "sbp: {} nodes along ({:.3g}, {:.3g}, {:.3g}): with fewer than {} the sign of the "
-        "numerical "
-        "dissipation is not known, and a nearly incompressible body may come apart (notes 4.4)",
+        "sbp: {} nodes along ({:.3g}, {:.3g}, {:.3g}): with fewer than {} and without slopes along "
+        "lines (scheme.reconstruction = \"quartic\") the sign of the numerical dissipation is not "
+        "known (notes 4.4)",
         block.n_nodes[d], e[0], e[1], e[2], enough));
   }
   return notices;

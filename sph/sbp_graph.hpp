@@ -16,17 +16,17 @@ namespace diptych::sph {
 scheme::PairGraph sbp_graph(const meshes::Mesh& mesh, const Kernel& kernel, double kappa);
 
 /// Why gradient = "auto" does not take sbp_graph on a mesh; empty where it does: on undistorted
-/// blocks with lines of `least_sure_nodes` nodes and more, whose boundary groups have areas of
-/// their own, and supports of two to four spacings. On shorter lines the numerical dissipation may
-/// give energy; wider rows than that the layers beside the boundary cannot correct (notes 4.4).
+/// blocks with lines of three nodes and more, whose boundary groups have areas of their own, and
+/// supports of two to four spacings: wider rows than that the layers beside the boundary cannot
+/// correct (notes 4.4).
 std::string unsure_because(const meshes::Mesh& mesh, const Kernel& kernel, double kappa);
-constexpr int least_sure_nodes = 5;
+constexpr int least_nodes = 3;
 constexpr double widest_sure_support = 4;
 
 /// "sbp: order 4 inside, 2 within 3 nodes of the boundary, kappa 1.2"
 std::string sbp_text(double kappa);
 
-/// Of short lines, on which the sign of D_ab is not known (notes 4.4).
+/// Of short lines, on which the sign of D_ab is not known without slopes along lines (notes 4.4).
 /// @pre sbp_graph takes the mesh
 std::vector<std::string> sbp_notices(const meshes::Mesh& mesh);
 

@@ -20,14 +20,12 @@ scheme::PairGraph in_precision(scheme::PairGraph graph, const std::string& preci
 
 /// Why a case that leaves the choice ("auto") has operators of second order, whatever the mesh;
 /// empty: it may have others. The face correction is for derivatives of second order; volumes of
-/// cells have boundary areas of their own, and derivatives along the lines of boxes (fvm) commute
-/// and need none.
+/// cells have boundary areas of their own.
 std::string second_order_because(const cases::Case& setup, const std::string& method) {
   const bool is_sph = method == "sph";
   if ((is_sph ? setup.sph.gradient : setup.fvm.stencil) != "auto") return "";
   if (setup.scheme.face_correction != 0) return "the face correction is for it";
-  const bool has_cells = is_sph ? run::wants_cell_volumes(setup) : setup.scheme.volumes == "cells";
-  return has_cells ? "volumes of cells carry the pressure" : "";
+  return setup.scheme.volumes == "cells" ? "volumes of cells carry the pressure" : "";
 }
 
 sph::Options sph_options(const cases::Case& setup) {
@@ -51,10 +49,9 @@ constexpr const char* pressure_notice =
 GraphDescription description_of(const cases::Case& setup,
                                 const std::string& text,
                                 std::vector<std::string> notices,
-                                bool commutes) {
+                                bool is_safe) {
   const bool sums_by_parts = text.starts_with("sbp");
-  if (sums_by_parts && !commutes && setup.scheme.volumes == "auto" &&
-      run::wants_cell_volumes(setup))
+  if (sums_by_parts && !is_safe && run::wants_safe_volumes(setup))
     notices.push_back(pressure_notice);
   return {text, std::move(notices)};
 }
@@ -115,12 +112,14 @@ GraphDescription graph_description(const std::string& method,
     const char* name = method == "sph" ? "corrected gradient" : "edge stencil";
     return {fmt::format("{}: {}", name, because), {}};
   }
+  const bool is_block = meshes::is_undistorted_block(mesh);
   if (method == "sph") {
-    const sph::Operators operators = sph::operators_of(mesh, sph_options(setup));
-    return description_of(setup, operators.text, operators.notices, false);
+    sph::Operators operators = sph::operators_of(mesh, sph_options(setup));
+    if (is_block && run::wants_line_slopes(setup)) operators.notices.clear();
+    return description_of(setup, operators.text, operators.notices, is_block);
   }
   const fvm::Operators operators = fvm::operators_of(mesh, fvm_options(setup));
-  return description_of(setup, operators.text, operators.lost, meshes::is_undistorted_block(mesh));
+  return description_of(setup, operators.text, operators.lost, is_block);
 }
 
 }  // namespace diptych::harness

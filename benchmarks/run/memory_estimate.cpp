@@ -4,8 +4,8 @@
 #include "benchmarks/run/memory.hpp"
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
+#include "common/closure/sbp_operator.hpp"
 #include "common/run/solver.hpp"
-#include "fvm/sbp_operator.hpp"
 
 #include <algorithm>
 #include <array>
@@ -34,10 +34,11 @@ constexpr double exact_impedance = 200;  ///< a node
 constexpr double frames = 128;           ///< a node, of the objective reconstruction
 constexpr double lines = 420;            ///< a node, of slopes along lines
 constexpr double cell_bytes = 30;
-constexpr double volume_corner = 70;  ///< of a cell that carries pressure
-constexpr double volume_node = 60;    ///< of a node of such
-constexpr double class_pair = 650;    ///< of rows that stand for many
-constexpr double solve_node = 600;    ///< while operators of any nodes are made to sum by parts
+constexpr double volume_corner = 70;      ///< of a cell that carries pressure
+constexpr double volume_node = 60;        ///< of a node of such
+constexpr double volume_line_node = 400;  ///< of a node whose lines carry pressure
+constexpr double class_pair = 650;        ///< of rows that stand for many
+constexpr double solve_node = 600;        ///< while operators of any nodes are made to sum by parts
 constexpr double solve_pair = 8;
 
 struct Lattice {
@@ -102,7 +103,7 @@ double pairs_of_lines(const Lattice& lattice, int order) {
   double pairs = 0;
   for (int i = 0; i < lattice.dimension; ++i) {
     const int n = static_cast<int>(lattice.cells[i]) + 1;
-    const fvm::SbpOperator line(fvm::widest_sbp_table(order, n), n);
+    const closure::SbpOperator line(closure::widest_sbp_table(order, n), n);
     double of_line = 0;
     for (int k = 0; k < n; ++k)
       of_line += static_cast<double>(line.row(k).size());
@@ -210,6 +211,16 @@ double particle_pairs(const Lattice& lattice, const Support& support) {
   return lattice.nodes() * std::min(inside * support.neighbours, lattice.nodes() - 1);
 }
 
+/// SPH that sums by parts on a box, asked for or chosen: supports in spacings of each line, rows of
+/// their own within three nodes of a side.
+bool sums_on_lattice(const cases::Case& setup) {
+  const bool is_box =
+      setup.mesh.file.empty() && setup.mesh.perturbation == 0 && !is_simplex(setup.mesh.element);
+  if (setup.sph.gradient != "auto") return is_box && setup.sph.gradient == "sbp";
+  return is_box && setup.scheme.face_correction == 0 && support_radius(setup.sph) > 2 &&
+         support_radius(setup.sph) <= 4 && setup.scheme.volumes != "cells";
+}
+
 /// Bytes of a run on so many nodes, cells and pairs.
 /// @param n_class_pairs  pairs of the rows that stand for all others; 0: every row for itself
 double bytes_of(const cases::Case& setup,
@@ -226,25 +237,19 @@ double bytes_of(const cases::Case& setup,
   const bool commutes = method != "sph" && !is_simplex(setup.mesh.element) &&
                         setup.mesh.perturbation == 0 && setup.fvm.stencil != "integral";
   const bool sums = (method == "sph" ? setup.sph.gradient : setup.fvm.stencil) == "sbp";
-  const bool has_volumes =
-      !sums && (scheme.volumes == "cells" || !commutes) && run::wants_cell_volumes(setup);
+  const bool has_volumes = scheme.volumes == "cells" || scheme.volumes == "lines" ||
+                           (run::wants_safe_volumes(setup) && !commutes &&
+                            (!sums || (method == "sph" && sums_on_lattice(setup))));
   const double corners = size.cells * corners_of_cell(setup.mesh);
-  const double volumes = has_volumes ? volume_corner * corners + volume_node * size.nodes : 0;
+  const double volumes = !has_volumes ? 0
+                         : method == "sph" && sums_on_lattice(setup)
+                             ? volume_line_node * size.nodes
+                             : volume_corner * corners + volume_node * size.nodes;
   const double geometry = n_class_pairs > 0 ? class_pair * n_class_pairs : stored * size.pairs;
   const double solve =
       sums_anywhere(setup, method) ? solve_node * size.nodes + solve_pair * size.pairs : 0;
   return solve + volumes + node * size.nodes + cell_bytes * size.cells + costs.pair * size.pairs +
          geometry;
-}
-
-/// SPH that sums by parts on a box, asked for or chosen: supports in spacings of each line, rows of
-/// their own within three nodes of a side.
-bool sums_on_lattice(const cases::Case& setup) {
-  const bool is_box =
-      setup.mesh.file.empty() && setup.mesh.perturbation == 0 && !is_simplex(setup.mesh.element);
-  if (setup.sph.gradient != "auto") return is_box && setup.sph.gradient == "sbp";
-  return is_box && setup.scheme.face_correction == 0 && support_radius(setup.sph) > 2 &&
-         support_radius(setup.sph) <= 4 && !run::wants_cell_volumes(setup);
 }
 
 /// Directed pairs within a support on a box.

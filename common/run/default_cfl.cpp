@@ -59,7 +59,7 @@ double default_cfl(const cases::Case& setup,
   const double strength = setup.scheme.dissipation *
                           scheme::strength_of(scheme::limiter_menu().at(setup.scheme.limiter));
   const ElasticRatios ratios =
-      ratios_of(setup.material, body.cells.empty() ? 0 : material.volumetric_modulus());
+      ratios_of(setup.material, body.bulk ? material.volumetric_modulus() : 0);
   LargestRates<Dim> largest(body, kappa_f);
   const double omega = largest.frequency(ratios);
   const double d = strength * largest.dissipation(ratios.shear);
@@ -86,7 +86,7 @@ double default_cfl(const cases::Case& setup,
                    const time::Integrator& integrator) {
   scheme::BodyOptions options;
   options.face_correction = setup.scheme.face_correction != 0;
-  options.cell_volumes = has_cell_volumes(setup, graph);
+  options.volumes = volumes_of(setup, graph);
   const auto material = model_menu().at(setup.material.model).model(setup.material);
   const double rate = scheme::geometric_rate(graph);
   if (graph.dimension == 2) {

@@ -87,7 +87,7 @@ void LargestRates<Dim>::apply_elasticity(const Vectors& u,
   scheme::velocity_gradients(body_, kappa_f_);
   put_stresses(ratios);
   sum_forces(0);
-  if (ratios.cells != 0) body_.cells.add_linear_forces(body_, ratios.cells);
+  if (ratios.cells != 0) body_.bulk->add_linear_forces(body_, ratios.cells);
   divide_forces(out);
 }
 

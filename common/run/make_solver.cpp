@@ -158,7 +158,7 @@ scheme::BodyOptions body_options_of(const cases::Case& setup,
   options.has_slopes = has_line_slopes(setup, graph);
   options.keeps_L_0 = integrator.gauss_relaxation && n_branches > 0;
   options.face_correction = setup.scheme.face_correction != 0;
-  options.cell_volumes = has_cell_volumes(setup, graph);
+  options.volumes = volumes_of(setup, graph);
   return options;
 }
 
@@ -196,43 +196,54 @@ std::unique_ptr<Solver> solver_in(const cases::Case& setup, const scheme::PairGr
 
 }  // namespace
 
-/// Volumetric over shear modulus from which bulk pressure can destroy a body: at J = 0.6 the
-/// pressure is then the shear modulus, and the least critical one that was found is above it (notes
+/// Bulk over shear modulus from which pressure can destroy a body whose nodes carry it: at J = 0.6
+/// it is then the shear modulus, and the least critical one that was found is above that (notes
 /// 10.1).
 constexpr double least_bulk = 2.5;
 
-bool has_line_slopes(const cases::Case& setup, const scheme::PairGraph& graph) {
+bool wants_line_slopes(const cases::Case& setup) {
   using Choice = scheme::ReconstructionChoice;
   const Choice asked = scheme::reconstruction_menu().at(setup.scheme.reconstruction);
-  if (asked == Choice::quartic && graph.slopes.empty()) {
+  if (asked != Choice::automatic) return asked == Choice::quartic;
+  return !scheme::limits_slopes(scheme::limiter_menu().at(setup.scheme.limiter));
+}
+
+bool has_line_slopes(const cases::Case& setup, const scheme::PairGraph& graph) {
+  if (!graph.slopes.empty()) return wants_line_slopes(setup);
+  if (scheme::reconstruction_menu().at(setup.scheme.reconstruction) ==
+      scheme::ReconstructionChoice::quartic) {
     throw base::InputError(
         fmt::format("{}: scheme.reconstruction = \"quartic\" needs operators that sum by parts on "
                     "an undistorted "
                     "box of hexahedra or quadrilaterals; use \"linear\" or \"auto\"",
                     setup.file));
   }
-  if (asked != Choice::automatic || graph.slopes.empty()) return asked == Choice::quartic;
-  return !scheme::limits_slopes(scheme::limiter_menu().at(setup.scheme.limiter));
+  return false;
 }
 
-bool wants_cell_volumes(const cases::Case& setup) {
-  const scheme::Volumes volumes = scheme::volumes_menu().at(setup.scheme.volumes);
-  if (volumes != scheme::Volumes::automatic) return volumes == scheme::Volumes::cells;
-  const auto material = model_menu().at(setup.material.model).model(setup.material);
-  return material->volumetric_modulus() > least_bulk * setup.material.shear_modulus;
+bool wants_safe_volumes(const cases::Case& setup) {
+  if (scheme::volumes_menu().at(setup.scheme.volumes) != scheme::Volumes::automatic) return false;
+  const cases::MaterialCase& m = setup.material;
+  return m.lame + 2.0 / 3 * m.shear_modulus > least_bulk * m.shear_modulus;
 }
 
-bool has_cell_volumes(const cases::Case& setup, const scheme::PairGraph& graph) {
-  if (scheme::volumes_menu().at(setup.scheme.volumes) == scheme::Volumes::automatic)
-    return !graph.commutes && !graph.cells.empty() && wants_cell_volumes(setup);
-  if (!wants_cell_volumes(setup)) return false;
-  if (graph.cells.empty()) {
+scheme::Volumes volumes_of(const cases::Case& setup, const scheme::PairGraph& graph) {
+  using scheme::Volumes;
+  const Volumes asked = scheme::volumes_menu().at(setup.scheme.volumes);
+  if (asked == Volumes::automatic)
+    return wants_safe_volumes(setup) ? scheme::safe_volumes(graph) : Volumes::nodes;
+  if (asked == Volumes::cells && graph.cells.empty()) {
     throw base::InputError(
         "scheme.volumes = \"cells\" is not for this graph: faces of the boundary are no "
         "parallelograms, or the operators sum by parts, whose boundary areas are not those of "
         "cells; use \"auto\"");
   }
-  return true;
+  if (asked == Volumes::lines && graph.lines.empty()) {
+    throw base::InputError(
+        "scheme.volumes = \"lines\" is for SPH that sums by parts (sph.gradient = \"sbp\") on "
+        "undistorted boxes of hexahedra or quadrilaterals; use \"auto\"");
+  }
+  return asked;
 }
 
 std::unique_ptr<Solver> make_solver(const cases::Case& setup, const scheme::PairGraph& graph) {

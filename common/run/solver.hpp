@@ -9,6 +9,7 @@
 #include "common/scheme/budget/audit.hpp"
 #include "common/scheme/budget/interventions.hpp"
 #include "common/scheme/graph/pair_graph.hpp"
+#include "common/scheme/volumes/bulk_volumes.hpp"
 
 #include <memory>
 #include <optional>
@@ -83,18 +84,20 @@ class Solver {
   }
 };
 
-/// Whether a case, whatever its graph, wants volumes of cells to carry its pressure: it asks for
-/// them, or its material is nearly incompressible and it leaves the choice (scheme.volumes =
-/// "auto").
-bool wants_cell_volumes(const cases::Case& setup);
+/// Whether the bulk pressure of a case can destroy a body whose nodes carry it, and the case leaves
+/// the choice (scheme.volumes = "auto"): its material is nearly incompressible.
+bool wants_safe_volumes(const cases::Case& setup);
+
+/// Whether a case has jumps reconstructed with slopes along lines of nodes, where a graph has them.
+bool wants_line_slopes(const cases::Case& setup);
 
 /// Whether jumps are reconstructed with the slopes along lines of nodes that the graph has.
 /// @throws base::InputError where they are asked for and it has none
 bool has_line_slopes(const cases::Case& setup, const scheme::PairGraph& graph);
 
-/// Whether volumes of the cells of this graph carry the pressure of this case (scheme.volumes).
-/// @throws base::InputError where the graph lacks the cells that the case asks for
-bool has_cell_volumes(const cases::Case& setup, const scheme::PairGraph& graph);
+/// What carries the pressure of this case on this graph (scheme.volumes), never "automatic".
+/// @throws base::InputError where the graph lacks the cells or lines that the case asks for
+scheme::Volumes volumes_of(const cases::Case& setup, const scheme::PairGraph& graph);
 
 /// @param graph  kept by reference: must outlive the solver
 /// @throws base::InputError on a boundary group that the graph lacks, an unknown menu entry

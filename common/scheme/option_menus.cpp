@@ -39,6 +39,7 @@ const base::Registry<Volumes>& volumes_menu() {
   static const auto menu = base::Registry<Volumes>("scheme.volumes")
                                .add("auto", Volumes::automatic)
                                .add("cells", Volumes::cells)
+                               .add("lines", Volumes::lines)
                                .add("nodes", Volumes::nodes);
   return menu;
 }

@@ -28,9 +28,8 @@ void archive_body(MovingBody<Dim>& moving, Archive& archive) {
   scheme::archive_fields(body, Role::unknown, archive);
   scheme::archive_fields(body, Role::derived, archive);
   if (archive.is_loading() && !body.in_runs()) copy_velocities(body);
-  // volumes of cells remember the forces that they added, to body.T too, which is loaded next
-  if (archive.is_loading() && !body.cells.empty())
-    body.cells.add_forces(body, moving.sweeps.material());
+  // bulk volumes remember the forces that they added, to body.T too, which is loaded next
+  if (archive.is_loading() && body.bulk) body.bulk->add_forces(body, moving.sweeps.material());
   scheme::archive_fields(body, Role::accumulated, archive);
 }
 

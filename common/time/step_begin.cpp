@@ -124,8 +124,8 @@ void StepBegin<Dim>::restore(MovingBody<Dim>& moving) {
     return;
   }
   moving.sweeps.set_results(results_);
-  if (!moving.body.cells.empty()) {  // they remember the forces that they added
-    moving.body.cells.add_forces(moving.body, moving.sweeps.material());
+  if (moving.body.bulk) {  // they remember the forces that they added
+    moving.body.bulk->add_forces(moving.body, moving.sweeps.material());
     put_back(moving.body);
   }
   if (limits_.size() == 1) return;

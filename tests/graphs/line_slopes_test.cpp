@@ -3,9 +3,9 @@
 
 #include "meshes/line_slopes.hpp"
 
+#include "common/closure/sbp_operator.hpp"
 #include "common/scheme/graph/slope_graph.hpp"
 #include "common/scheme/sweeps/strain_sum.hpp"
-#include "fvm/sbp_operator.hpp"
 #include "meshes/generators.hpp"
 #include "tests/graphs/graph_checks.hpp"
 
@@ -100,8 +100,8 @@ TEST(LineSlopes, LeaveTheShortestWavesAsTheyAre) {
 
 /// Least eigenvalue of the symmetric part of what D_ab takes on a line whose pairs have the areas
 /// of an operator, per c/h.
-double least_damping(const fvm::SbpTable& table, int n) {
-  const fvm::SbpOperator line(table, n);
+double least_damping(const closure::SbpTable& table, int n) {
+  const closure::SbpOperator line(table, n);
   std::vector<double> area;
   for (int i = 0; i + 1 < n; ++i) {
     for (const auto& entry : line.row(i))
@@ -127,12 +127,12 @@ double least_damping(const fvm::SbpTable& table, int n) {
 // Order 6 has other areas farther from the ends than slopes make up for.
 TEST(LineSlopes, TakeEnergyFromEveryMotion) {
   for (int n = 3; n <= 7; ++n)
-    EXPECT_GT(least_damping(fvm::sbp_line_table(n), n), -1e-14) << n;
+    EXPECT_GT(least_damping(closure::sbp_line_table(n), n), -1e-14) << n;
   for (const int n : {8, 9, 12, 24}) {
-    EXPECT_GT(least_damping(fvm::sbp_table(2), n), -1e-14) << n;
-    EXPECT_GT(least_damping(fvm::sbp_table(4), n), -1e-14) << n;
+    EXPECT_GT(least_damping(closure::sbp_table(2), n), -1e-14) << n;
+    EXPECT_GT(least_damping(closure::sbp_table(4), n), -1e-14) << n;
   }
-  EXPECT_GT(least_damping(fvm::sbp_table(6), 24), -1e-3);
+  EXPECT_GT(least_damping(closure::sbp_table(6), 24), -1e-3);
 }
 
 /// Of a sheared and stretched box, at all nodes.

@@ -45,11 +45,13 @@ SectionKeys<SchemeCase> scheme_keys() {
       .key("volumes", &SchemeCase::volumes,
            one_of(
                scheme::volumes_menu().names(),
-               "What carries the bulk pressure: J of the nodes, or volumes of deformed cells, "
-               "which keep bodies under pressure whole. auto: cells where the volumetric modulus "
-               "is more than 2.5 times the shear modulus, but for fvm on boxes of hexahedra, where "
-               "nodes are as safe, and on hexahedra with distorted faces on the boundary and with "
-               "operators that sum by parts, whose boundary areas are not those of cells.",
+               "What carries the bulk pressure: J of the nodes, or volumes that keep bodies under "
+               "pressure whole: of deformed cells, or by derivatives along the lines of nodes of a "
+               "box (lines: SPH that sums by parts). auto, where the bulk modulus is more than 2.5 "
+               "times the shear modulus: nodes for fvm on boxes of hexahedra, where they are as "
+               "safe; lines where the operators have them; else cells, but on hexahedra with "
+               "distorted faces on the boundary and with operators that sum by parts, whose "
+               "boundary areas are not those of cells.",
                "\"cells\""))
       .key("precision", &SchemeCase::precision,
            one_of(scheme::precision_menu().names(),

@@ -33,8 +33,7 @@ SectionEntry sph_section() {
                   "more, "
                   "supports of at most four spacings "
                   "and boundary groups that cover whole sides or end far from their edges, but "
-                  "with a face correction or where volumes of cells carry the bulk pressure "
-                  "(scheme.volumes); else corrected.",
+                  "with a face correction or scheme.volumes = \"cells\"; else corrected.",
                   "\"sbp\""}));
   return {
       {"sph", false, "What only SPH needs."}, keys.keys(), [keys](Reading& reading, Case& setup) {

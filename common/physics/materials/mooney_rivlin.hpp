@@ -24,28 +24,30 @@ struct MooneyRivlinFamily {
     return {p.xi, p.zeta, p.lambda_hat};
   }
 
+  double b() const { return 2.0 * (xi + 2.0 * zeta); }
+
   /// Moduli that Maxwell branches scale: xi^alpha = beta_C xi, zeta^alpha = beta_G zeta.
   double branch_xi() const { return xi; }
   double branch_zeta() const { return with_zeta ? zeta : 0; }
 
-  /// The part of the energy that carries bulk pressure, lambda_hat/2 (J - 1)^2  [Pa], and its
-  /// derivative. The logarithm, of the size of mu, stays with F and H: a body at rest has no
-  /// stress.
+  /// The part of the energy that carries bulk pressure, with b = 2 (xi + 2 zeta)
+  ///   U(J) = lambda_hat/2 (J - 1)^2 - b (ln J - (J - 1))  [Pa],
+  /// and its derivative. What stays with F and H is linear in J, so that a body at rest has no
+  /// stress in either part.
   template <class T>
   DIPTYCH_INLINE T volumetric_energy(const T& J) const {
-    return 0.5 * lambda_hat * (J - 1.0) * (J - 1.0);
+    return 0.5 * lambda_hat * (J - 1.0) * (J - 1.0) - b() * (algebra::natural_log(J) - (J - 1.0));
   }
   template <class T>
   DIPTYCH_INLINE T volumetric_stress(const T& J) const {
-    return lambda_hat * (J - 1.0);
+    return (J - 1.0) * (lambda_hat + b() / J);
   }
-  double volumetric_modulus() const { return lambda_hat; }  ///< its second derivative at J = 1
+  double volumetric_modulus() const { return lambda_hat + b(); }  ///< U''(1)
 
   /// Energy density (4)  [Pa]
   template <class T>
   DIPTYCH_INLINE T energy(const Deformation<T>& X) const {
-    T W = xi * (algebra::contract(X.F, X.F) - 3.0) + volumetric_energy(X.J) -
-          2.0 * (xi + 2.0 * zeta) * algebra::natural_log(X.J);
+    T W = xi * (algebra::contract(X.F, X.F) - 3.0) + volumetric_energy(X.J) - b() * (X.J - 1.0);
     if constexpr (with_zeta) W += zeta * (algebra::contract(X.H, X.H) - 3.0);
     return W;
   }
@@ -53,12 +55,11 @@ struct MooneyRivlinFamily {
   template <class T>
   DIPTYCH_INLINE Response<T> response(const Deformation<T>& X) const {
     const T inverse_J = 1.0 / X.J;
-    const double b = 2.0 * (xi + 2.0 * zeta);
     Response<T> r;
     r.Sigma_F = (2.0 * xi) * X.F;
-    r.Sigma_J = volumetric_stress(X.J) - b * inverse_J;
+    r.Sigma_J = lambda_hat * (X.J - 1.0) - b() * inverse_J;
     r.A_tot = (2.0 * xi) * algebra::symmetric_identity<T>();
-    r.W_JJ = b * inverse_J * inverse_J + lambda_hat;
+    r.W_JJ = b() * inverse_J * inverse_J + lambda_hat;
     r.W_FJ = T{};
     if constexpr (with_zeta) {
       r.Sigma_H = (2.0 * zeta) * X.H;

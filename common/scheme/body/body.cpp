@@ -18,7 +18,7 @@ Body<Dim>::Body(const PairGraph& whole, const BodyOptions& what, SweepGraph<Dim>
       centroid(centroid_of(whole)) {
   list_fields();
   allocate();
-  if (options.cell_volumes) cells = CellVolumes<Dim>(whole.cells, whole.X);
+  bulk = make_bulk_volumes<Dim>(whole, options.volumes);
 }
 
 template <int Dim>
@@ -130,7 +130,7 @@ std::int64_t Body<Dim>::bytes() const {
       counted.push_back(field.table);
     }
   }
-  return sum + cells.bytes();
+  return sum + (bulk ? bulk->bytes() : 0);
 }
 
 template <int Dim>

@@ -12,7 +12,7 @@
 #include "common/algebra/layout.hpp"
 #include "common/parallel/part.hpp"
 #include "common/scheme/graph/sweep_graph.hpp"
-#include "common/scheme/volumes/cell_volumes.hpp"
+#include "common/scheme/volumes/bulk_volumes.hpp"
 
 #include <memory>
 #include <string_view>
@@ -91,7 +91,7 @@ struct BodyOptions {
   bool has_slopes = false;  ///< those of the graph stand in for dF/dt in the reconstruction
   bool keeps_L_0 = false;   ///< dF/dt at the beginning of the step, for GEXP (notes 5.3)
   bool face_correction = false;
-  bool cell_volumes = false;  ///< those of the graph carry the pressure
+  Volumes volumes = Volumes::nodes;  ///< what carries the pressure, resolved
 };
 
 /// What of a body is worked where it is divided among ranks (ranks/division.hpp).
@@ -155,8 +155,9 @@ struct Body {
   // face correction only: what its sweeps read
   NodeTable gradients;  ///< uncorrected dF/dt
   NodeTable stresses;   ///< P
-  /// Where volumes of cells carry the pressure (notes 3.9): P of the records is without it.
-  CellVolumes<Dim> cells;
+  /// What carries the pressure in place of J of the nodes (notes 3.9); P of the records is then
+  /// without it. Null: nodes carry it.
+  std::unique_ptr<BulkVolumes<Dim>> bulk;
   /// Among ranks; null: this one works all of it.
   std::shared_ptr<Division> division;
 

@@ -14,8 +14,8 @@ namespace {
 /// J of nodes by the volumes of cells, on all ranks; empty where these do not carry the pressure.
 template <int Dim>
 std::vector<double> cell_ratios(const Body<Dim>& body, std::span<const std::int32_t> nodes) {
-  if (body.cells.empty()) return {};
-  const std::vector<double> all = body.cells.ratios(body);
+  if (!body.bulk) return {};
+  const std::vector<double> all = body.bulk->ratios(body);
   std::vector<double> J;
   std::vector<std::int32_t> chunk_of;
   for (const std::int32_t a : nodes) {

@@ -295,41 +295,18 @@ Impulse AppliedBoundary::overwrite(Body<Dim>& body) const {
       });
 }
 
-/// Shares of the patch's nodes in its deformed area: of the deformed faces where volumes of cells
-/// carry the pressure, which then a uniform pressure balances exactly; of the nodes' own
-/// deformation elsewhere.
+/// Shares of the patch's nodes in its deformed area: of the volumes that carry the pressure, which
+/// then a uniform pressure balances exactly; of the nodes' own deformation elsewhere.
 template <int Dim>
 std::vector<Vec3> AppliedBoundary::deformed_areas(const Body<Dim>& body,
                                                   const BoundaryPatch& patch) const {
-  std::vector<Vec3> area(patch.nodes.size(), Vec3::Zero());
-  if (body.cells.empty()) {
-    for (size_t k = 0; k < patch.nodes.size(); ++k) {
-      algebra::Tensor<double> F = algebra::identity<double>();
-      for (int ij = 0; ij < Dim * Dim; ++ij)
-        F(ij / Dim, ij % Dim) += body.F.at(patch.nodes[k], ij);
-      area[k] = algebra::to_eigen(algebra::cofactor(F)) * patch.area[k];
-    }
-    return area;
-  }
-  std::vector<Vec3> x_of;  // of all nodes: faces have nodes of several ranks
-  std::vector<std::int32_t> chunk_of;
-  for (const std::int32_t a : patch.nodes) {
-    x_of.push_back(X_[a] + vector_at<Dim>(body.u, a));
-    chunk_of.push_back(static_cast<std::int32_t>(chunk_of_node(a)));
-  }
-  body.part().complete(x_of, chunk_of);
-  for (const auto& face : patch.faces) {
-    std::array<Vec3, 4> x;
-    std::array<std::ptrdiff_t, 4> at;
-    int n = 0;
-    for (; n < 4 && face[n] >= 0; ++n) {
-      at[n] =
-          std::lower_bound(patch.nodes.begin(), patch.nodes.end(), face[n]) - patch.nodes.begin();
-      x[n] = x_of[at[n]];
-    }
-    const auto shares = algebra::face_area_shares(x, n);
-    for (int i = 0; i < n; ++i)
-      area[at[i]] += shares[i];
+  if (body.bulk) return body.bulk->deformed_areas(body, patch);
+  std::vector<Vec3> area;
+  for (size_t k = 0; k < patch.nodes.size(); ++k) {
+    algebra::Tensor<double> F = algebra::identity<double>();
+    for (int ij = 0; ij < Dim * Dim; ++ij)
+      F(ij / Dim, ij % Dim) += body.F.at(patch.nodes[k], ij);
+    area.emplace_back(algebra::to_eigen(algebra::cofactor(F)) * patch.area[k]);
   }
   return area;
 }

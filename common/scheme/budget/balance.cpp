@@ -28,8 +28,7 @@ void add_momenta(const Body<Dim>& body, std::int64_t begin, std::int64_t end, Ba
 template <int Dim>
 Balance balance(const MaterialModel& material, const Body<Dim>& body) {
   const auto add_energies = block_physics<Dim>(material).add_energies;
-  const std::vector<double> J =
-      body.cells.empty() ? std::vector<double>{} : body.cells.ratios(body);
+  const std::vector<double> J = body.bulk ? body.bulk->ratios(body) : std::vector<double>{};
   std::vector<Balance> parts(parallel::n_chunks_of(body.n_blocks));
   parallel::for_chunks(
       body.part(), body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t c) {
@@ -38,7 +37,7 @@ Balance balance(const MaterialModel& material, const Body<Dim>& body) {
         add_momenta(body, begin, end, parts[c]);
         if (J.empty()) return;
         for (std::int64_t a = begin * n_lanes; a < std::min(end * n_lanes, body.n_owned); ++a)
-          parts[c].strain += body.cells.reference(a) * material.volumetric_energy(J[a]);
+          parts[c].strain += body.bulk->reference(a) * material.volumetric_energy(J[a]);
       });
   body.part().complete(parts);
   Balance sum;

@@ -10,6 +10,7 @@
 #include "common/scheme/graph/row_classes.hpp"
 #include "common/scheme/graph/slope_graph.hpp"
 #include "common/scheme/graph/volume_cells.hpp"
+#include "common/scheme/graph/volume_lines.hpp"
 
 #include <array>
 #include <cstdint>
@@ -52,6 +53,7 @@ struct PairGraph {
   /// Where the factory knows them, which takes that rows stand in their common order; else empty.
   RowClasses classes;
   VolumeCells cells;  ///< those between its nodes
+  VolumeLines lines;  ///< those of its nodes, where boundary areas are theirs
   /// Pairs for which it makes |X_b - X_a| more than one dissipate nothing (dissipation_area.hpp).
   /// [1/m]
   Mat3 dissipation_metric = Mat3::Zero();

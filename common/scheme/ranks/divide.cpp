@@ -164,9 +164,9 @@ void divide(Body<Dim>& body, parallel::Communicator& ranks, const std::string& p
   const auto owner_of_node = [&](std::int64_t a) { return owner[chunk_of_node(a)]; };
   division->pairs = parallel::Halo(ranks, read_nodes(body, part), owner_of_node);
   if (body.in_runs()) division->runs = run_work(body, part);
-  if (!body.cells.empty()) {
+  if (body.bulk) {
     std::vector<char> corners(static_cast<size_t>(body.n_owned));
-    division->cells = body.cells.work_of(part, corners);
+    division->cells = body.bulk->work_of(part, corners);
     division->corners = parallel::Halo(ranks, corners, owner_of_node);
   }
   body.division = std::move(division);

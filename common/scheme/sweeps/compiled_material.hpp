@@ -155,7 +155,7 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
               algebra::put_S<Dim>(body.S, b, k * Layout::n_S, branch.S);
             }
           });
-  if (!body.cells.empty()) response.Sigma_J -= model.material.volumetric_stress(X.J);
+  if (body.bulk) response.Sigma_J -= model.material.volumetric_stress(X.J);
   const Tensor<Lanes> P = physics::piola_stress<has_H>(response, X);
   if (__builtin_expect(!sound_after<Dim>(sweep, b, L, X.J, P, dissipation).all(), 0))
     totals.is_sound = false;
@@ -184,7 +184,7 @@ DIPTYCH_CLONES void add_energies_of(const Model<Material>& model,
     const Lanes Omega = algebra::load(body.graph.Omega.data() + b * n_lanes);
     const Deformation<Lanes> X = load_deformation(body, b);
     Lanes W = model.material.energy(X);
-    if (!body.cells.empty()) W -= model.material.volumetric_energy(X.J);
+    if (body.bulk) W -= model.material.volumetric_energy(X.J);
     for (int k = 0; k < body.options.n_branches; ++k) {
       const auto branch = stored_branch<Dim, Material::has_H>(body, b, k);
       W += physics::branch_energy<Material::has_H>(model.branches[k], branch, X);

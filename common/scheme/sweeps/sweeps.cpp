@@ -55,7 +55,7 @@ void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
   exchange(body, {&Body<Dim>::records});
   if (body.options.has_frames) exchange(body, {&Body<Dim>::frames});
   scheme::sum_forces(sweep, momentum_);
-  if (!body.cells.empty()) body.cells.add_forces(body, *material_);
+  if (body.bulk) body.bulk->add_forces(body, *material_);
   if (with_step && speeds == Speeds::bound) {
     parallel::for_chunks(body.part(), body.n_blocks, [&](auto begin, auto end, auto chunk) {
       largest_rate_[chunk] = geometric_rate_ * largest_speed(body, begin, end);
@@ -114,8 +114,8 @@ std::int64_t Sweeps<Dim>::limited_pairs() const {
 
 template <int Dim>
 double Sweeps<Dim>::old_numerical_power(const Body<Dim>& body, double loads) const {
-  const double cells = body.cells.empty() ? 0 : body.cells.power(body);
-  return loads + cells - parallel::sum_in_order(old_power_);
+  const double bulk = body.bulk ? body.bulk->power(body) : 0;
+  return loads + bulk - parallel::sum_in_order(old_power_);
 }
 
 template <int Dim>

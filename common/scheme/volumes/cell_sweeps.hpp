@@ -12,7 +12,7 @@ namespace diptych::scheme {
 using algebra::InstructionSet;
 using algebra::n_lanes;
 
-/// Length of a row of positions: one gather.
+/// Length of a row of positions and forces: one gather.
 constexpr int stride = 4;
 
 /// What a sweep over the cells of a group reads and writes.
@@ -203,27 +203,6 @@ void sweep_nodes(const parallel::Part& part,
                          run(around, of_cells, inverse_V_0, values, begin, end);
                        });
 }
-
-/// Rows of forces of blocks of nodes, added to T.
-template <int Dim>
-struct AddRowsKernel {
-  template <InstructionSet isa>
-  DIPTYCH_INLINE static void run(const double* rows,
-                                 Body<Dim>& body,
-                                 std::int64_t begin,
-                                 std::int64_t end) {
-    for (std::int64_t b = begin; b < end; ++b) {
-      const double* row[n_lanes];
-      for (int l = 0; l < n_lanes; ++l)
-        row[l] = rows + (b * n_lanes + l) * stride;
-      Lanes sum[stride];
-      algebra::gather_four<isa>(row, 0, sum);
-#pragma GCC unroll 3
-      for (int i = 0; i < Dim; ++i)
-        body.T.put(b, i, body.T.get(b, i) + sum[i]);
-    }
-  }
-};
 
 using CellFunction = void (*)(const CellSweep&, std::int64_t begin, std::int64_t end);
 

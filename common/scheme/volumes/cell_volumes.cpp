@@ -1,7 +1,9 @@
 #include "common/scheme/volumes/cell_volumes.hpp"
 
+#include "common/algebra/face_areas.hpp"
 #include "common/base/error.hpp"
 #include "common/scheme/body/material_model.hpp"
+#include "common/scheme/boundary/node_vector.hpp"
 #include "common/scheme/ranks/division.hpp"
 #include "common/scheme/volumes/cell_sweeps.hpp"
 
@@ -88,11 +90,6 @@ CellGroup group_of(const VolumeCells& cells,
   return group;
 }
 
-template <int Dim, class Work>
-void for_own_chunks(const Body<Dim>& body, const Work& work) {
-  parallel::for_chunks(body.part(), body.n_blocks, work);
-}
-
 /// Of group g; null where it is all of it.
 template <int Dim>
 const CellWork* work_in(const Body<Dim>* body, size_t g) {
@@ -103,7 +100,7 @@ const CellWork* work_in(const Body<Dim>* body, size_t g) {
 
 template <int Dim>
 std::vector<CellWork> CellVolumes<Dim>::work_of(const parallel::Part& part,
-                                                std::vector<char>& corners) const {
+                                                std::vector<char>& read) const {
   std::vector<CellWork> work(groups_.size());
   for (size_t g = 0; g < groups_.size(); ++g) {
     const CellGroup& group = groups_[g];
@@ -121,7 +118,7 @@ std::vector<CellWork> CellVolumes<Dim>::work_of(const parallel::Part& part,
       for (parallel::NodeRange& blocks : ranges) {
         blocks = {begin + blocks.begin, begin + blocks.end};
         for (std::int64_t k = blocks.begin * length; k < blocks.end * length; ++k)
-          corners[group.corner[k]] = 1;
+          read[group.corner[k]] = 1;
       }
       work[g].segments.push_back(std::move(ranges));
     }
@@ -131,9 +128,9 @@ std::vector<CellWork> CellVolumes<Dim>::work_of(const parallel::Part& part,
 
 template <int Dim>
 CellVolumes<Dim>::CellVolumes(const VolumeCells& cells, const std::vector<algebra::Vec3>& X)
-    : n_nodes_(static_cast<std::int64_t>(X.size())) {
+    : Base(static_cast<std::int64_t>(X.size())) {
   const std::int64_t length = segment_length(cells);
-  n_segments_ = (n_nodes_ + length - 1) / length;
+  n_segments_ = (n_nodes() + length - 1) / length;
   std::vector<std::int64_t> place(static_cast<size_t>(cells.n_cells()));
   for (const int n : {3, 4, 6, 8}) {
     CellGroup group = group_of(cells, n, length, n_segments_, place);
@@ -148,18 +145,15 @@ CellVolumes<Dim>::CellVolumes(const VolumeCells& cells, const std::vector<algebr
         "\"nodes\", or a coarser mesh");
   }
   list_cells_of_nodes(cells, place);
-  x_ = Array(n_nodes_ * stride);
   of_cells_ = Array(n_cells_ + n_lanes);
-  pressure_ = Array(algebra::n_blocks_of(n_nodes_) * n_lanes);
-  force_ = Array(pressure_.size() * stride);
-  V_0_ = Array(pressure_.size());
-  inverse_V_0_ = Array(pressure_.size());
-  for (std::int64_t a = 0; a < n_nodes_; ++a) {
+  pressure_ = Array(V_0_.size());
+  inverse_V_0_ = Array(V_0_.size());
+  for (std::int64_t a = 0; a < n_nodes(); ++a) {
     for (int i = 0; i < Dim; ++i)
       x_[a * stride + i] = X[a][i];
   }
   put_volumes(nullptr, x_, nullptr, of_cells_);
-  for (std::int64_t a = 0; a < n_nodes_; ++a)
+  for (std::int64_t a = 0; a < n_nodes(); ++a)
     inverse_V_0_[a] = 1;
   put_ratios(parallel::Part(), of_cells_, V_0_);
   for (CellGroup& group : groups_) {
@@ -170,7 +164,7 @@ CellVolumes<Dim>::CellVolumes(const VolumeCells& cells, const std::vector<algebr
   }
   around_.weight = Array(pressure_.size());
   put_ratios(parallel::Part(), of_cells_, around_.weight);
-  for (std::int64_t a = 0; a < n_nodes_; ++a)
+  for (std::int64_t a = 0; a < n_nodes(); ++a)
     inverse_V_0_[a] = 1 / V_0_[a];
 }
 
@@ -181,7 +175,7 @@ void CellVolumes<Dim>::list_cells_of_nodes(const VolumeCells& cells,
     std::int64_t cell;
     double share;
   };
-  std::vector<std::vector<Corner>> around(static_cast<size_t>(n_nodes_));
+  std::vector<std::vector<Corner>> around(static_cast<size_t>(n_nodes()));
   for (const CellGroup& group : groups_) {
     for (std::int64_t c = 0; c < cells.n_cells(); ++c) {
       if (cells.row[c + 1] - cells.row[c] != group.n_corners) continue;
@@ -189,10 +183,10 @@ void CellVolumes<Dim>::list_cells_of_nodes(const VolumeCells& cells,
         around[cells.corner[k]].push_back({group.first_cell + place[c], cells.share[k]});
     }
   }
-  const std::int64_t n_blocks = algebra::n_blocks_of(n_nodes_);
+  const std::int64_t n_blocks = algebra::n_blocks_of(n_nodes());
   const auto corners_of = [&](std::int64_t a) -> const std::vector<Corner>& {
     static const std::vector<Corner> none;
-    return a < n_nodes_ ? around[a] : none;
+    return a < n_nodes() ? around[a] : none;
   };
   around_.first = algebra::AlignedArray<std::int64_t>(n_blocks + 1);
   for (std::int64_t b = 0; b < n_blocks; ++b) {
@@ -208,7 +202,7 @@ void CellVolumes<Dim>::list_cells_of_nodes(const VolumeCells& cells,
   around_.equal_share = equal ? 1.0 / groups_[0].n_corners : 0;
   for (std::int64_t k = 0; k < n; ++k)
     around_.cell[k] = static_cast<std::int32_t>(n_cells_);
-  for (std::int64_t a = 0; a < n_nodes_; ++a) {
+  for (std::int64_t a = 0; a < n_nodes(); ++a) {
     std::int64_t k = around_.first[a / n_lanes] * n_lanes + a % n_lanes;
     for (const Corner& corner : around[a]) {
       around_.cell[k] = static_cast<std::int32_t>(corner.cell);
@@ -226,26 +220,6 @@ std::int64_t CellVolumes<Dim>::bytes() const {
   for (const CellGroup& group : groups_)
     sum += group.corner.bytes() + group.share.bytes() + group.weight.bytes();
   return sum;
-}
-
-template <int Dim>
-void CellVolumes<Dim>::put_positions(const Body<Dim>& body, Array& x) const {
-  for_own_chunks(body, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-    const std::int64_t last = std::min(end * n_lanes, n_nodes_);
-    for (std::int64_t a = begin * n_lanes; a < last; ++a) {
-      for (int i = 0; i < Dim; ++i)
-        x[a * stride + i] = body.X[a][i] + body.u.at(a, i);
-    }
-  });
-  exchange(body, x, stride);
-}
-
-template <int Dim>
-void CellVolumes<Dim>::exchange(const Body<Dim>& body, Array& values, int n) const {
-  if (!body.division) return;
-  body.division->corners.exchange([&](std::int64_t begin, std::int64_t end, const auto& use) {
-    algebra::use_bytes(values.data() + begin * n, (end - begin) * n, use);
-  });
 }
 
 template <int Dim>
@@ -290,10 +264,11 @@ void CellVolumes<Dim>::add_forces(Body<Dim>& body, const MaterialModel& material
   put_volumes(&body, x_, nullptr, of_cells_);
   put_ratios(body.part(), of_cells_, pressure_);
   sharpen(body, pressure_, of_cells_);
-  for_own_chunks(body, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-    const std::int64_t first = begin * n_lanes, last = std::min(end * n_lanes, n_nodes_);
-    material.put_volumetric_stresses(&pressure_[first], last - first);
-  });
+  parallel::for_chunks(
+      body.part(), body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+        const std::int64_t first = begin * n_lanes, last = std::min(end * n_lanes, n_nodes());
+        material.put_volumetric_stresses(&pressure_[first], last - first);
+      });
   sharpen(body, pressure_, of_cells_);
   sum_forces(body);
 }
@@ -301,15 +276,15 @@ void CellVolumes<Dim>::add_forces(Body<Dim>& body, const MaterialModel& material
 template <int Dim>
 void CellVolumes<Dim>::add_linear_forces(Body<Dim>& body, double modulus) {
   put_positions(body, x_);
-  Array rate(n_nodes_ * stride);
-  for (std::int64_t a = 0; a < n_nodes_; ++a) {
+  Array rate(x_.size());
+  for (std::int64_t a = 0; a < n_nodes(); ++a) {
     for (int i = 0; i < Dim; ++i)
       rate[a * stride + i] = body.v.at(a, i);
   }
   put_volumes(&body, x_, rate.data(), of_cells_);
   put_ratios(body.part(), of_cells_, pressure_);
   sharpen(body, pressure_, of_cells_);
-  for (std::int64_t a = 0; a < n_nodes_; ++a)
+  for (std::int64_t a = 0; a < n_nodes(); ++a)
     pressure_[a] *= modulus;
   sharpen(body, pressure_, of_cells_);
   sum_forces(body);
@@ -317,10 +292,11 @@ void CellVolumes<Dim>::add_linear_forces(Body<Dim>& body, double modulus) {
 
 template <int Dim>
 void CellVolumes<Dim>::clear_forces(const Body<Dim>& body) {
-  for_own_chunks(body, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-    constexpr std::int64_t row = n_lanes * stride;
-    std::fill(&force_[begin * row], &force_[begin * row] + (end - begin) * row, 0.0);
-  });
+  parallel::for_chunks(
+      body.part(), body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+        constexpr std::int64_t row = n_lanes * stride;
+        std::fill(&force_[begin * row], &force_[begin * row] + (end - begin) * row, 0.0);
+      });
   if (!body.division) return;
   for (const parallel::NodeRange& nodes : body.division->corners.received())
     std::fill(&force_[nodes.begin * stride],
@@ -351,36 +327,47 @@ void CellVolumes<Dim>::sum_forces(Body<Dim>& body) {
       });
     }
   }
-  const auto add =
-      algebra::version_here<algebra::Versions<AddRowsKernel<Dim>, const double*, Body<Dim>&,
-                                              std::int64_t, std::int64_t>>();
-  for_own_chunks(body, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-    add(force_.data(), body, begin, end);
-  });
-}
-
-template <int Dim>
-double CellVolumes<Dim>::power(const Body<Dim>& body) const {
-  std::vector<double> parts(parallel::n_chunks_of(body.n_blocks));
-  for_own_chunks(body, [&](std::int64_t begin, std::int64_t end, std::int64_t c) {
-    const std::int64_t last = std::min(end * n_lanes, n_nodes_);
-    for (std::int64_t a = begin * n_lanes; a < last; ++a) {
-      for (int i = 0; i < Dim; ++i)
-        parts[c] += body.v.at(a, i) * force_[a * stride + i];
-    }
-  });
-  body.part().complete(parts);
-  return parallel::sum_in_order(parts);
+  this->add_rows(body);
 }
 
 template <int Dim>
 std::vector<double> CellVolumes<Dim>::ratios(const Body<Dim>& body) const {
-  Array x(n_nodes_ * stride), volume(n_cells_ + n_lanes), J(pressure_.size());
+  Array x(x_.size()), volume(n_cells_ + n_lanes), J(pressure_.size());
   put_positions(body, x);
   put_volumes(&body, x, nullptr, volume);
   put_ratios(body.part(), volume, J);
   sharpen(body, J, volume);
-  return {J.data(), J.data() + n_nodes_};
+  return {J.data(), J.data() + n_nodes()};
+}
+
+template <int Dim>
+std::vector<algebra::Vec3> CellVolumes<Dim>::deformed_areas(const Body<Dim>& body,
+                                                            const BoundaryPatch& patch) {
+  std::vector<Vec3> area(patch.nodes.size(), Vec3::Zero());
+  std::vector<Vec3> x_of;  // of all nodes: faces have nodes of several ranks
+  std::vector<std::int32_t> chunk_of;
+  for (const std::int32_t a : patch.nodes) {
+    Vec3 x = body.X[a];
+    for (int i = 0; i < Dim; ++i)
+      x[i] += body.u.at(a, i);
+    x_of.push_back(x);
+    chunk_of.push_back(static_cast<std::int32_t>(chunk_of_node(a)));
+  }
+  body.part().complete(x_of, chunk_of);
+  for (const auto& face : patch.faces) {
+    std::array<Vec3, 4> x;
+    std::array<std::ptrdiff_t, 4> at;
+    int n = 0;
+    for (; n < 4 && face[n] >= 0; ++n) {
+      at[n] =
+          std::lower_bound(patch.nodes.begin(), patch.nodes.end(), face[n]) - patch.nodes.begin();
+      x[n] = x_of[at[n]];
+    }
+    const auto shares = algebra::face_area_shares(x, n);
+    for (int i = 0; i < n; ++i)
+      area[at[i]] += shares[i];
+  }
+  return area;
 }
 
 template class CellVolumes<2>;

@@ -10,23 +10,9 @@
 /// a fixed order: the same bits for every number of threads. Test:
 /// tests/common/scheme/volumes_test.cpp
 
-#include "common/algebra/field.hpp"
-#include "common/algebra/vectors.hpp"
-#include "common/parallel/halo.hpp"
-#include "common/scheme/graph/volume_cells.hpp"
-
-#include <cstdint>
-#include <vector>
+#include "common/scheme/volumes/bulk_volumes.hpp"
 
 namespace diptych::scheme {
-
-/// What carries the bulk pressure: J of the nodes, volumes of cells, or these but for graphs whose
-/// derivatives commute, where J of the nodes cannot cheat.
-enum class Volumes { automatic, nodes, cells };
-
-class MaterialModel;
-template <int Dim>
-struct Body;
 
 /// Cells with the same number of corners, eight to a block, ordered by the segment of nodes that
 /// their lowest corner is in. No cell reaches farther than into the next segment, so the forces of
@@ -51,44 +37,30 @@ struct CellsOfNodes {
   algebra::AlignedArray<double> weight;  ///< [n_nodes, padded] m^Dim, of all their cells by share
 };
 
-/// Blocks of cells of a group that a rank works: those around its nodes, segment by segment.
-struct CellWork {
-  std::vector<std::vector<parallel::NodeRange>> segments;  ///< [n_segments] ranges of blocks
-};
-
 template <int Dim>
-class CellVolumes {
+class CellVolumes : public BulkVolumes<Dim> {
  public:
-  CellVolumes() = default;
   /// @param X  [n_nodes] m, reference positions
   CellVolumes(const VolumeCells& cells, const std::vector<algebra::Vec3>& X);
 
-  bool empty() const { return groups_.empty(); }
-  std::int64_t bytes() const;
-  /// Volume of node a in the reference state  [m^Dim]
-  double reference(std::int64_t a) const { return V_0_[a]; }
-
-  /// What a rank works.
-  /// @param corners  [n_nodes] set to 1 where these cells have a corner
-  std::vector<CellWork> work_of(const parallel::Part& part, std::vector<char>& corners) const;
-
-  /// Adds the forces of the pressure U'(J_a) of the material to body.T, for the displacements as
-  /// they stand.
-  void add_forces(Body<Dim>& body, const MaterialModel& material);
-
-  /// The same linearised: adds the forces of modulus (dV_a/V_a), dV_a the change of volume with the
-  /// body's velocities in the place of a change of displacement. For the frequencies of set-up.
-  void add_linear_forces(Body<Dim>& body, double modulus);
-
-  /// Power of the forces that were added last with the velocities as they are now  [W]
-  double power(const Body<Dim>& body) const;
-
-  /// J of the nodes by the volumes of cells, among ranks of the own ones  [n_nodes]
-  std::vector<double> ratios(const Body<Dim>& body) const;
+  std::int64_t bytes() const override;
+  std::vector<CellWork> work_of(const parallel::Part& part, std::vector<char>& read) const override;
+  void add_forces(Body<Dim>& body, const MaterialModel& material) override;
+  void add_linear_forces(Body<Dim>& body, double modulus) override;
+  std::vector<double> ratios(const Body<Dim>& body) const override;
+  /// Those of the deformed faces.
+  std::vector<algebra::Vec3> deformed_areas(const Body<Dim>& body,
+                                            const BoundaryPatch& patch) override;
 
  private:
-  using Array = algebra::AlignedArray<double>;
-  void put_positions(const Body<Dim>& body, Array& x) const;
+  using Base = BulkVolumes<Dim>;
+  using Array = typename Base::Array;
+  using Base::exchange;
+  using Base::force_;
+  using Base::n_nodes;
+  using Base::put_positions;
+  using Base::V_0_;
+  using Base::x_;
   /// Volumes of all cells, or their rates of change.
   /// @param body  whose part it is; null: all
   /// @param rate  [n_nodes][4] m/s, or null
@@ -97,21 +69,17 @@ class CellVolumes {
   void put_ratios(const parallel::Part& part, const Array& volume, Array& ratio) const;
   /// values <- M values.  @param of_cells  [n_cells + 8] of no more use
   void sharpen(const Body<Dim>& body, Array& values, Array& of_cells) const;
-  /// What neighbours of its nodes have in rows of n numbers, from their ranks.
-  void exchange(const Body<Dim>& body, Array& values, int n) const;
   void clear_forces(const Body<Dim>& body);
   void sum_forces(Body<Dim>& body);
   void list_cells_of_nodes(const VolumeCells& cells, const std::vector<std::int64_t>& place);
 
   std::vector<CellGroup> groups_;
   CellsOfNodes around_;
-  std::int64_t n_nodes_ = 0, n_cells_ = 0, n_segments_ = 0;  ///< cells: whole blocks
-  Array V_0_, inverse_V_0_;                                  ///< [n_nodes, padded] m^Dim
+  std::int64_t n_cells_ = 0, n_segments_ = 0;  ///< cells: whole blocks
+  Array inverse_V_0_;                          ///< [n_nodes, padded] m^-Dim
   // of a sweep
-  Array x_;         ///< [n_nodes][4] m, deformed positions
   Array of_cells_;  ///< [n_cells + 8] m^Dim
   Array pressure_;  ///< [n_nodes, padded] U'(J_a)  [Pa]
-  Array force_;     ///< [n_nodes, padded][4] N
 };
 
 extern template class CellVolumes<2>;

@@ -59,7 +59,7 @@ struct RatesOf {
   static scheme::BodyOptions options(double kappa_f, bool cells) {
     scheme::BodyOptions options;
     options.face_correction = kappa_f != 0;
-    options.cell_volumes = cells;
+    options.volumes = cells ? scheme::Volumes::cells : scheme::Volumes::nodes;
     return options;
   }
 };

@@ -1,5 +1,6 @@
-/// Volumes of deformed cells that carry the pressure (notes 3.9): what they are, what their forces
-/// keep, and that a uniformly compressed body is a strict minimum of its energy.
+/// Volumes that carry the pressure, of deformed cells and by derivatives along lines (notes 3.9,
+/// 3.10): what they are, what their forces keep, and that a uniformly compressed body is a strict
+/// minimum of its energy.
 
 #include "common/algebra/face_areas.hpp"
 #include "common/run/model_menu.hpp"
@@ -7,6 +8,7 @@
 #include "common/scheme/sweeps/sweeps.hpp"
 #include "meshes/deformed_cells.hpp"
 #include "meshes/shape_integrals.hpp"
+#include "sph/sph_graph.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -29,13 +31,27 @@ cases::MaterialCase rubber(double nu) {
   return m;
 }
 
+using scheme::Volumes;
+
+/// "sph lines" is SPH that sums by parts, whose lines carry the pressure.
+scheme::PairGraph graph_for(const std::string& method, const meshes::Mesh& mesh) {
+  if (method != "sph lines") return tests::graph_of(method, mesh);
+  sph::Options options;
+  options.gradient = "sbp";
+  return sph::build_graph(mesh, options);
+}
+
+Volumes safe_for(const std::string& method) {
+  return method == "sph lines" ? Volumes::lines : Volumes::cells;
+}
+
 /// A body at given displacements, without velocities.
 class StaticBody {
  public:
-  StaticBody(const meshes::Mesh& mesh, const std::string& method, double nu, bool cells)
-      : graph(tests::graph_of(method, mesh)),
+  StaticBody(const meshes::Mesh& mesh, const std::string& method, double nu, Volumes volumes)
+      : graph(graph_for(method, mesh)),
         material(run::model_menu().at("mooney-rivlin").model(rubber(nu))),
-        body(graph, options(*material, cells)),
+        body(graph, options(*material, volumes)),
         sweeps_(body, material, quiet(), 1) {}
 
   /// Internal forces  [N]
@@ -64,11 +80,11 @@ class StaticBody {
     options.dissipation_factor = 0;
     return options;
   }
-  static scheme::BodyOptions options(const scheme::MaterialModel& material, bool cells) {
+  static scheme::BodyOptions options(const scheme::MaterialModel& material, Volumes volumes) {
     scheme::BodyOptions options;
     options.rho_R = material.rho_R();
     options.unknowns = scheme::Unknowns::F;
-    options.cell_volumes = cells;
+    options.volumes = volumes;
     return options;
   }
   /// u, and F as its discrete gradient.
@@ -99,8 +115,10 @@ class StaticBody {
   scheme::Sweeps<3> sweeps_;
 };
 
-meshes::Mesh block(meshes::CellType type, double moved, int n = 4) {
-  meshes::Mesh mesh = meshes::box(type, Vec3::Zero(), Vec3::Ones(), {n, n, n});
+using Cells = std::array<int, 3>;
+
+meshes::Mesh block(meshes::CellType type, double moved, const Cells& cells = {4, 4, 4}) {
+  meshes::Mesh mesh = meshes::box(type, Vec3::Zero(), Vec3::Ones(), cells);
   if (moved > 0) meshes::perturb_interior(mesh, moved, 3);
   return mesh;
 }
@@ -132,31 +150,38 @@ struct Kind {
   meshes::CellType type;
   double moved;
   const char* method;
+  Cells cells{4, 4, 4};
 };
 void PrintTo(const Kind& kind, std::ostream* out) {
   *out << kind.method << ", type " << static_cast<int>(kind.type) << ", moved " << kind.moved;
 }
-class CellVolumes : public testing::TestWithParam<Kind> {
+class BulkVolumes : public testing::TestWithParam<Kind> {
  protected:
-  meshes::Mesh mesh = block(GetParam().type, GetParam().moved);
-  StaticBody body{mesh, GetParam().method, 0.49, true};
+  meshes::Mesh mesh = block(GetParam().type, GetParam().moved, GetParam().cells);
+  StaticBody body{mesh, GetParam().method, 0.49, safe_for(GetParam().method)};
 };
-INSTANTIATE_TEST_SUITE_P(All,
-                         CellVolumes,
-                         testing::Values(Kind{hexahedron, 0, "sph"},
-                                         Kind{hexahedron, 0.25, "sph"},
-                                         Kind{hexahedron, 0.25, "fvm"},
-                                         Kind{tetrahedron, 0, "fvm"},
-                                         Kind{tetrahedron, 0.2, "fvm"},
-                                         Kind{prism, 0.2, "fvm"}));
+class CellVolumes : public BulkVolumes {};
+const auto of_cells = testing::Values(Kind{hexahedron, 0, "sph"},
+                                      Kind{hexahedron, 0.25, "sph"},
+                                      Kind{hexahedron, 0.25, "fvm"},
+                                      Kind{tetrahedron, 0, "fvm"},
+                                      Kind{tetrahedron, 0.2, "fvm"},
+                                      Kind{prism, 0.2, "fvm"});
+INSTANTIATE_TEST_SUITE_P(Cells, CellVolumes, of_cells);
+INSTANTIATE_TEST_SUITE_P(Cells, BulkVolumes, of_cells);
+// lines with a table of their own, and with blocks at both ends
+INSTANTIATE_TEST_SUITE_P(Lines,
+                         BulkVolumes,
+                         testing::Values(Kind{hexahedron, 0, "sph lines"},
+                                         Kind{hexahedron, 0, "sph lines", {9, 3, 7}}));
 
 TEST_P(CellVolumes, AddUpToTheVolumeThatTheBoundaryEncloses) {
   const Displacements u = noisy(affine(body.graph, sheared()), 0.03);
   body.forces(u);
-  const std::vector<double> J = body.body.cells.ratios(body.body);
+  const std::vector<double> J = body.body.bulk->ratios(body.body);
   double volume = 0;
   for (size_t a = 0; a < J.size(); ++a)
-    volume += J[a] * body.body.cells.reference(static_cast<std::int64_t>(a));
+    volume += J[a] * body.body.bulk->reference(static_cast<std::int64_t>(a));
   double enclosed = 0;
   std::vector<Vec3> x = body.graph.X;
   for (size_t a = 0; a < x.size(); ++a)
@@ -174,13 +199,13 @@ TEST_P(CellVolumes, AddUpToTheVolumeThatTheBoundaryEncloses) {
   EXPECT_NEAR(volume, of_cells, 1e-13);
 }
 
-TEST_P(CellVolumes, AreThoseOfTheDeformationWhereItIsAffine) {
+TEST_P(BulkVolumes, AreThoseOfTheDeformationWhereItIsAffine) {
   body.forces(affine(body.graph, sheared()));
-  for (const double J : body.body.cells.ratios(body.body))
+  for (const double J : body.body.bulk->ratios(body.body))
     EXPECT_NEAR(J, sheared().determinant(), 1e-13);
 }
 
-TEST_P(CellVolumes, PushOnlyTheBoundaryWhereTheStateIsUniform) {
+TEST_P(BulkVolumes, PushOnlyTheBoundaryWhereTheStateIsUniform) {
   const auto T = body.forces(affine(body.graph, sheared()));
   physics::Deformation<double> X = physics::deformation_of(algebra::to_tensor(sheared()));
   const Mat3 P = algebra::to_eigen(body.material->stress(X, {}));
@@ -188,11 +213,9 @@ TEST_P(CellVolumes, PushOnlyTheBoundaryWhereTheStateIsUniform) {
     EXPECT_LT((T[a] + P * body.graph.boundary_area[a]).norm(), 1e-11 * P.norm() / 16) << a;
 }
 
-TEST_P(CellVolumes, KeepMomenta) {
+TEST_P(BulkVolumes, KeepMomenta) {
   const Displacements u = noisy(affine(body.graph, sheared()), 0.03);
   const auto T = body.forces(u);
-  StaticBody without(mesh, GetParam().method, 0.49, false);
-  const auto nodal = without.forces(u);
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   double size = 0;
   for (size_t a = 0; a < T.size(); ++a) {
@@ -200,8 +223,8 @@ TEST_P(CellVolumes, KeepMomenta) {
     size += T[a].norm();
   }
   EXPECT_LT(force.norm(), 1e-14 * size);
-  // of the pressure of cells alone: a second body whose cells carry another modulus
-  StaticBody softer(mesh, GetParam().method, 0.45, true);
+  // of this pressure alone: a second body with another modulus of it
+  StaticBody softer(mesh, GetParam().method, 0.45, safe_for(GetParam().method));
   const auto soft = softer.forces(u);
   for (size_t a = 0; a < T.size(); ++a)
     moment += (body.graph.X[a] + u[a]).cross(T[a] - soft[a]);
@@ -209,7 +232,7 @@ TEST_P(CellVolumes, KeepMomenta) {
 }
 
 // The force is the derivative of the energy: -dE = sum T . du for any small change.
-TEST_P(CellVolumes, ForceIsTheDerivativeOfTheEnergy) {
+TEST_P(BulkVolumes, ForceIsTheDerivativeOfTheEnergy) {
   const Displacements u = noisy(affine(body.graph, sheared()), 0.02);
   const Displacements direction = noisy(Displacements(u.size(), Vec3::Zero()), 1);
   const auto T = body.forces(u);
@@ -265,6 +288,7 @@ struct Mould {
   double moved;
   const char* method;
   double nu, J;
+  Cells cells{4, 4, 4};
 };
 void PrintTo(const Mould& m, std::ostream* out) {
   *out << m.method << ", type " << static_cast<int>(m.type) << ", moved " << m.moved << ", nu "
@@ -276,6 +300,10 @@ INSTANTIATE_TEST_SUITE_P(All,
                          testing::Values(Mould{hexahedron, 0, "sph", 0.49, 0.95},
                                          Mould{hexahedron, 0, "sph", 0.49, 0.8},
                                          Mould{hexahedron, 0, "sph", 0.499, 0.95},
+                                         Mould{hexahedron, 0, "sph", 0.45, 0.3},
+                                         Mould{hexahedron, 0, "sph lines", 0.45, 0.3},
+                                         Mould{hexahedron, 0, "sph lines", 0.499, 0.6},
+                                         Mould{hexahedron, 0, "sph lines", 0.45, 0.5, {8, 3, 3}},
                                          Mould{hexahedron, 0.3, "sph", 0.49, 0.8},
                                          Mould{hexahedron, 0.3, "sph", 0.499, 0.6},
                                          Mould{hexahedron, 0.3, "fvm", 0.499, 0.6},
@@ -284,28 +312,27 @@ INSTANTIATE_TEST_SUITE_P(All,
 
 TEST_P(UniformPressure, IsAStrictMinimumInAMould) {
   const Mould& m = GetParam();
-  const meshes::Mesh mesh = block(m.type, m.moved);
-  StaticBody cells(mesh, m.method, m.nu, true);
-  const double at_rest = least_stiffness(cells, 1, Support::rollers);
+  StaticBody body(block(m.type, m.moved, m.cells), m.method, m.nu, safe_for(m.method));
+  const double at_rest = least_stiffness(body, 1, Support::rollers);
   EXPECT_GT(at_rest, 0);
-  EXPECT_GT(least_stiffness(cells, m.J, Support::rollers), 0.5 * at_rest);
+  EXPECT_GT(least_stiffness(body, m.J, Support::rollers), 0.5 * at_rest);
 }
 
 // Six motions of a rigid body and no other without force.
 TEST_P(UniformPressure, LeavesAFreeBodyAtRestStable) {
   const Mould& m = GetParam();
-  StaticBody cells(block(m.type, m.moved, 3), m.method, m.nu, true);
-  EXPECT_GT(least_stiffness(cells, 1, Support::none), 1e-4);
+  StaticBody body(block(m.type, m.moved, {3, 3, 3}), m.method, m.nu, safe_for(m.method));
+  EXPECT_GT(least_stiffness(body, 1, Support::none), 1e-4);
 }
 
-// What volumes of cells are there for: with J of the nodes these bodies turn inside out.
+// What these volumes are there for: with J of the nodes these bodies turn inside out.
 TEST(NodalPressure, IsNoMinimumWhereDerivativesDoNotCommute) {
-  StaticBody sph(block(hexahedron, 0), "sph", 0.49, false);
+  StaticBody sph(block(hexahedron, 0), "sph", 0.49, Volumes::nodes);
   EXPECT_LT(least_stiffness(sph, 0.8, Support::rollers), -0.5);
-  StaticBody tetrahedra(block(tetrahedron, 0), "fvm", 0.499, false);
+  StaticBody tetrahedra(block(tetrahedron, 0), "fvm", 0.499, Volumes::nodes);
   EXPECT_LT(least_stiffness(tetrahedra, 0.95, Support::rollers), 0);
   // and where they do it is
-  StaticBody lattice(block(hexahedron, 0), "fvm", 0.499, false);
+  StaticBody lattice(block(hexahedron, 0), "fvm", 0.499, Volumes::nodes);
   EXPECT_GT(least_stiffness(lattice, 0.6, Support::rollers),
             0.5 * least_stiffness(lattice, 1, Support::rollers));
 }

@@ -28,7 +28,7 @@
 #include <span>
 #include <vector>
 
-namespace diptych::fvm {
+namespace diptych::closure {
 
 struct Rational {
   std::int64_t numerator = 0, denominator = 1;
@@ -55,6 +55,13 @@ const SbpTable& sbp_table(int order);
 
 /// Of a line of n nodes, 3 to 7.
 const SbpTable& sbp_line_table(int n);
+
+/// Fourth order inside with Gregory's weights 3/8, 7/6, 23/24, 1, ... on a line of n >= 3 nodes, as
+/// SPH has them on lattices. From eight nodes on rows of the block are exact for linear functions
+/// only: weights that are exact for quadratics leave sum_i H_i i^2 ((x^2)'_i - 2 i) = 1/4 over the
+/// block, whatever Q. Here the errors of (x^2)' are 0.158, -0.045, -0.076 and 0.066 spacings, the
+/// least in the mean weighted with H (one-sided differences have 1).
+const SbpTable& gregory_table(int n_nodes);
 
 /// The widest pair up to this order that fits on a line of n >= 2 nodes.
 const SbpTable& widest_sbp_table(int order, int n_nodes);
@@ -91,4 +98,4 @@ class SbpOperator {
   std::vector<std::int64_t> first_;
 };
 
-}  // namespace diptych::fvm
+}  // namespace diptych::closure

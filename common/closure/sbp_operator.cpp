@@ -1,4 +1,4 @@
-#include "fvm/sbp_operator.hpp"
+#include "common/closure/sbp_operator.hpp"
 
 #include "common/base/error.hpp"
 
@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 
-namespace diptych::fvm {
+namespace diptych::closure {
 
 namespace {
 
@@ -22,6 +22,14 @@ constexpr std::array<Rational, 6> block_4{{{59, 96},
                                            {0, 1},      // row 1
                                            {59, 96}}};  // row 2
 constexpr std::array<Rational, 2> interior_4{{{2, 3}, {-1, 12}}};
+
+constexpr std::array<Rational, 4> H_gregory{{{3, 8}, {7, 6}, {23, 24}, {1, 1}}};
+constexpr std::array<Rational, 6> block_gregory{{{47523, 80264},
+                                                 {-4749, 80264},
+                                                 {-1321, 40132},  // row 0
+                                                 {146783, 240792},
+                                                 {-2107, 120396},    // row 1
+                                                 {76301, 120396}}};  // row 2
 
 constexpr std::array<Rational, 6> H_6{
     {{13649, 43200}, {12013, 8640}, {2711, 4320}, {5359, 4320}, {7877, 8640}, {43801, 43200}}};
@@ -126,6 +134,11 @@ const SbpTable& sbp_table(int order) {
       fmt::format("order {} of operators that sum by parts is unknown; use 2, 4 or 6", order));
 }
 
+const SbpTable& gregory_table(int n_nodes) {
+  static const SbpTable two_blocks{4, H_gregory, block_gregory, interior_4};
+  return n_nodes < two_blocks.least_nodes() ? widest_sbp_table(4, n_nodes) : two_blocks;
+}
+
 const SbpTable& sbp_line_table(int n) {
   return line_tables()[static_cast<size_t>(n - least_line)];
 }
@@ -180,4 +193,4 @@ SbpOperator::SbpOperator(const SbpTable& table, int n_nodes) : first_(1, 0) {
   }
 }
 
-}  // namespace diptych::fvm
+}  // namespace diptych::closure

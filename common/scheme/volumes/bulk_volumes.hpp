@@ -1,0 +1,98 @@
+#pragma once
+/// Volumes of nodes whose energy sum_a V_a(X) U(J_a) carries the bulk pressure in place of that of
+/// the J that nodes evolve (notes 3.9, 3.10). J_a is a function of the positions alone, and the
+/// forces are the derivatives of that energy, so momentum, angular momentum and energy are kept by
+/// construction. Here: what all such volumes share. Test: tests/common/scheme/volumes_test.cpp
+
+#include "common/algebra/field.hpp"
+#include "common/algebra/vectors.hpp"
+#include "common/parallel/halo.hpp"
+#include "common/scheme/graph/pair_graph.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace diptych::scheme {
+
+/// What carries the bulk pressure: J of the nodes; volumes of cells; volumes by derivatives along
+/// lines of nodes; or what is safe (volumes_for).
+enum class Volumes { automatic, nodes, cells, lines };
+
+/// What is safe for the bulk pressure of a nearly incompressible body: J of the nodes where the
+/// derivatives of a graph commute, else volumes of lines, else of cells, else nothing: nodes.
+Volumes safe_volumes(const PairGraph& graph);
+
+class MaterialModel;
+template <int Dim>
+struct Body;
+
+/// Blocks of cells of a group that a rank works: those around its nodes, segment by segment.
+struct CellWork {
+  std::vector<std::vector<parallel::NodeRange>> segments;  ///< [n_segments] ranges of blocks
+};
+
+template <int Dim>
+class BulkVolumes {
+ public:
+  virtual ~BulkVolumes() = default;
+
+  virtual std::int64_t bytes() const = 0;
+  /// Volume of node a in the reference state  [m^Dim]
+  double reference(std::int64_t a) const { return V_0_[a]; }
+
+  /// What a rank works, by group of cells.
+  /// @param read  [n_nodes] set to 1 where the work of this rank reads a node
+  virtual std::vector<CellWork> work_of(const parallel::Part& part,
+                                        std::vector<char>& read) const = 0;
+
+  /// Adds the forces of the pressure U'(J_a) of the material to body.T, for the displacements as
+  /// they stand.
+  virtual void add_forces(Body<Dim>& body, const MaterialModel& material) = 0;
+
+  /// The same linearised: adds the forces of modulus (dV_a/V_a), dV_a the change of volume with the
+  /// body's velocities in the place of a change of displacement. For the frequencies of set-up.
+  virtual void add_linear_forces(Body<Dim>& body, double modulus) = 0;
+
+  /// Power of the forces that were added last with the velocities as they are now  [W]
+  double power(const Body<Dim>& body) const;
+
+  /// J of the nodes by these volumes, among ranks of the own ones  [n_nodes]
+  virtual std::vector<double> ratios(const Body<Dim>& body) const = 0;
+
+  /// Shares of a patch's nodes in its deformed area, as a uniform pressure of these volumes
+  /// balances it; among ranks of the own ones.  [patch.nodes] m^(Dim-1)
+  virtual std::vector<algebra::Vec3> deformed_areas(const Body<Dim>& body,
+                                                    const BoundaryPatch& patch) = 0;
+
+ protected:
+  using Array = algebra::AlignedArray<double>;
+  /// Length of a row of positions: one gather.
+  static constexpr int stride = 4;
+
+  explicit BulkVolumes(std::int64_t n_nodes);
+  std::int64_t n_nodes() const { return n_nodes_; }
+  /// Positions of the deformed body, and of other ranks' nodes what this one reads.
+  void put_positions(const Body<Dim>& body, Array& x) const;
+  /// What neighbours of its nodes have in rows of n numbers, from their ranks.
+  void exchange(const Body<Dim>& body, Array& values, int n) const;
+  /// Adds force_ to T.
+  void add_rows(Body<Dim>& body) const;
+
+  Array V_0_;    ///< [n_nodes, padded] m^Dim
+  Array x_;      ///< [n_nodes, padded][4] m, deformed positions
+  Array force_;  ///< [n_nodes, padded][4] N
+
+ private:
+  std::int64_t n_nodes_ = 0;
+};
+
+/// Of a graph; null where nodes carry the pressure.
+/// @pre volumes is resolved, and the graph has what it takes
+template <int Dim>
+std::unique_ptr<BulkVolumes<Dim>> make_bulk_volumes(const PairGraph& graph, Volumes volumes);
+
+extern template class BulkVolumes<2>;
+extern template class BulkVolumes<3>;
+
+}  // namespace diptych::scheme
