@@ -133,6 +133,8 @@ value = ["sin(1000*t)", 0]
       {"VolumesOfCellsLeapfrog", cube + held,
        "--set mesh.element=tetrahedron --set time.integrator=leapfrog --set scheme.volumes=cells" +
            pressed},
+      {"VolumesOfLines", cube + held,
+       "--set sph.gradient=sbp --set scheme.volumes=lines" + pressed},
       {"ExactImpedance", cube, "--set scheme.impedance=exact --set scheme.unknowns=F"},
       {"ObjectiveReconstruction", cube + branches, "--set scheme.reconstruction=objective"},
       {"ObjectiveReconstructionOnMovedNodes", cube + held,
