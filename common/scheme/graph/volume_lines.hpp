@@ -3,6 +3,7 @@
 /// the bulk pressure in place of the J of nodes (notes 3.10).
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -28,9 +29,9 @@ struct VolumeLines {
   bool empty() const { return along.empty(); }
   std::int32_t node_at(const std::array<std::int32_t, 3>& at) const {
     std::int64_t index = 0;
-    for (size_t d = along.size(); d-- > 0;)
+    for (std::size_t d = along.size(); d-- > 0;)
       index = index * static_cast<std::int64_t>(along[d].H.size()) + at[d];
-    return node[static_cast<size_t>(index)];
+    return node[static_cast<std::size_t>(index)];
   }
 };
 
