@@ -1,34 +1,30 @@
 #include "benchmarks/run/memory.hpp"
 
+#include "common/parallel/pages.hpp"
+
 #include <algorithm>
 #include <fstream>
 #include <malloc.h>
-#include <string>
-#include <unistd.h>
 
 namespace diptych::harness {
 
 namespace {
 
-/// A line of /proc/self/status in bytes.
-std::int64_t status_bytes(const std::string& key) {
-  std::ifstream file("/proc/self/status");
-  for (std::string line; std::getline(file, line);) {
-    if (line.rfind(key, 0) == 0) return std::stoll(line.substr(key.size())) * 1024;
-  }
-  return 0;
-}
-
 /// What the program itself has allocated; its code, which a first run brings in, is not among it.
 std::int64_t allocated_memory() {
   malloc_trim(0);
-  return status_bytes("RssAnon:");
+  return parallel::status_bytes("RssAnon:");
+}
+
+template <class Array>
+void free_array(Array& array) {
+  Array().swap(array);
 }
 
 }  // namespace
 
 std::int64_t peak_rss_bytes() {
-  return status_bytes("VmHWM:");
+  return parallel::status_bytes("VmHWM:");
 }
 
 RunMemory::RunMemory() {
@@ -42,21 +38,24 @@ void reset_peak_rss() {
 }
 
 std::int64_t settled_memory() {
-  malloc_trim(0);
-  std::ifstream file("/proc/self/statm");
-  std::int64_t total = 0, resident = 0;
-  file >> total >> resident;
-  return resident * sysconf(_SC_PAGESIZE);
+  return parallel::settled_bytes();
 }
 
 void release_pairs(scheme::PairGraph& graph) {
   graph.slopes = {};
-  const auto free = [](auto& array) { std::remove_reference_t<decltype(array)>().swap(array); };
-  free(graph.row);
-  free(graph.neighbour);
-  free(graph.reverse);
-  free(graph.C);
+  free_array(graph.row);
+  free_array(graph.neighbour);
+  free_array(graph.reverse);
+  free_array(graph.C);
   graph.classes = {};
+  graph.cells = {};
+  graph.lines = {};
+}
+
+void release_nodes(scheme::PairGraph& graph) {
+  free_array(graph.X);
+  free_array(graph.Omega);
+  free_array(graph.boundary_area);
 }
 
 }  // namespace diptych::harness

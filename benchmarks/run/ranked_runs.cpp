@@ -8,6 +8,7 @@
 #include "common/parallel/ranks.hpp"
 #include "common/run/ranks/leading_solver.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <new>
@@ -57,15 +58,23 @@ std::unique_ptr<Scene> made_by_all(Communicator& ranks, const Make& make) {
   return scene;
 }
 
+/// Null where the run has one rank.
+const run::LeadingSolver* leading_of(const Scene& scene) {
+  return dynamic_cast<const run::LeadingSolver*>(scene.solver.get());
+}
+
 /// Makes a scene and follows its run.
 void follow_run(Communicator& ranks, const Request& request) {
   parallel::set_threads(static_cast<int>(request.threads));
+  reset_peak_rss();
   const auto scene = made_by_all(ranks, [&] {
     const cases::Case setup =
         cases::case_from_text(request.text, request.file, request.overrides, menus());
     return std::make_unique<Scene>(setup, request.method, static_cast<int>(request.level));
   });
   release_pairs(scene->graph);
+  release_nodes(scene->graph);
+  scene->mesh = {};
   run::follow(*scene->solver, ranks, request.partition);
 }
 
@@ -84,13 +93,22 @@ std::unique_ptr<Scene> scene_of_run(const cases::Case& setup, const RunOptions& 
   return scene;
 }
 
+void note_memory(const Scene& scene, io::RunSummary& summary) {
+  const auto* leading = leading_of(scene);
+  if (leading == nullptr) return;
+  const run::RankMemory largest = leading->memory();
+  summary.building_rss_bytes = std::max(summary.building_rss_bytes, largest.peak);
+  summary.running_rss_bytes = std::max(summary.running_rss_bytes, largest.settled);
+}
+
 void note_ranks(const Scene& scene, io::RunSummary& summary) {
-  const auto* leading = dynamic_cast<const run::LeadingSolver*>(scene.solver.get());
+  const auto* leading = leading_of(scene);
   if (leading == nullptr) return;
   const run::RankCosts costs = leading->costs();
   summary.ranks = parallel::all_ranks()->size();
   summary.imbalance = costs.imbalance;
   summary.exchanged_bytes = costs.parcel_bytes;
+  summary.peak_rss_bytes = std::max(summary.peak_rss_bytes, leading->memory().peak);
   summary.communication_seconds = costs.communication_seconds;
 }
 

@@ -12,6 +12,9 @@ namespace diptych::harness {
 /// @throws as Scene does; base::Error where another rank could not make it
 std::unique_ptr<Scene> scene_of_run(const cases::Case& setup, const RunOptions& options);
 
+/// Memory of the rank that has most, before the first step; nothing where there is one.
+void note_memory(const Scene& scene, io::RunSummary& summary);
+
 /// What the ranks have done for the run; nothing where there is one.
 void note_ranks(const Scene& scene, io::RunSummary& summary);
 

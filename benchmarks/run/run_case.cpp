@@ -206,6 +206,7 @@ void CaseRun::go() {
   s.solver_bytes = scene_->solver->bytes();
   s.building_rss_bytes = memory_.peak();
   s.running_rss_bytes = memory_.settled();
+  note_memory(*scene_, s);
   s.setup_seconds = seconds_since(start_);
   try {
     s.status = run::status_of(simulation_->run());

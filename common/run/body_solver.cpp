@@ -50,6 +50,7 @@ BodySolver<Dim>::BodySolver(time::MovingBody<Dim> moving,
 template <int Dim>
 StepReport BodySolver<Dim>::step(double t_limit) {
   time::Clock& clock = moving_.clock;
+  release_fields();
   if (max_retries_ > 0) begin_.keep(moving_, t_limit);
   const bool is_judged = start_ && start_->judges(clock.step);
   if (is_judged && !begun_) begun_ = budget();
@@ -69,6 +70,7 @@ StepReport BodySolver<Dim>::step(double t_limit) {
       continue;
     }
     scheme::gather_state(moving_.body);
+    has_fields_of_others_ = true;
     const base::BreakdownError error = scheme::breakdown_error(
         moving_.body, clock.step + 1, clock.time + dt, dt, remark_on(rejected));
     if (max_retries_ > 0) begin_.restore(moving_);
@@ -80,10 +82,24 @@ StepReport BodySolver<Dim>::step(double t_limit) {
 template <int Dim>
 void BodySolver<Dim>::divide(parallel::Communicator& ranks, const std::string& partition) {
   scheme::divide(moving_.body, ranks, partition);
+  scheme::release_graph(moving_.body);
+  moving_.boundary.release(moving_.body.division->untouched.owned);
+  has_fields_of_others_ = true;
+  release_fields();
+}
+
+/// Back to the system with what others have, which steps do not read.
+template <int Dim>
+void BodySolver<Dim>::release_fields() {
+  if (!has_fields_of_others_ || !moving_.body.division) return;
+  has_fields_of_others_ = false;
+  scheme::release_fields(moving_.body);
+  begin_.release(moving_.body.division->untouched.owned);
 }
 
 template <int Dim>
 void BodySolver<Dim>::gather() {
+  has_fields_of_others_ = true;
   scheme::gather_state(moving_.body);
   moving_.boundary.complete(moving_.body.part());
 }
@@ -100,6 +116,7 @@ scheme::Balance BodySolver<Dim>::balance() const {
 
 template <int Dim>
 Snapshot BodySolver<Dim>::snapshot() const {
+  has_fields_of_others_ = true;
   scheme::gather(moving_.body, scheme::Role::unknown);
   if (moving_.body.part().rank() != 0) return {};
   const scheme::Undivided<Dim> gathered(moving_.body);
@@ -134,6 +151,7 @@ void BodySolver<Dim>::archive(algebra::Archive& archive) {
   if (!archive.is_loading()) return;
   begun_.reset();
   begin_ = time::StepBegin<Dim>(moving_);  // which keeps nothing of the steps until then
+  has_fields_of_others_ = true;
   if (!time::is_sound(moving_)) {
     throw base::InputError(
         "the state to go on from is not sound: a node has J <= 0 or a value that is not finite");

@@ -49,6 +49,7 @@ class BodySolver : public Solver {
   }
 
  private:
+  void release_fields();
   EnergyBudget budget() const { return {balance(), moving_.audit}; }
   const scheme::MaterialModel& material() const { return moving_.sweeps.material(); }
 
@@ -56,6 +57,7 @@ class BodySolver : public Solver {
   std::shared_ptr<exact::KnownState> known_;
   time::StepBegin<Dim> begin_;
   int max_retries_;
+  mutable bool has_fields_of_others_ = false;  ///< gathered or loaded, until the next step
   std::optional<BudgetOfStart> start_;
   std::optional<EnergyBudget>
       begun_;  ///< budget of the state that the next judged step begins with

@@ -39,7 +39,7 @@ void StepBegin<Dim>::for_both(const Place& place, scheme::Body<Dim>& body, const
 
 template <int Dim>
 StepBegin<Dim>::StepBegin(const MovingBody<Dim>& moving)
-    : is_leapfrog_(moving.integrator.is_leapfrog()) {
+    : is_leapfrog_(moving.integrator.is_leapfrog()), n_blocks_(moving.body.n_blocks) {
   list_places(moving);
 }
 
@@ -149,6 +149,12 @@ std::int64_t StepBegin<Dim>::bytes() const {
   for (const BlockField& field : own_)
     sum += field.bytes();
   return sum;
+}
+
+template <int Dim>
+void StepBegin<Dim>::release(const scheme::Blocks& untouched) {
+  for (BlockField& field : own_)
+    scheme::give_back_blocks(field, n_blocks_, untouched);
 }
 
 template <int Dim>

@@ -8,6 +8,7 @@
 ///     that, so that it comes back to the last bit.
 /// Test: tests/common/run/rejection_test.cpp
 
+#include "common/scheme/ranks/untouched.hpp"
 #include "common/time/moving_body.hpp"
 
 #include <vector>
@@ -27,6 +28,8 @@ class StepBegin {
   /// @pre the body has just been put back
   void shorten(MovingBody<Dim>& moving, double dt);
   std::int64_t bytes() const;
+  /// Gives back what it keeps of these blocks (scheme/ranks/untouched.hpp).
+  void release(const scheme::Blocks& untouched);
 
   /// Steps of leapfrog between copies: the cost of a copy falls, what a rejection costs rises.
   static constexpr std::int64_t period = 100;
@@ -49,6 +52,7 @@ class StepBegin {
   void for_both(const Place& place, scheme::Body<Dim>& body, const Use& use);
 
   bool is_leapfrog_;
+  std::int64_t n_blocks_;
   bool is_kept_ = false;
   std::vector<Place> places_;
   std::vector<algebra::BlockField> own_;

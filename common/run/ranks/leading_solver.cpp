@@ -1,9 +1,11 @@
 #include "common/run/ranks/leading_solver.hpp"
 
 #include "common/base/error.hpp"
+#include "common/parallel/pages.hpp"
 #include "common/parallel/ranks.hpp"
 #include "common/run/ranks/archive_copy.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <fmt/format.h>
@@ -22,14 +24,22 @@ enum class Task : std::int32_t {
   load,
   exact_state,
   costs,
+  memory,
   end
 };
 
 const char* name_of(Task task) {
-  constexpr const char* names[] = {
-      "a step",     "a balance",   "a snapshot",           "probes",
-      "a reaction", "a gathering", "loading a checkpoint", "an exact state",
-      "the costs",  "the end"};
+  constexpr const char* names[] = {"a step",
+                                   "a balance",
+                                   "a snapshot",
+                                   "probes",
+                                   "a reaction",
+                                   "a gathering",
+                                   "loading a checkpoint",
+                                   "an exact state",
+                                   "the costs",
+                                   "the memory",
+                                   "the end"};
   return names[static_cast<int>(task)];
 }
 
@@ -103,6 +113,20 @@ RankCosts sum_costs(const Solver& solver,
   return costs;
 }
 
+RankMemory largest_memory(parallel::Communicator& ranks) {
+  const auto n = static_cast<size_t>(ranks.size());
+  std::vector<RankMemory> all(n);
+  all[ranks.rank()] = {parallel::settled_bytes(), parallel::status_bytes("VmHWM:")};
+  const std::vector<std::int64_t> bytes(n, sizeof(RankMemory));
+  ranks.all_gather(parallel::bytes_of(all.data()), bytes);
+  RankMemory largest;
+  for (const RankMemory& memory : all) {
+    largest.settled = std::max(largest.settled, memory.settled);
+    largest.peak = std::max(largest.peak, memory.peak);
+  }
+  return largest;
+}
+
 template <class T>
 std::vector<T> received(parallel::Communicator& ranks, std::int64_t n) {
   std::vector<T> values(static_cast<size_t>(n));
@@ -154,6 +178,9 @@ void carry_out(const Order& order,
     case Task::costs:
       (void)sum_costs(solver, ranks, spent);
       break;
+    case Task::memory:
+      (void)largest_memory(ranks);
+      break;
     case Task::end:
       break;
   }
@@ -175,6 +202,11 @@ LeadingSolver::~LeadingSolver() {
 RankCosts LeadingSolver::costs() const {
   give(ranks_, Task::costs);
   return sum_costs(*solver_, ranks_, spent_);
+}
+
+RankMemory LeadingSolver::memory() const {
+  give(ranks_, Task::memory);
+  return largest_memory(ranks_);
 }
 
 StepReport LeadingSolver::step(double t_limit) {

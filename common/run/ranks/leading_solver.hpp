@@ -15,6 +15,12 @@ struct RankCosts {
   std::int64_t parcel_bytes = 0;     ///< sent in steps, of all ranks
 };
 
+/// Of the rank that has most.
+struct RankMemory {
+  std::int64_t settled = 0;  ///< bytes, resident once what is free has gone back
+  std::int64_t peak = 0;     ///< bytes, the largest that was resident
+};
+
 class LeadingSolver : public Solver {
  public:
   /// On rank 0; the others call follow() with the same solver.
@@ -28,6 +34,7 @@ class LeadingSolver : public Solver {
   LeadingSolver& operator=(const LeadingSolver&) = delete;
 
   RankCosts costs() const;
+  RankMemory memory() const;
 
   StepReport step(double t_limit) override;
   void divide(parallel::Communicator& ranks, const std::string& partition) override;

@@ -1,7 +1,9 @@
 #include "common/scheme/body/health.hpp"
 
 #include "common/scheme/body/point_access.hpp"
+#include "common/scheme/boundary/node_vector.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <string_view>
@@ -86,25 +88,59 @@ struct Origin {
   std::int64_t node = -1, n_bad = 0;
 };
 
+/// Of nodes that are bad, the one to name.
+struct Middle {
+  std::int64_t node = -1, most = -1;
+  /// @param n  of its neighbours where all are bad, -1 where not
+  void take(std::int64_t a, std::int64_t n) {
+    if (a < 0 || (node >= 0 && n <= most)) return;
+    node = a;
+    most = n;
+  }
+};
+
 /// Of nodes that are bad in one field, with all that they made bad there: the one whose neighbours
-/// are all among them, of several the one with most of them.
+/// are all among them, of several the one with most of them. Each rank knows the pairs of its own.
 template <int Dim>
 std::int64_t middle_of(const Body<Dim>& body, const std::vector<char>& is_bad) {
-  std::int64_t best = -1, most = -1;
-  for (std::int64_t a = 0; a < body.n_owned; ++a) {
-    if (!is_bad[static_cast<size_t>(a)]) continue;
-    std::int64_t n = 0;
-    bool is_inside = true;
-    for_neighbours(body.graph, a, [&](std::int64_t b) {
-      ++n;
-      is_inside = is_inside && is_bad[static_cast<size_t>(b)];
-    });
-    if (best < 0 || (is_inside && n > most)) {
-      best = a;
-      most = is_inside ? n : -1;
+  std::vector<Middle> parts(parallel::n_chunks_of(body.n_blocks));
+  parallel::for_chunks(body.part(), body.n_blocks, [&](auto begin, auto end, auto chunk) {
+    for (std::int64_t a = begin * n_lanes; a < std::min(end * n_lanes, body.n_owned); ++a) {
+      if (!is_bad[static_cast<size_t>(a)]) continue;
+      std::int64_t n = 0;
+      bool is_inside = true;
+      for_neighbours(body.graph, a, [&](std::int64_t b) {
+        ++n;
+        is_inside = is_inside && is_bad[static_cast<size_t>(b)];
+      });
+      parts[chunk].take(a, is_inside ? n : -1);
     }
-  }
-  return best;
+  });
+  body.part().complete(parts);
+  Middle middle;
+  for (const Middle& part : parts)
+    middle.take(part.node, part.most);
+  return middle.node;
+}
+
+/// What rank 0 has found, which has the fields of all, to the others.
+template <int Dim>
+void share(const Body<Dim>& body, Origin& origin, std::vector<char>& is_bad) {
+  if (!body.division) return;
+  parallel::Communicator& ranks = body.part().ranks();
+  parallel::broadcast(ranks, origin.fault);
+  parallel::broadcast(ranks, origin.n_bad);
+  is_bad.resize(static_cast<size_t>(body.n_owned));
+  ranks.broadcast(parallel::bytes_of(is_bad.data()), body.n_owned);
+}
+
+/// Reference position, which the rank that owns the node has.  [m]
+template <int Dim>
+Vec3 position_of(const Body<Dim>& body, std::int64_t a) {
+  std::vector<Vec3> X{body.X[a]};
+  const std::int32_t chunk[] = {static_cast<std::int32_t>(chunk_of_node(a))};
+  body.part().complete(X, chunk);
+  return X.front();
 }
 
 /// A bad value spreads over neighbours with every sweep, from field to field: it arose in the field
@@ -126,6 +162,7 @@ Origin origin_of(const Body<Dim>& body) {
     origin = here;
     worst = is_bad;
   }
+  share(body, origin, worst);
   if (origin.n_bad == 0) return origin;
   origin.node = middle_of(body, worst);
   return origin;
@@ -166,8 +203,9 @@ std::string state_of(const Body<Dim>& body, std::int64_t a) {
     v[i] = body.v.at(a, i);
   }
   const auto X = deformation_at(body, a);
-  return fmt::format("X = {} m, x = {} m, v = {} m/s\n  F = [{}], J = {:.6g}", place(body.X[a]),
-                     place(body.X[a] + u), place(v), rows_of(algebra::to_eigen(X.F)), X.J);
+  const Vec3 X_a = position_of(body, a);
+  return fmt::format("X = {} m, x = {} m, v = {} m/s\n  F = [{}], J = {:.6g}", place(X_a),
+                     place(X_a + u), place(v), rows_of(algebra::to_eigen(X.F)), X.J);
 }
 
 }  // namespace
@@ -209,13 +247,14 @@ base::BreakdownError collapse_error(const Body<Dim>& body,
       worst = a;
     }
   }
+  if (body.division) parallel::broadcast(body.part().ranks(), worst);
   const std::string message = fmt::format(
       "the stable time step collapsed to {:.4g} s (first step {:.4g} s) at step {}, time {:.6g} s; "
       "least J = {:.4g} at node {}, X = {} m\n"
       "  wave speeds grow without bound where a body is crushed or torn: refine, load more slowly, "
       "or use the sign-preserving limiter; guards.least_step ({:g} of the first step) says what is "
       "too small",
-      dt, first_dt, step, time, least, worst, place(body.X[worst]), least_share);
+      dt, first_dt, step, time, least, worst, place(position_of(body, worst)), least_share);
   return {message, worst};
 }
 

@@ -10,6 +10,7 @@
 #include "common/scheme/boundary/rigid_wall.hpp"
 #include "common/scheme/budget/angular_momentum.hpp"
 #include "common/scheme/budget/audit.hpp"
+#include "common/scheme/ranks/untouched.hpp"
 
 #include <array>
 #include <vector>
@@ -54,6 +55,17 @@ class AppliedBoundary {
 
   /// Among ranks: takes what the owners of nodes know of them, so that keep() has it all.
   void complete(const parallel::Part& part);
+
+  /// Among ranks: gives back what it keeps of these blocks, which are of others.
+  void release(const Blocks& untouched) {
+    const auto give_back = [&](auto& of_nodes) {
+      give_back_blocks(of_nodes.data(), std::ssize(of_nodes), algebra::n_lanes, untouched);
+    };
+    give_back(X_);
+    give_back(Omega_);
+    give_back(X_user_);
+    give_back(slot_of_node_);
+  }
 
   /// Prescribed velocities of the step from t to t + dt: five instants, a quarter of it apart.
   /// Rates are those of the polynomial through them.

@@ -151,6 +151,27 @@ RunWork run_work(const Body<Dim>& body, const parallel::Part& part) {
   return work;
 }
 
+template <int Dim>
+Untouched untouched_by(const Body<Dim>& body, const Division& division) {
+  const auto n_chunks = static_cast<size_t>(parallel::n_chunks_of(body.n_blocks));
+  std::vector<char> owned(n_chunks), read(n_chunks), written(n_chunks), worked(n_chunks);
+  for (const std::int64_t chunk : division.part.own_chunks())
+    owned[chunk] = 1;
+  for (const parallel::NodeRange& nodes : division.pairs.received()) {
+    for (std::int64_t a = nodes.begin; a < nodes.end; ++a)
+      read[chunk_of_node(a)] = 1;
+  }
+  for (const std::int64_t chunk : division.runs.written)
+    written[chunk] = 1;
+  for (const auto& segments : division.runs.segments) {
+    for (const auto& segment : segments) {
+      for (const std::int64_t chunk : segment)
+        worked[chunk] = 1;
+    }
+  }
+  return untouched_of(body.n_blocks, owned, read, written, worked);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -169,6 +190,7 @@ void divide(Body<Dim>& body, parallel::Communicator& ranks, const std::string& p
     division->cells = body.bulk->work_of(part, corners);
     division->corners = parallel::Halo(ranks, corners, owner_of_node);
   }
+  division->untouched = untouched_by(body, *division);
   body.division = std::move(division);
 }
 

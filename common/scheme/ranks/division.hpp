@@ -11,6 +11,7 @@
 
 #include "common/parallel/halo.hpp"
 #include "common/scheme/body/body.hpp"
+#include "common/scheme/ranks/untouched.hpp"
 
 #include <string>
 
@@ -29,7 +30,8 @@ struct Division {
   parallel::Halo corners;  ///< nodes that sweeps over cells read
   RunWork runs;
   std::vector<CellWork> cells;  ///< by group
-  double imbalance = 1;         ///< largest work of a rank over the mean
+  Untouched untouched;
+  double imbalance = 1;  ///< largest work of a rank over the mean
 };
 
 /// Gives this rank its part. All ranks have the same body, at the same state.
