@@ -45,6 +45,11 @@ SamplePart part_of(const PairGraph& graph, const std::vector<std::int32_t>& node
   part.graph.precision = graph.precision;
   part.graph.boundary_area.assign(nodes.size(), algebra::Vec3::Zero());
   part.graph.row.assign(1, 0);
+  size_t n_pairs = 0;  // at most
+  for (const std::int32_t a : nodes)
+    n_pairs += static_cast<size_t>(graph.row[a + 1] - graph.row[a]);
+  part.graph.neighbour.reserve(n_pairs);
+  part.graph.C.reserve(n_pairs);
   for (const std::int32_t a : nodes) {
     part.graph.X.push_back(graph.X[a]);
     part.graph.Omega.push_back(graph.Omega[a]);
