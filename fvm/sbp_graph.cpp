@@ -1,12 +1,14 @@
 #include "fvm/sbp_graph.hpp"
 
 #include "common/closure/sbp_operator.hpp"
+#include "common/parallel/for_chunks.hpp"
 #include "common/scheme/graph/classify_rows.hpp"
 #include "common/scheme/graph/dissipation_area.hpp"
 #include "meshes/block_measure.hpp"
 #include "meshes/line_slopes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 
 namespace diptych::fvm {
@@ -37,13 +39,35 @@ std::vector<std::vector<double>> weights_of(const std::vector<closure::SbpOperat
   return H;
 }
 
-/// Adds row a to the graph.
-void add_row(const meshes::BlockMeasure& measure,
+/// Begins of all rows, and room for their pairs.
+void set_row_lengths(const meshes::StructuredBlock& block,
+                     const std::vector<closure::SbpOperator>& along,
+                     scheme::PairGraph& graph) {
+  std::array<std::vector<std::int64_t>, 3> lengths;
+  for (int d = 0; d < block.dimension; ++d) {
+    for (int i = 0; i < block.n_nodes[d]; ++i)
+      lengths[d].push_back(std::ssize(along[d].row(i)));
+  }
+  graph.row.assign(graph.X.size() + 1, 0);
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+    graph.row[a + 1] = graph.row[a];
+    for (int d = 0; d < block.dimension; ++d)
+      graph.row[a + 1] += lengths[d][block.place[a][d]];
+  }
+  graph.neighbour.resize(graph.row.back());
+  graph.C.resize(graph.row.back());
+}
+
+using Row = std::vector<std::pair<std::int32_t, Vec3>>;
+
+/// Row a of the graph. @param row  scratch
+void set_row(const meshes::BlockMeasure& measure,
              const std::vector<closure::SbpOperator>& along,
              std::int64_t a,
+             Row& row,
              scheme::PairGraph& graph) {
   const meshes::StructuredBlock& block = measure.block();
-  std::vector<std::pair<std::int32_t, Vec3>> row;
+  row.clear();
   for (int d = 0; d < block.dimension; ++d) {
     const Vec3 M = measure.area(a, d);
     auto at = block.place[a];
@@ -53,11 +77,10 @@ void add_row(const meshes::BlockMeasure& measure,
     }
   }
   std::sort(row.begin(), row.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
-  for (const auto& [b, C] : row) {
-    graph.neighbour.push_back(b);
-    graph.C.push_back(C);
+  for (size_t k = 0; k < row.size(); ++k) {
+    graph.neighbour[graph.row[a] + k] = row[k].first;
+    graph.C[graph.row[a] + k] = row[k].second;
   }
-  graph.row.push_back(graph.n_pairs());
 }
 
 }  // namespace
@@ -70,12 +93,17 @@ scheme::PairGraph sbp_graph(const Mesh& mesh, int order) {
   scheme::PairGraph graph;
   graph.dimension = mesh.dimension;
   graph.X = mesh.nodes;
-  graph.row.assign(1, 0);
-  for (std::int64_t a = 0; a < mesh.n_nodes(); ++a) {
-    graph.Omega.push_back(measure.volume(a));
-    graph.boundary_area.push_back(measure.boundary_area(a));
-    add_row(measure, along, a, graph);
-  }
+  graph.Omega.resize(graph.X.size());
+  graph.boundary_area.resize(graph.X.size());
+  set_row_lengths(measure.block(), along, graph);
+  parallel::for_chunks(graph.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+    Row row;
+    for (std::int64_t a = begin; a < end; ++a) {
+      graph.Omega[a] = measure.volume(a);
+      graph.boundary_area[a] = measure.boundary_area(a);
+      set_row(measure, along, a, row, graph);
+    }
+  });
   for (const meshes::BoundaryGroup& group : mesh.boundary_groups) {
     meshes::PatchArea patch = measure.patch(group);
     graph.patches.push_back({std::move(patch.name), std::move(patch.nodes), std::move(patch.area)});

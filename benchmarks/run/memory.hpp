@@ -41,8 +41,8 @@ struct AvailableMemory {
 /// left of the limit of its address space (ulimit -v).
 AvailableMemory available_memory();
 
-/// Frees rows, neighbours, reverse pairs, C_ab, cells and lines, which the solver has made its own of.
-/// Nodes, volumes and boundary stay; n_pairs() is 0 from now on.
+/// Frees rows, neighbours, reverse pairs, C_ab, cells and lines, which the solver has made its own
+/// of. Nodes, volumes and boundary stay; n_pairs() is 0 from now on.
 void release_pairs(scheme::PairGraph& graph);
 
 /// Frees positions, volumes and boundary areas of the nodes too, where no observer looks at them;

@@ -25,8 +25,8 @@ bool is_poisoned() {
     const char* asked = std::getenv("DIPTYCH_RANK_MEMORY");
     if (asked == nullptr || *asked == '\0') return false;
     if (std::string_view(asked) == "poisoned") return true;
-    throw base::InputError(fmt::format(
-        "DIPTYCH_RANK_MEMORY={}: the only value is \"poisoned\"; or unset it", asked));
+    throw base::InputError(
+        fmt::format("DIPTYCH_RANK_MEMORY={}: the only value is \"poisoned\"; or unset it", asked));
   }();
   return poisoned;
 }

@@ -2,6 +2,7 @@
 
 #include "common/run/largest_rates.hpp"
 #include "common/run/model_menu.hpp"
+#include "common/run/sample_part.hpp"
 #include "common/run/solver.hpp"
 #include "common/scheme/dissipation/limiters/limiter_menu.hpp"
 #include "common/scheme/sweeps/face_correction.hpp"
@@ -33,6 +34,30 @@ constexpr double leapfrog_share = 0.85;
 /// Of the step at which the dissipation alone turns unstable.
 constexpr double dissipation_share = 0.8;
 
+/// The step at a wave speed of one, by the rates of the body or of a part of it.  [m]
+template <int Dim>
+double step_of(const cases::Case& setup,
+               const ElasticRatios& ratios,
+               LargestRates<Dim> largest,
+               const time::Integrator& integrator) {
+  const double strength = setup.scheme.dissipation *
+                          scheme::strength_of(scheme::limiter_menu().at(setup.scheme.limiter));
+  const double omega = largest.frequency(ratios);
+  const double d = strength * largest.dissipation(ratios.shear);
+  double dt = std::min(integrator.default_dt_omega / omega,
+                       dissipation_share * real_extent(integrator) / d);
+  if (integrator.is_leapfrog()) {
+    // convex in dt and zero at zero: at this part of dt it is no larger than the share
+    const double limit = largest.leapfrog_limit(dt, ratios, strength);
+    dt *= std::min(1.0, leapfrog_share / limit);
+  }
+  return dt;
+}
+
+double factor_of(const cases::Case& setup, double geometric_rate) {
+  return geometric_rate * scheme::frequency_factor(setup.scheme.face_correction);
+}
+
 }  // namespace
 
 double real_extent(const time::Integrator& integrator) {
@@ -50,33 +75,37 @@ double real_extent(const time::Integrator& integrator) {
 }
 
 template <int Dim>
+double sampled_cfl(const cases::Case& setup,
+                   const scheme::PairGraph& graph,
+                   double geometric_rate,
+                   const time::Integrator& integrator) {
+  // the rates of a node depend on the nodes of its row alone
+  if (setup.scheme.face_correction != 0 || volumes_of(setup, graph) != scheme::Volumes::nodes)
+    return 0;
+  const std::optional<SamplePart> part = sample_part(graph);
+  if (!part) return 0;
+  scheme::Body<Dim> body(part->graph, scheme::BodyOptions{});
+  return factor_of(setup, geometric_rate) *
+         step_of<Dim>(setup, ratios_of(setup.material, 0), {body, 0, part->moves}, integrator);
+}
+
+template <int Dim>
 double default_cfl(const cases::Case& setup,
                    const scheme::MaterialModel& material,
                    scheme::Body<Dim>& body,
                    double geometric_rate,
                    const time::Integrator& integrator) {
-  const double kappa_f = setup.scheme.face_correction;
-  const double strength = setup.scheme.dissipation *
-                          scheme::strength_of(scheme::limiter_menu().at(setup.scheme.limiter));
   const ElasticRatios ratios =
       ratios_of(setup.material, body.bulk ? material.volumetric_modulus() : 0);
-  LargestRates<Dim> largest(body, kappa_f);
-  const double omega = largest.frequency(ratios);
-  const double d = strength * largest.dissipation(ratios.shear);
-  // dt at a wave speed of one
-  double dt = std::min(integrator.default_dt_omega / omega,
-                       dissipation_share * real_extent(integrator) / d);
-  if (integrator.is_leapfrog()) {
-    // convex in dt and zero at zero: at this part of dt it is no larger than the share
-    const double limit = largest.leapfrog_limit(dt, ratios, strength);
-    dt *= std::min(1.0, leapfrog_share / limit);
-  }
-  return dt * geometric_rate * scheme::frequency_factor(kappa_f);
+  return factor_of(setup, geometric_rate) *
+         step_of<Dim>(setup, ratios, {body, setup.scheme.face_correction}, integrator);
 }
 
-#define DIPTYCH_INSTANTIATE(Dim)                                                \
-  template double default_cfl(const cases::Case&, const scheme::MaterialModel&, \
-                              scheme::Body<Dim>&, double, const time::Integrator&);
+#define DIPTYCH_INSTANTIATE(Dim)                                                         \
+  template double default_cfl(const cases::Case&, const scheme::MaterialModel&,          \
+                              scheme::Body<Dim>&, double, const time::Integrator&);      \
+  template double sampled_cfl<Dim>(const cases::Case&, const scheme::PairGraph&, double, \
+                                   const time::Integrator&);
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)
 #undef DIPTYCH_INSTANTIATE
@@ -89,6 +118,9 @@ double default_cfl(const cases::Case& setup,
   options.volumes = volumes_of(setup, graph);
   const auto material = model_menu().at(setup.material.model).model(setup.material);
   const double rate = scheme::geometric_rate(graph);
+  const double sampled = graph.dimension == 2 ? sampled_cfl<2>(setup, graph, rate, integrator)
+                                              : sampled_cfl<3>(setup, graph, rate, integrator);
+  if (sampled > 0) return sampled;
   if (graph.dimension == 2) {
     scheme::Body<2> body(graph, options);
     return default_cfl(setup, *material, body, rate, integrator);

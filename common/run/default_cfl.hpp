@@ -29,7 +29,17 @@ double default_cfl(const cases::Case& setup,
                    double geometric_rate,
                    const time::Integrator& integrator);
 
-/// The same where there is no body yet.
+/// The same by the rates of a part that has all classes of rows of a large lattice
+/// (sample_part.hpp), which takes no body of the whole.
+/// @return 0 where there is no such part, with the face correction and where volumes carry the
+/// pressure
+template <int Dim>
+double sampled_cfl(const cases::Case& setup,
+                   const scheme::PairGraph& graph,
+                   double geometric_rate,
+                   const time::Integrator& integrator);
+
+/// One or the other, where there is no body yet.
 double default_cfl(const cases::Case& setup,
                    const scheme::PairGraph& graph,
                    const time::Integrator& integrator);

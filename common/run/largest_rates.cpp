@@ -13,9 +13,10 @@ using lanczos::for_nodes;
 using scheme::NodeRecord;
 
 template <int Dim>
-LargestRates<Dim>::LargestRates(scheme::Body<Dim>& body, double kappa_f)
+LargestRates<Dim>::LargestRates(scheme::Body<Dim>& body, double kappa_f, std::vector<double> moves)
     : body_(body),
       kappa_f_(kappa_f),
+      moves_(std::move(moves)),
       momentum_(scheme::momentum_function<Dim>({.reconstruction = scheme::Reconstruction::none,
                                                 .limiter = scheme::PairLimiter::none,
                                                 .impedance = scheme::Impedance::isotropic},
@@ -26,10 +27,11 @@ LargestRates<Dim>::LargestRates(scheme::Body<Dim>& body, double kappa_f)
 template <int Dim>
 void LargestRates<Dim>::put_velocities(const Vectors& v) {
   for_nodes(body_.n_owned, [&](std::int64_t a) {
+    const Four v_a = moves_.empty() ? v[a] : v[a] * moves_[a];
     for (int i = 0; i < Dim; ++i) {
-      body_.v.set(a, i, v[a][i]);
+      body_.v.set(a, i, v_a[i]);
       if (!body_.in_runs())  // rows read the copy in the records
-        body_.records.set(a, NodeRecord<Dim>::v(body_.options.exact_impedance) + i, v[a][i]);
+        body_.records.set(a, NodeRecord<Dim>::v(body_.options.exact_impedance) + i, v_a[i]);
     }
   });
 }
@@ -40,6 +42,7 @@ void LargestRates<Dim>::divide_forces(Vectors& out) const {
     out[a] = Four{};
     for (int i = 0; i < Dim; ++i)
       out[a][i] = -body_.T.at(a, i) / body_.graph.Omega[a];
+    if (!moves_.empty()) out[a] *= moves_[a];
   });
 }
 
@@ -80,55 +83,54 @@ void LargestRates<Dim>::put_stresses(const ElasticRatios& ratios) {
 }
 
 template <int Dim>
-void LargestRates<Dim>::apply_elasticity(const Vectors& u,
-                                         const ElasticRatios& ratios,
-                                         Vectors& out) {
-  put_velocities(u);
-  scheme::velocity_gradients(body_, kappa_f_);
-  put_stresses(ratios);
-  sum_forces(0);
-  if (ratios.cells != 0) body_.bulk->add_linear_forces(body_, ratios.cells);
-  divide_forces(out);
-}
-
-template <int Dim>
-void LargestRates<Dim>::apply_dissipation(const Vectors& v, double shear_ratio, Vectors& out) {
-  put_velocities(v);
+void LargestRates<Dim>::put_impedances(double shear_ratio) {
   for_nodes(body_.n_owned, [&](std::int64_t a) {
     for (int k = 0; k < Dim * Dim; ++k)
       body_.records.set(a, NodeRecord<Dim>::P + k, 0);
     body_.records.set(a, NodeRecord<Dim>::z_p, 1);
     body_.records.set(a, NodeRecord<Dim>::z_s, shear_ratio);
   });
-  sum_forces(1);
+}
+
+template <int Dim>
+void LargestRates<Dim>::apply(const Vectors& u,
+                              const ElasticRatios& ratios,
+                              double strength,
+                              Vectors& out) {
+  put_velocities(u);
+  scheme::velocity_gradients(body_, kappa_f_);
+  put_stresses(ratios);
+  sum_forces(strength);
+  if (ratios.cells != 0) body_.bulk->add_linear_forces(body_, ratios.cells);
   divide_forces(out);
 }
 
 template <int Dim>
 double LargestRates<Dim>::dissipation(double shear_ratio) {
-  return lanczos::largest_eigenvalue<Four>(
-      body_.graph.Omega, body_.n_owned,
-      [&](const Vectors& v, Vectors& out) { apply_dissipation(v, shear_ratio, out); });
+  put_impedances(shear_ratio);
+  return lanczos::largest_eigenvalue<Four>(body_.graph.Omega, body_.n_owned,
+                                           [&](const Vectors& v, Vectors& out) {
+                                             put_velocities(v);
+                                             sum_forces(1);
+                                             divide_forces(out);
+                                           });
 }
 
 template <int Dim>
 double LargestRates<Dim>::frequency(const ElasticRatios& ratios) {
+  put_impedances(ratios.shear);
   return std::sqrt(lanczos::largest_eigenvalue<Four>(
       body_.graph.Omega, body_.n_owned,
-      [&](const Vectors& u, Vectors& out) { apply_elasticity(u, ratios, out); }));
+      [&](const Vectors& u, Vectors& out) { apply(u, ratios, 0, out); }));
 }
 
 template <int Dim>
 double LargestRates<Dim>::leapfrog_limit(double dt, const ElasticRatios& ratios, double strength) {
-  Vectors damped(body_.n_owned);
-  return lanczos::largest_eigenvalue<Four>(
-      body_.graph.Omega, body_.n_owned, [&](const Vectors& v, Vectors& out) {
-        apply_elasticity(v, ratios, out);
-        apply_dissipation(v, ratios.shear, damped);
-        for_nodes(body_.n_owned, [&](std::int64_t a) {
-          out[a] = 0.25 * dt * dt * out[a] + 0.5 * dt * strength * damped[a];
-        });
-      });
+  put_impedances(ratios.shear);
+  const double of_both = lanczos::largest_eigenvalue<Four>(
+      body_.graph.Omega, body_.n_owned,
+      [&](const Vectors& v, Vectors& out) { apply(v, ratios, 2 * strength / dt, out); });
+  return 0.25 * dt * dt * of_both;
 }
 
 template class LargestRates<2>;

@@ -23,8 +23,9 @@ struct ElasticRatios {
 template <int Dim>
 class LargestRates {
  public:
-  /// @param body  at rest; its velocities, records (but for H) and forces are lost
-  LargestRates(scheme::Body<Dim>& body, double kappa_f);
+  /// @param body   at rest; its velocities, records (but for H) and forces are lost
+  /// @param moves  [n_nodes] 0 for nodes that are held, 1 for the others; empty: none is held
+  LargestRates(scheme::Body<Dim>& body, double kappa_f, std::vector<double> moves = {});
 
   /// d of plain jumps with scheme.dissipation = 1, per unit of c_p  [1/m]
   double dissipation(double shear_ratio);
@@ -45,15 +46,18 @@ class LargestRates {
  private:
   using Vectors = lanczos::Field<algebra::Four>;
   void put_velocities(const Vectors& v);
-  /// out <- -T / Omega for the stresses and speeds in the records.
+  /// Impedances of the dissipation; no stresses.
+  void put_impedances(double shear_ratio);
+  /// out <- -T / Omega for the stresses and impedances in the records.
   void divide_forces(Vectors& out) const;
-  void apply_elasticity(const Vectors& u, const ElasticRatios& ratios, Vectors& out);
-  void apply_dissipation(const Vectors& v, double shear_ratio, Vectors& out);
+  /// out <- (K + strength D) u in one sweep.
+  void apply(const Vectors& u, const ElasticRatios& ratios, double strength, Vectors& out);
   void put_stresses(const ElasticRatios& ratios);
   void sum_forces(double dissipation_factor);
 
   scheme::Body<Dim>& body_;
   double kappa_f_;
+  std::vector<double> moves_;
   scheme::MomentumFunction<Dim> momentum_;
   scheme::FaceCorrectionSweeps<Dim> face_;
   std::vector<double> scratch_;  ///< results per chunk that nobody needs

@@ -108,19 +108,6 @@ scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::Pair
   return {graph, std::move(conditions), body_force, setup.body_force.depends_on_time()};
 }
 
-template <int Dim>
-scheme::TimeStepRule time_step_of(const cases::Case& setup,
-                                  const scheme::MaterialModel& material,
-                                  scheme::Body<Dim>& body,
-                                  double geometric_rate,
-                                  const time::Integrator& integrator) {
-  const double cfl = setup.time.cfl > 0
-                         ? setup.time.cfl
-                         : default_cfl(setup, material, body, geometric_rate, integrator);
-  return {scheme::speeds_menu().at(setup.time.speeds), cfl,
-          scheme::frequency_factor(setup.scheme.face_correction)};
-}
-
 scheme::Reconstruction reconstruction_of(const cases::Case& setup) {
   switch (scheme::reconstruction_menu().at(setup.scheme.reconstruction)) {
     case scheme::ReconstructionChoice::none:
@@ -178,10 +165,14 @@ std::unique_ptr<Solver> solver_in(const cases::Case& setup, const scheme::PairGr
     known = maker.known(*material, setup, graph);
     boundary.follow(known);
   }
-  scheme::Body<Dim> body(graph, body_options_of(setup, graph, *material, integrator));
   const double geometric_rate = scheme::geometric_rate(graph);
+  double cfl = setup.time.cfl;
+  if (!(cfl > 0)) cfl = sampled_cfl<Dim>(setup, graph, geometric_rate, integrator);
+  scheme::Body<Dim> body(graph, body_options_of(setup, graph, *material, integrator));
+  if (!(cfl > 0)) cfl = default_cfl(setup, *material, body, geometric_rate, integrator);
   scheme::SweepOptions options = sweep_options_of(setup);
-  options.time_step = time_step_of(setup, *material, body, geometric_rate, integrator);
+  options.time_step = {scheme::speeds_menu().at(setup.time.speeds), cfl,
+                       scheme::frequency_factor(setup.scheme.face_correction)};
   scheme::Sweeps<Dim> sweeps(body, material, options, geometric_rate);
   time::MovingBody<Dim> moving{std::move(body), std::move(sweeps), std::move(boundary), integrator,
                                setup.scheme.angular_momentum_projection};

@@ -170,8 +170,7 @@ void release_graph(Body<Dim>& body) {
                    untouched.owned);
   give_back_blocks(graph.Omega.data(), graph.Omega.size(), n_lanes, untouched.owned);
   if (!graph.C_sum.empty()) give_back_blocks(graph.C_sum, body.n_blocks, untouched.owned);
-  if (!body.bulk)
-    give_back_blocks(body.X.data(), std::ssize(body.X), n_lanes, untouched.owned);
+  if (!body.bulk) give_back_blocks(body.X.data(), std::ssize(body.X), n_lanes, untouched.owned);
 }
 
 #define DIPTYCH_INSTANTIATE(Dim)            \
