@@ -30,24 +30,32 @@ struct MooneyRivlinFamily {
   double branch_xi() const { return xi; }
   double branch_zeta() const { return with_zeta ? zeta : 0; }
 
+  /// Below this J the logarithm stays with the J of nodes, which nothing else keeps positive where
+  /// volumes carry the pressure: at the corners of strips that are pulled to several times their
+  /// length it falls to 0.04, while the volumes of cells are five times that (notes 3.9).
+  static constexpr double least_bulk_J = 0.05;
+
   /// The part of the energy that carries bulk pressure, with b = 2 (xi + 2 zeta)
   ///   U(J) = lambda_hat/2 (J - 1)^2 - b (ln J - (J - 1))  [Pa],
-  /// and its derivative. What stays with F and H is linear in J, so that a body at rest has no
-  /// stress in either part.
+  /// the logarithm going on along its tangent below least_bulk_J, and its derivative. What stays
+  /// with F and H is linear in J above that, so that a body at rest has no stress in either part.
   template <class T>
   DIPTYCH_INLINE T volumetric_energy(const T& J) const {
-    return 0.5 * lambda_hat * (J - 1.0) * (J - 1.0) - b() * (algebra::natural_log(J) - (J - 1.0));
+    const T J_0 = T{} + least_bulk_J, above = algebra::larger(J, J_0);
+    const T logarithm = algebra::natural_log(above) + algebra::smaller(J, J_0) / J_0 - 1.0;
+    return 0.5 * lambda_hat * (J - 1.0) * (J - 1.0) - b() * (logarithm - (J - 1.0));
   }
   template <class T>
   DIPTYCH_INLINE T volumetric_stress(const T& J) const {
-    return (J - 1.0) * (lambda_hat + b() / J);
+    return lambda_hat * (J - 1.0) + b() * (1.0 - 1.0 / algebra::larger(J, T{} + least_bulk_J));
   }
   double volumetric_modulus() const { return lambda_hat + b(); }  ///< U''(1)
 
   /// Energy density (4)  [Pa]
   template <class T>
   DIPTYCH_INLINE T energy(const Deformation<T>& X) const {
-    T W = xi * (algebra::contract(X.F, X.F) - 3.0) + volumetric_energy(X.J) - b() * (X.J - 1.0);
+    T W = xi * (algebra::contract(X.F, X.F) - 3.0) + 0.5 * lambda_hat * (X.J - 1.0) * (X.J - 1.0) -
+          b() * algebra::natural_log(X.J);
     if constexpr (with_zeta) W += zeta * (algebra::contract(X.H, X.H) - 3.0);
     return W;
   }

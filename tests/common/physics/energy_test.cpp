@@ -53,6 +53,24 @@ TYPED_TEST(Energy, HasTheLameConstantsThatTheMaterialWasMadeOf) {
   }
 }
 
+// The part that volumes may carry: its stress is its derivative, with no stress at rest, and its
+// stiffness at rest; large and small J, where a part of it goes on along a tangent.
+TYPED_TEST(Energy, OfBulkPressureHasItsStressAsItsDerivative) {
+  const auto material = TypeParam::from({1, 9}, 0.3);
+  EXPECT_EQ(material.volumetric_energy(1.0), 0);
+  EXPECT_EQ(material.volumetric_stress(1.0), 0);
+  for (const double J : {0.004, 0.03, 0.0499, 0.0501, 0.3, 1.0, 1.7, 6.0}) {
+    const double h = 1e-5 * J;
+    const double slope =
+        (material.volumetric_energy(J + h) - material.volumetric_energy(J - h)) / (2 * h);
+    EXPECT_NEAR(slope, material.volumetric_stress(J), 1e-7 * (1 + std::abs(slope))) << J;
+  }
+  const double h = 1e-5;
+  const double stiffness =
+      (material.volumetric_stress(1 + h) - material.volumetric_stress(1 - h)) / (2 * h);
+  EXPECT_NEAR(stiffness, material.volumetric_modulus(), 1e-7 * stiffness);
+}
+
 TYPED_TEST(Energy, IsObjective) {
   RandomStates random(42);
   for (int n = 0; n < 200; ++n) {

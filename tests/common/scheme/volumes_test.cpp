@@ -161,14 +161,14 @@ class BulkVolumes : public testing::TestWithParam<Kind> {
   StaticBody body{mesh, GetParam().method, 0.49, safe_for(GetParam().method)};
 };
 class CellVolumes : public BulkVolumes {};
-const auto of_cells = testing::Values(Kind{hexahedron, 0, "sph"},
-                                      Kind{hexahedron, 0.25, "sph"},
-                                      Kind{hexahedron, 0.25, "fvm"},
-                                      Kind{tetrahedron, 0, "fvm"},
-                                      Kind{tetrahedron, 0.2, "fvm"},
-                                      Kind{prism, 0.2, "fvm"});
-INSTANTIATE_TEST_SUITE_P(Cells, CellVolumes, of_cells);
-INSTANTIATE_TEST_SUITE_P(Cells, BulkVolumes, of_cells);
+const auto kinds_of_cells = testing::Values(Kind{hexahedron, 0, "sph"},
+                                            Kind{hexahedron, 0.25, "sph"},
+                                            Kind{hexahedron, 0.25, "fvm"},
+                                            Kind{tetrahedron, 0, "fvm"},
+                                            Kind{tetrahedron, 0.2, "fvm"},
+                                            Kind{prism, 0.2, "fvm"});
+INSTANTIATE_TEST_SUITE_P(Cells, CellVolumes, kinds_of_cells);
+INSTANTIATE_TEST_SUITE_P(Cells, BulkVolumes, kinds_of_cells);
 // lines with a table of their own, and with blocks at both ends
 INSTANTIATE_TEST_SUITE_P(Lines,
                          BulkVolumes,
