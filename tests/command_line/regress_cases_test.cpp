@@ -75,7 +75,7 @@ TEST_F(RegressCases, ArePassedByWhatWasRecordedAndFailedByAnotherModulus) {
 }
 
 TEST_F(RegressCases, AreRecordedAtTheSizeThatIsAsked) {
-  const auto short_of_five = regress("--bless strip --why small --set time.end=1e-4");
+  const auto short_of_five = regress("--bless strip --why small --set time.end=5e-5");
   EXPECT_EQ(short_of_five.exit_code, 2);
   EXPECT_THAT(short_of_five.text, HasSubstr("the canary makes five"));
   const auto asked = regress(

@@ -41,7 +41,7 @@ inline const std::map<std::string, std::set<std::string>>& permitted_rooms() {
     const auto graph = with(above, {"common/closure", "meshes"});
     const auto all = with(run, {"common/run", "sph", "fvm", "postprocess"});
     const auto terminal = with(all, {"benchmarks/terminal"});
-    const auto runs = with(terminal, {"benchmarks/run"});
+    const auto runs = with(terminal, {"common/closure", "benchmarks/run"});
     const auto campaign = with(runs, {"benchmarks/campaign"});
     const auto studies =
         with(campaign, {"benchmarks/convergence", "benchmarks/cost", "benchmarks/probes"});
@@ -68,7 +68,7 @@ inline const std::map<std::string, std::set<std::string>>& permitted_rooms() {
         {"postprocess", with(algebra, {"common/io"})},
         {"benchmarks/probes", scheme},
         {"benchmarks/terminal", all},
-        {"benchmarks/run", terminal},
+        {"benchmarks/run", with(terminal, {"common/closure"})},
         {"benchmarks/campaign", runs},
         {"benchmarks/convergence", runs},
         {"benchmarks/material", runs},

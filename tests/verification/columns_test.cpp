@@ -152,10 +152,12 @@ INSTANTIATE_TEST_SUITE_P(
         Expectation{"twisting, SPH, sbp",
                     &twisting,
                     "sph",
-                    {"sph.gradient=sbp", "sph.kappa=1.35"},
+                    {"sph.gradient=sbp", "sph.kappa=1.35", "scheme.volumes=nodes"},
                     0.033,
                     0},
-        Expectation{"twisting, SPH, corrected", &twisting, "sph", {}, 1.8, 1},
+        Expectation{"twisting, SPH, sbp, lines", &twisting, "sph", {}, 0.084, 0},
+        Expectation{
+            "twisting, SPH, corrected", &twisting, "sph", {"sph.gradient=corrected"}, 1.8, 1},
         Expectation{"twisting, FVM, edge", &twisting, "fvm", {"fvm.stencil=edge"}, 0.164, 0.09}));
 
 }  // namespace

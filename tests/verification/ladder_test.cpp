@@ -143,10 +143,8 @@ TEST_P(Ladder, SpinningCubeKeepsMomentumOverTenThousandSteps) {
     EXPECT_EQ(result.summary.steps, 10000) << name;
     EXPECT_LE(result.summary.linear_momentum_drift, 1e-13) << name;
     EXPECT_LE(result.summary.angular_momentum_drift, 1e-12) << name;
-    // L_z = rho omega/6 of the cube, exact where volumes are for quadratics; lumped to the nodes by
-    // vertices (SPH on lines of four nodes), (1 + 2/n^2) of it on n = 3 cells
-    const double lumped = GetParam() == std::string("sph") ? 1 + 2.0 / 9 : 1;
-    EXPECT_NEAR(result.history.front().angular_momentum[2], 1.925e4 * lumped, 1) << name;
+    // L_z = rho omega/6 of the cube, exact since volumes are for quadratics
+    EXPECT_NEAR(result.history.front().angular_momentum[2], 1.925e4, 1) << name;
   }
 }
 
