@@ -133,8 +133,7 @@ value = ["sin(1000*t)", 0]
       {"VolumesOfCellsLeapfrog", cube + held,
        "--set mesh.element=tetrahedron --set time.integrator=leapfrog --set scheme.volumes=cells" +
            pressed},
-      {"VolumesOfLines", cube + held,
-       "--set sph.gradient=sbp" + pressed},
+      {"VolumesOfLines", cube + held, "--set sph.gradient=sbp" + pressed},
       {"ExactImpedance", cube, "--set scheme.impedance=exact --set scheme.unknowns=F"},
       {"ObjectiveReconstruction", cube + branches, "--set scheme.reconstruction=objective"},
       {"ObjectiveReconstructionOnMovedNodes", cube + held,
