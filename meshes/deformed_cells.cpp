@@ -1,6 +1,8 @@
 #include "meshes/deformed_cells.hpp"
 
 #include "common/algebra/lanes.hpp"
+#include "common/parallel/for_chunks.hpp"
+#include "meshes/cell_topology.hpp"
 #include "meshes/shape_integrals.hpp"
 
 #include <cmath>
@@ -11,100 +13,135 @@ namespace diptych::meshes {
 using algebra::Lanes;
 using algebra::n_lanes;
 
-double signed_volume(const Mesh& mesh, std::int64_t cell, std::span<const Vec3> x) {
-  const ReferenceCell& reference = reference_cell(mesh.cell_types[cell]);
-  const auto nodes = mesh.cell(cell);
-  // from the first node: a body far from the origin loses no digits
-  std::array<Vec3, max_cell_nodes> edge;
-  for (int a = 1; a < reference.n_nodes; ++a)
-    edge[a] = x[nodes[a]] - x[nodes[0]];
-  double volume = 0;
-  for (const QuadraturePoint& point : reference.exact) {
-    Mat3 J = Mat3::Zero();
-    for (int a = 1; a < reference.n_nodes; ++a)
-      J += edge[a] * point.dN[a].transpose();
-    if (reference.dimension == 2) J(2, 2) = 1;
-    volume += point.weight * J.determinant();
+namespace {
+
+/// By its faces: with m the mean of the corners, the flux of x through the bilinear face of four is
+/// 1/2 m . ((x_3 - x_1) x (x_4 - x_2)); a triangle is a face whose fourth corner is its first. Of
+/// one cell, or of eight with the same bits: compiled without fused multiply-adds.
+/// @param x  corners, from the first one: a body far from the origin loses no digits
+template <class T>
+T volume_by_faces(CellType type, const T (&x)[max_cell_nodes][3]) {
+  T volume{};
+  for (const LocalFace& face : faces_of(type)) {
+    const auto& corner = face.nodes;
+    if (face.n_nodes == 2) {  // an edge in the plane
+      const auto &a = x[corner[0]], &b = x[corner[1]];
+      volume = volume + 0.5 * (a[0] * b[1] - a[1] * b[0]);
+      continue;
+    }
+    const auto &a = x[corner[0]], &b = x[corner[1]], &c = x[corner[2]],
+               &d = x[corner[face.n_nodes == 4 ? 3 : 0]];
+    T e[3], f[3], m[3];
+    for (int i = 0; i < 3; ++i) {
+      e[i] = c[i] - a[i];
+      f[i] = d[i] - b[i];
+      m[i] = (a[i] + b[i]) + (c[i] + d[i]);
+    }
+    volume = volume +
+             (1.0 / 24) * (m[0] * (e[1] * f[2] - e[2] * f[1]) + m[1] * (e[2] * f[0] - e[0] * f[2]) +
+                           m[2] * (e[0] * f[1] - e[1] * f[0]));
   }
   return volume;
 }
 
-namespace {
+/// @param place  place(node): where the node is, m
+template <class Place>
+double volume_of_one(const Mesh& mesh, std::int64_t cell, const Place& place) {
+  double x[max_cell_nodes][3] = {};
+  const auto nodes = mesh.cell(cell);
+  const Vec3 origin = place(nodes[0]);
+  for (size_t a = 1; a < nodes.size(); ++a) {
+    const Vec3 edge = place(nodes[a]) - origin;
+    for (int i = 0; i < 3; ++i)
+      x[a][i] = edge[i];
+  }
+  return volume_by_faces(mesh.cell_types[cell], x);
+}
 
-/// The same of eight cells of one type, with the same bits: compiled without fused multiply-adds.
+/// The same of eight cells of one type.
 /// @param cell  the first of them
-void signed_volumes(const Mesh& mesh, std::int64_t cell, std::span<const Vec3> x, double* volumes) {
-  const ReferenceCell& reference = reference_cell(mesh.cell_types[cell]);
-  Lanes edge[max_cell_nodes][3];
+template <class Place>
+void volumes_of_eight(const Mesh& mesh, std::int64_t cell, const Place& place, double* volumes) {
+  Lanes x[max_cell_nodes][3];
+  for (int i = 0; i < 3; ++i)
+    x[0][i] = Lanes{};
   for (int lane = 0; lane < n_lanes; ++lane) {
     const auto nodes = mesh.cell(cell + lane);
-    const Vec3& origin = x[nodes[0]];
-    for (int a = 1; a < reference.n_nodes; ++a) {
+    const Vec3 origin = place(nodes[0]);
+    for (size_t a = 1; a < nodes.size(); ++a) {
+      const Vec3 edge = place(nodes[a]) - origin;
       for (int i = 0; i < 3; ++i)
-        edge[a][i][lane] = x[nodes[a]][i] - origin[i];
+        x[a][i][lane] = edge[i];
     }
   }
-  Lanes volume = Lanes{};
-  for (const QuadraturePoint& point : reference.exact) {
-    Lanes J[3][3] = {};
-    for (int a = 1; a < reference.n_nodes; ++a) {
-      for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j)
-          J[i][j] = J[i][j] + edge[a][i] * point.dN[a][j];
-      }
-    }
-    if (reference.dimension == 2) J[2][2] = Lanes{} + 1.0;
-    const auto minor = [&](int a, int b, int c) {
-      return J[0][a] * (J[1][b] * J[2][c] - J[1][c] * J[2][b]);
-    };
-    volume = volume + point.weight * (minor(0, 1, 2) - minor(1, 0, 2) + minor(2, 0, 1));
-  }
+  const Lanes volume = volume_by_faces(mesh.cell_types[cell], x);
   for (int lane = 0; lane < n_lanes; ++lane)
     volumes[lane] = volume[lane];
 }
 
-/// Of all cells.
-std::vector<double> all_volumes(const Mesh& mesh, std::span<const Vec3> x) {
-  const std::int64_t n = mesh.n_cells();
-  std::vector<double> volumes(static_cast<size_t>(n));
+/// Of cells [begin, end).
+template <class Place>
+void put_volumes(
+    const Mesh& mesh, std::int64_t begin, std::int64_t end, const Place& place, double* volumes) {
   const auto are_alike = [&](std::int64_t first) {
     for (std::int64_t c = first + 1; c < first + n_lanes; ++c) {
       if (mesh.cell_types[c] != mesh.cell_types[first]) return false;
     }
     return true;
   };
-  for (std::int64_t c = 0; c < n;) {
-    if (c + n_lanes <= n && are_alike(c)) {
-      signed_volumes(mesh, c, x, &volumes[static_cast<size_t>(c)]);
+  for (std::int64_t c = begin; c < end;) {
+    if (c + n_lanes <= end && are_alike(c)) {
+      volumes_of_eight(mesh, c, place, volumes + (c - begin));
       c += n_lanes;
     } else {
-      volumes[static_cast<size_t>(c)] = signed_volume(mesh, c, x);
+      volumes[c - begin] = volume_of_one(mesh, c, place);
       ++c;
     }
   }
-  return volumes;
 }
+
+/// The least of all and of `next`, whose cells come after.
+void add(const DeformedCells::Least& next, DeformedCells::Least& all) {
+  all.n_inverted += next.n_inverted;
+  // what is not finite is the worst of all
+  const bool is_worse = std::isnan(next.J) ? !std::isnan(all.J) : next.J < all.J;
+  if (!is_worse) return;
+  all.J = next.J;
+  all.cell = next.cell;
+}
+
+constexpr DeformedCells::Least none{std::numeric_limits<double>::infinity(), 0, 0};
 
 }  // namespace
 
+double signed_volume(const Mesh& mesh, std::int64_t cell, std::span<const Vec3> x) {
+  return volume_of_one(mesh, cell, [&](std::int32_t a) -> const Vec3& { return x[a]; });
+}
+
 DeformedCells::DeformedCells(const Mesh& mesh)
-    : mesh_(mesh), volume_(all_volumes(mesh, mesh.nodes)) {}
+    : mesh_(mesh), volume_(static_cast<size_t>(mesh.n_cells())) {
+  parallel::for_chunks(mesh.n_cells(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+    put_volumes(
+        mesh, begin, end, [&](std::int32_t a) -> const Vec3& { return mesh.nodes[a]; },
+        volume_.data() + begin);
+  });
+}
 
 DeformedCells::Least DeformedCells::least(std::span<const Vec3> u) const {
-  std::vector<Vec3> x(mesh_.nodes);
-  for (size_t a = 0; a < x.size(); ++a)
-    x[a] += u[a];
-  const std::vector<double> volumes = all_volumes(mesh_, x);
-  Least least{std::numeric_limits<double>::infinity(), 0, 0};
-  for (std::int64_t c = 0; c < mesh_.n_cells(); ++c) {
-    const double J = volumes[static_cast<size_t>(c)] / volume_[c];
-    if (!(J > 0)) ++least.n_inverted;
-    // what is not finite is the worst of all
-    const bool is_worst = std::isnan(J) ? !std::isnan(least.J) : J < least.J;
-    if (!is_worst) continue;
-    least.J = J;
-    least.cell = c;
-  }
+  std::vector<Least> parts(static_cast<size_t>(parallel::n_chunks_of(mesh_.n_cells())), none);
+  parallel::for_chunks(mesh_.n_cells(), [&](std::int64_t begin, std::int64_t end,
+                                            std::int64_t chunk) {
+    double volumes[parallel::chunk_size];
+    put_volumes(
+        mesh_, begin, end, [&](std::int32_t a) -> Vec3 { return mesh_.nodes[a] + u[a]; }, volumes);
+    for (std::int64_t c = begin; c < end; ++c) {
+      const double J = volumes[c - begin] / volume_[c];
+      add({J, J > 0 ? 0 : 1, c}, parts[chunk]);
+    }
+  });
+  Least least = none;
+  for (const Least& part : parts)
+    add(part, least);
   return least;
 }
 

@@ -1,8 +1,27 @@
 #include "benchmarks/run/scene.hpp"
 
 #include "benchmarks/run/memory_estimate.hpp"
+#include "meshes/cavities.hpp"
+
+#include <fmt/format.h>
 
 namespace diptych::harness {
+
+namespace {
+
+/// Of a file: where a cell is missing the mesh is that of a hollow body.
+void note_cavities(const meshes::Mesh& mesh, std::vector<std::string>& notices) {
+  for (const meshes::Cavity& cavity : meshes::cavities_of(mesh)) {
+    if (cavity.is_grouped) continue;
+    notices.push_back(fmt::format(
+        "mesh: a cavity of {:.3g} {} inside the body, {} faces around ({:.6g}, {:.6g}, {:.6g}) m: "
+        "cells are missing there, unless it is meant (a boundary group on it says so)",
+        cavity.volume, mesh.dimension == 2 ? "m^2" : "m^3", cavity.n_faces, cavity.centre[0],
+        cavity.centre[1], cavity.centre[2]));
+  }
+}
+
+}  // namespace
 
 CaseGraph graph_of(const cases::Case& setup,
                    const std::string& method,
@@ -15,6 +34,7 @@ CaseGraph graph_of(const cases::Case& setup,
   if (made) made(ScenePart::mesh);
   scene.graph = method_menu().at(method)(scene.mesh.mesh, setup);
   scene.description = graph_description(method, scene.mesh.mesh, setup);
+  if (!setup.mesh.file.empty()) note_cavities(scene.mesh.mesh, scene.description.notices);
   if (made) made(ScenePart::graph);
   return scene;
 }

@@ -56,16 +56,24 @@ class Part {
   std::vector<std::int32_t> all_;  // 0, 1, .. n_chunks - 1
 };
 
+/// Calls work(begin, end, chunk) for these chunks of [0, n).
+template <class Work>
+void for_chunks(std::span<const std::int64_t> chunks, std::int64_t n, const Work& work) {
+  const std::int64_t n_chunks = std::ssize(chunks);
+#pragma omp parallel for schedule(static) if (n_chunks > 1)
+  for (std::int64_t i = 0; i < n_chunks; ++i) {
+    const std::int64_t chunk = chunks[i], begin = chunk * chunk_size;
+    work(begin, std::min(n, begin + chunk_size), chunk);
+  }
+}
+
 /// Calls work(begin, end, chunk) for the chunks of [0, n) that are of this part.
 template <class Work>
 void for_chunks(const Part& part, std::int64_t n, const Work& work) {
-  const bool whole = part.is_whole();
-  const std::int64_t* own = part.own_chunks().data();
-  const std::int64_t n_chunks = whole ? n_chunks_of(n) : std::ssize(part.own_chunks());
-#pragma omp parallel for schedule(static) if (n_chunks > 1)
-  for (std::int64_t i = 0; i < n_chunks; ++i) {
-    const std::int64_t chunk = whole ? i : own[i], begin = chunk * chunk_size;
-    work(begin, std::min(n, begin + chunk_size), chunk);
+  if (part.is_whole()) {
+    for_chunks(n, work);
+  } else {
+    for_chunks(part.own_chunks(), n, work);
   }
 }
 

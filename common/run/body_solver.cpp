@@ -115,12 +115,12 @@ scheme::Balance BodySolver<Dim>::balance() const {
 }
 
 template <int Dim>
-Snapshot BodySolver<Dim>::snapshot() const {
+void BodySolver<Dim>::take_snapshot(Snapshot& snapshot) const {
   has_fields_of_others_ = true;
   scheme::gather(moving_.body, scheme::Role::unknown);
-  if (moving_.body.part().rank() != 0) return {};
+  if (moving_.body.part().rank() != 0) return;
   const scheme::Undivided<Dim> gathered(moving_.body);
-  return scheme::snapshot_of(material(), moving_.body, time());
+  scheme::take_snapshot(material(), moving_.body, time(), snapshot);
 }
 
 template <int Dim>

@@ -31,7 +31,7 @@ class BodySolver : public Solver {
   scheme::Balance balance() const override;
   const scheme::Audit& audit() const override { return moving_.audit; }
   const scheme::Interventions& interventions() const override { return moving_.interventions; }
-  Snapshot snapshot() const override;
+  void take_snapshot(Snapshot& snapshot) const override;
   Snapshot snapshot(std::span<const std::int32_t> nodes) const override;
   algebra::Vec3 reaction(const std::vector<std::int32_t>& nodes) override;
   std::string state_hash(const std::vector<std::int32_t>& order) const override;

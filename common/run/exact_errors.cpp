@@ -73,19 +73,23 @@ double size_of(const Field& value) {
 /// @param rest           value of the undeformed body
 template <class Field>
 void ExactErrors::measure_field(const std::string& name,
-                                const std::vector<std::vector<Field>>& fields,
-                                const std::vector<std::vector<Field>>& exact,
+                                const std::vector<const std::vector<Field>*>& fields,
+                                const std::vector<const std::vector<Field>*>& exact,
                                 const Field& rest) {
-  if (exact.empty() || exact[0].empty() || fields.empty()) return;
+  if (exact.empty() || exact[0]->empty() || fields.empty()) return;
   Norms& norms = norms_[name];
   std::vector<double>& nodal = nodal_[name];
   nodal.assign(graph_.X.size(), 0.0);
   io::ErrorNorms e, f;
   for (std::int64_t a = 0; a < graph_.n_nodes(); ++a) {
-    double d = 0, v = 0;
-    for (size_t part = 0; part < exact.size(); ++part) {
-      d = std::hypot(d, size_of(Field(fields[part][a] - exact[part][a])));
-      v = std::hypot(v, size_of(Field(exact[part][a] - rest)));
+    const auto error_of = [&](size_t part) {
+      return size_of(Field((*fields[part])[a] - (*exact[part])[a]));
+    };
+    const auto size_of_part = [&](size_t part) { return size_of(Field((*exact[part])[a] - rest)); };
+    double d = error_of(0), v = size_of_part(0);
+    for (size_t part = 1; part < exact.size(); ++part) {
+      d = std::hypot(d, error_of(part));
+      v = std::hypot(v, size_of_part(part));
     }
     nodal[a] = d;
     const double Omega = graph_.Omega[a];
@@ -157,30 +161,28 @@ void ExactErrors::measure(const Snapshot& s) {
   exact_ = known ? std::move(*known) : exact_snapshot(s.time);
   exact_.time = s.time;
   const Snapshot& exact = exact_;
-  using Vectors = std::vector<std::vector<Vec3>>;
-  using Tensors = std::vector<std::vector<Mat3>>;
   const Vec3 zero = Vec3::Zero();
   const Mat3 I = Mat3::Identity();
-  measure_field("velocity", Vectors{s.v}, Vectors{exact.v}, zero);
-  measure_field("displacement", Vectors{s.u}, Vectors{exact.u}, zero);
-  measure_field("deformation_gradient", Tensors{s.F}, Tensors{exact.F}, I);
-  measure_field("cofactor", Tensors{s.H}, Tensors{exact.H}, I);
-  measure_field<double>("jacobian", {s.J}, {exact.J}, 1.0);
-  measure_field("stress", Tensors{s.P}, Tensors{exact.P}, Mat3(Mat3::Zero()));
+  measure_field<Vec3>("velocity", {&s.v}, {&exact.v}, zero);
+  measure_field<Vec3>("displacement", {&s.u}, {&exact.u}, zero);
+  measure_field<Mat3>("deformation_gradient", {&s.F}, {&exact.F}, I);
+  measure_field<Mat3>("cofactor", {&s.H}, {&exact.H}, I);
+  measure_field<double>("jacobian", {&s.J}, {&exact.J}, 1.0);
+  measure_field<Mat3>("stress", {&s.P}, {&exact.P}, Mat3::Zero());
   // only what branches relax: a C branch has no S, a G branch no A
-  Tensors A, A_exact, S, S_exact;
+  std::vector<const std::vector<Mat3>*> A, A_exact, S, S_exact;
   for (size_t k = 0; k < exact.A.size(); ++k) {
     if (setup_.material.branches[k].beta_C > 0) {
-      A.push_back(s.A[k]);
-      A_exact.push_back(exact.A[k]);
+      A.push_back(&s.A[k]);
+      A_exact.push_back(&exact.A[k]);
     }
     if (setup_.material.branches[k].beta_G > 0 && !s.S.empty()) {
-      S.push_back(s.S[k]);
-      S_exact.push_back(exact.S[k]);
+      S.push_back(&s.S[k]);
+      S_exact.push_back(&exact.S[k]);
     }
   }
-  measure_field("viscous_C", A, A_exact, I);
-  measure_field("viscous_G", S, S_exact, I);
+  measure_field<Mat3>("viscous_C", A, A_exact, I);
+  measure_field<Mat3>("viscous_G", S, S_exact, I);
 }
 
 void ExactErrors::archive(algebra::Archive& archive) {

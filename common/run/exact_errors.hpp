@@ -46,8 +46,8 @@ class ExactErrors {
   };
   template <class Field>
   void measure_field(const std::string& name,
-                     const std::vector<std::vector<Field>>& fields,
-                     const std::vector<std::vector<Field>>& exact,
+                     const std::vector<const std::vector<Field>*>& fields,
+                     const std::vector<const std::vector<Field>*>& exact,
                      const Field& rest);
   Snapshot exact_snapshot(double t);
   std::vector<Mat3> exact_deformation_gradients(double t);

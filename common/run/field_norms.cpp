@@ -1,5 +1,7 @@
 #include "common/run/field_norms.hpp"
 
+#include "common/parallel/for_chunks.hpp"
+
 #include <cmath>
 
 namespace diptych::run {
@@ -9,10 +11,15 @@ namespace {
 /// @param value  value(a): a vector or a tensor at node a
 template <class Value>
 double norm_of(const scheme::PairGraph& graph, const Value& value) {
-  double sum = 0;
-  for (size_t a = 0; a < graph.X.size(); ++a)
-    sum += graph.Omega[a] * value(a).squaredNorm();
-  return std::sqrt(sum);
+  const auto n = static_cast<std::int64_t>(graph.X.size());
+  std::vector<double> parts(static_cast<size_t>(parallel::n_chunks_of(n)));
+  parallel::for_chunks(n, [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
+    double sum = 0;
+    for (auto a = static_cast<size_t>(begin); a < static_cast<size_t>(end); ++a)
+      sum += graph.Omega[a] * value(a).squaredNorm();
+    parts[chunk] = sum;
+  });
+  return std::sqrt(parallel::sum_in_order(parts));
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ Ending Simulation::advance() {
     checkpoint_where_due();
   }
   checkpoint_at_the_end();
-  if (state_.u.empty()) state_ = solver_.snapshot();  // there was nothing left to do
+  if (state_.u.empty()) solver_.take_snapshot(state_);  // there was nothing left to do
   return Ending::done;
 }
 
@@ -168,7 +168,7 @@ void Simulation::check() {
 void Simulation::output() {
   judged_ = last_.step;
   const scheme::Balance balance = solver_.balance();
-  state_ = solver_.snapshot();  // also where an observer ends the run with this output
+  solver_.take_snapshot(state_);  // also where an observer ends the run with this output
   const Output output{n_outputs_++, last_, balance, solver_.audit(), state_};
   for (Observer* observer : observers_)
     observer->at_output(output);
@@ -177,7 +177,7 @@ void Simulation::output() {
 void Simulation::keep_last_state() {
   if (!solver_.is_sound() || solver_.time() == state_.time) return;  // the last output has it
   const scheme::Balance balance = solver_.balance();
-  state_ = solver_.snapshot();
+  solver_.take_snapshot(state_);
   const Output output{n_outputs_++, last_, balance, solver_.audit(), state_};
   try {
     for (Observer* observer : observers_)

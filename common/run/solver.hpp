@@ -43,7 +43,7 @@ class Solver {
   virtual double time() const = 0;
   /// Shares the body with other ranks, which have the same solver, at the same state: each works
   /// its part from now on. All ranks then make the same calls of what is not const, of balance(),
-  /// snapshot() and exact_state(); rank 0 alone has their whole results.
+  /// take_snapshot() and exact_state(); rank 0 alone has their whole results.
   /// @param partition  of parallel::partitioners()
   /// @throws base::InputError where there are too many ranks, on all of them
   virtual void divide(parallel::Communicator& ranks, const std::string& partition) = 0;
@@ -56,7 +56,13 @@ class Solver {
   virtual scheme::Balance balance() const = 0;
   virtual const scheme::Audit& audit() const = 0;
   virtual const scheme::Interventions& interventions() const = 0;
-  virtual Snapshot snapshot() const = 0;
+  /// All fields, in the memory of an earlier snapshot.
+  virtual void take_snapshot(Snapshot& snapshot) const = 0;
+  Snapshot snapshot() const {
+    Snapshot fields;
+    take_snapshot(fields);
+    return fields;
+  }
   /// Fields of these nodes only, in this order.
   virtual Snapshot snapshot(std::span<const std::int32_t> nodes) const = 0;
   /// Force of supports and walls on these nodes (ascending) at the time of the state  [N]

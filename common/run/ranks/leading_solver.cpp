@@ -227,9 +227,9 @@ scheme::Balance LeadingSolver::balance() const {
   return work_together(ranks_, Task::balance, [&] { return solver_->balance(); });
 }
 
-Snapshot LeadingSolver::snapshot() const {
+void LeadingSolver::take_snapshot(Snapshot& snapshot) const {
   give(ranks_, Task::snapshot);
-  return work_together(ranks_, Task::snapshot, [&] { return solver_->snapshot(); });
+  work_together(ranks_, Task::snapshot, [&] { solver_->take_snapshot(snapshot); });
 }
 
 Snapshot LeadingSolver::snapshot(std::span<const std::int32_t> nodes) const {

@@ -45,7 +45,7 @@ class LeadingSolver : public Solver {
   scheme::Balance balance() const override;
   const scheme::Audit& audit() const override { return solver_->audit(); }
   const scheme::Interventions& interventions() const override { return solver_->interventions(); }
-  Snapshot snapshot() const override;
+  void take_snapshot(Snapshot& snapshot) const override;
   Snapshot snapshot(std::span<const std::int32_t> nodes) const override;
   algebra::Vec3 reaction(const std::vector<std::int32_t>& nodes) override;
   std::string state_hash(const std::vector<std::int32_t>& order) const override;

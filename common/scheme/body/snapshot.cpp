@@ -5,7 +5,6 @@
 #include "common/scheme/body/point_access.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace diptych::scheme {
 
@@ -26,26 +25,29 @@ std::vector<double> cell_ratios(const Body<Dim>& body, std::span<const std::int3
   return J;
 }
 
-}  // namespace
-
-template <int Dim>
-Snapshot snapshot_of(const MaterialModel& material,
-                     const Body<Dim>& body,
-                     double time,
-                     std::span<const std::int32_t> nodes) {
-  const size_t n = nodes.size(), n_branches = material.branches().size();
-  Snapshot s;
-  s.time = time;
-  s.u.assign(n, Vec3::Zero());
-  s.v.assign(n, Vec3::Zero());
+/// @param node_of  node_of(k): the node of entry k
+template <int Dim, class NodeOf>
+void put_fields(const MaterialModel& material,
+                const Body<Dim>& body,
+                size_t n,
+                const NodeOf& node_of,
+                const std::vector<double>& cell_J,
+                Snapshot& s) {
+  const size_t n_branches = material.branches().size();
+  for (auto* field : {&s.u, &s.v})
+    field->resize(n);
   for (auto* field : {&s.F, &s.H, &s.P})
     field->resize(n);
   s.J.resize(n);
-  s.A.assign(n_branches, std::vector<Mat3>(n));
-  s.S.assign(body.S.empty() ? 0 : n_branches, std::vector<Mat3>(n));
-  const std::vector<double> cell_J = cell_ratios(body, nodes);
+  s.A.resize(n_branches);
+  s.S.resize(body.S.empty() ? 0 : n_branches);
+  for (auto* branches : {&s.A, &s.S}) {
+    for (std::vector<Mat3>& field : *branches)
+      field.resize(n);
+  }
   const auto take = [&](size_t k) {
-    const std::int32_t a = nodes[k];
+    const std::int32_t a = node_of(k);
+    s.u[k] = s.v[k] = Vec3::Zero();
     for (int i = 0; i < Dim; ++i) {
       s.u[k][i] = body.u.at(a, i);
       s.v[k][i] = body.v.at(a, i);
@@ -72,20 +74,39 @@ Snapshot snapshot_of(const MaterialModel& material,
                          for (size_t k = begin; k < std::min(n, begin + together); ++k)
                            take(k);
                        });
+}
+
+}  // namespace
+
+template <int Dim>
+Snapshot snapshot_of(const MaterialModel& material,
+                     const Body<Dim>& body,
+                     double time,
+                     std::span<const std::int32_t> nodes) {
+  Snapshot s;
+  s.time = time;
+  put_fields(
+      material, body, nodes.size(), [&](size_t k) { return nodes[k]; }, cell_ratios(body, nodes),
+      s);
   return s;
 }
 
 template <int Dim>
-Snapshot snapshot_of(const MaterialModel& material, const Body<Dim>& body, double time) {
-  std::vector<std::int32_t> nodes(body.n_owned);
-  std::iota(nodes.begin(), nodes.end(), 0);
-  return snapshot_of(material, body, time, std::span<const std::int32_t>(nodes));
+void take_snapshot(const MaterialModel& material,
+                   const Body<Dim>& body,
+                   double time,
+                   Snapshot& snapshot) {
+  snapshot.time = time;
+  const std::vector<double> cell_J = body.bulk ? body.bulk->ratios(body) : std::vector<double>();
+  put_fields(
+      material, body, static_cast<size_t>(body.n_owned),
+      [](size_t k) { return static_cast<std::int32_t>(k); }, cell_J, snapshot);
 }
 
 #define DIPTYCH_INSTANTIATE(Dim)                                                \
   template Snapshot snapshot_of(const MaterialModel&, const Body<Dim>&, double, \
                                 std::span<const std::int32_t>);                 \
-  template Snapshot snapshot_of(const MaterialModel&, const Body<Dim>&, double);
+  template void take_snapshot(const MaterialModel&, const Body<Dim>&, double, Snapshot&);
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)
 #undef DIPTYCH_INSTANTIATE

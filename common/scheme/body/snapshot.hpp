@@ -32,8 +32,11 @@ Snapshot snapshot_of(const MaterialModel& material,
                      double time,
                      std::span<const std::int32_t> nodes);
 
-/// Of all nodes.
+/// Of all nodes, in the memory of an earlier one.
 template <int Dim>
-Snapshot snapshot_of(const MaterialModel& material, const Body<Dim>& body, double time);
+void take_snapshot(const MaterialModel& material,
+                   const Body<Dim>& body,
+                   double time,
+                   Snapshot& snapshot);
 
 }  // namespace diptych::scheme

@@ -104,18 +104,27 @@ std::vector<int> owners_of(const parallel::ChunkGraph& graph,
   return owner;
 }
 
-/// Nodes that the sweeps of this rank read.
+/// Fills inner and outer.
+/// @return [n_nodes] 1 where a sweep of this rank reads a node
 template <int Dim>
-std::vector<char> read_nodes(const Body<Dim>& body, const parallel::Part& part) {
-  std::vector<char> needed(static_cast<size_t>(body.n_owned));
+std::vector<char> share_chunks(const Body<Dim>& body, Division& division) {
+  const parallel::Part& part = division.part;
+  std::vector<char> needed(static_cast<size_t>(body.n_owned)),
+      reads_others(static_cast<size_t>(parallel::n_chunks_of(body.n_blocks)));
   for_reads(body.graph, [&](std::int64_t a, std::int64_t b) {
-    if (part.owns(chunk_of_node(a))) needed[b] = 1;
+    const std::int64_t chunk = chunk_of_node(a);
+    if (!part.owns(chunk)) return;
+    needed[b] = 1;
+    if (!part.owns(chunk_of_node(b))) reads_others[chunk] = 1;
   });
+  for (const std::int64_t chunk : part.own_chunks())
+    (reads_others[chunk] != 0 ? division.outer : division.inner).push_back(chunk);
   return needed;
 }
 
 template <int Dim>
-RunWork run_work(const Body<Dim>& body, const parallel::Part& part) {
+RunWork run_work(const Body<Dim>& body, const Division& division) {
+  const parallel::Part& part = division.part;
   const SweepGraph<Dim>& graph = body.graph;
   const std::int64_t n_chunks = parallel::n_chunks_of(body.n_blocks);
   // chunks that each writes to, from its pairs with nodes above
@@ -148,6 +157,12 @@ RunWork run_work(const Body<Dim>& body, const parallel::Part& part) {
     }
     if (!chunks.empty()) work.segments[begin / length % 2].push_back(std::move(chunks));
   }
+  const auto is_inner = [&](const std::vector<std::int64_t>& segment) {
+    return std::includes(division.inner.begin(), division.inner.end(), segment.begin(),
+                         segment.end());
+  };
+  std::vector<std::vector<std::int64_t>>& even = work.segments[0];
+  work.n_inner = std::stable_partition(even.begin(), even.end(), is_inner) - even.begin();
   return work;
 }
 
@@ -183,8 +198,8 @@ void divide(Body<Dim>& body, parallel::Communicator& ranks, const std::string& p
   division->part = parallel::Part(ranks, owner);
   const parallel::Part& part = division->part;
   const auto owner_of_node = [&](std::int64_t a) { return owner[chunk_of_node(a)]; };
-  division->pairs = parallel::Halo(ranks, read_nodes(body, part), owner_of_node);
-  if (body.in_runs()) division->runs = run_work(body, part);
+  division->pairs = parallel::Halo(ranks, share_chunks(body, *division), owner_of_node);
+  if (body.in_runs()) division->runs = run_work(body, *division);
   if (body.bulk) {
     std::vector<char> corners(static_cast<size_t>(body.n_owned));
     division->cells = body.bulk->work_of(part, corners);

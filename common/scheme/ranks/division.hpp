@@ -7,10 +7,14 @@
 ///     read. So nothing is sent back, and the sums have their order.
 ///   - forces of cells: the same, with blocks of cells.
 /// What sweeps read of other ranks' nodes comes by halos, whole, also where a lane multiplies it by
-/// zero. The state so has the same bits for every number of ranks. Test: tests/ranks
+/// zero. The state so has the same bits for every number of ranks.
+///
+/// While a halo is on its way the rank works the chunks that read none of it (Share::inner), the
+/// others once it is there. Test: tests/ranks
 
 #include "common/parallel/halo.hpp"
 #include "common/scheme/body/body.hpp"
+#include "common/scheme/ranks/share.hpp"
 #include "common/scheme/ranks/untouched.hpp"
 
 #include <string>
@@ -21,13 +25,15 @@ namespace diptych::scheme {
 struct RunWork {
   /// Of even and of odd segments: the chunks of each that this rank works, ascending.
   std::vector<std::vector<std::int64_t>> segments[2];
+  std::int64_t n_inner = 0;           ///< of the even ones, the first, read no node of another rank
   std::vector<std::int64_t> written;  ///< chunks that they write to, and the own ones
 };
 
 struct Division {
   parallel::Part part;
-  parallel::Halo pairs;    ///< nodes that sweeps over pairs read
-  parallel::Halo corners;  ///< nodes that sweeps over cells read
+  std::vector<std::int64_t> inner, outer;  ///< own chunks that sweeps over pairs work, by Share
+  parallel::Halo pairs;                    ///< nodes that sweeps over pairs read
+  parallel::Halo corners;                  ///< nodes that sweeps over cells read
   RunWork runs;
   std::vector<CellWork> cells;  ///< by group
   Untouched untouched;
@@ -39,6 +45,18 @@ struct Division {
 /// @throws base::InputError where there are more ranks than chunks, on all ranks
 template <int Dim>
 void divide(Body<Dim>& body, parallel::Communicator& ranks, const std::string& partition);
+
+/// Calls work(begin, end, chunk) for the chunks of blocks of a share of what the rank owns.
+template <int Dim, class Work>
+void for_chunks_of(const Body<Dim>& body, Share share, const Work& work) {
+  if (share == Share::whole) {
+    parallel::for_chunks(body.part(), body.n_blocks, work);
+  } else {
+    const Division& division = *body.division;
+    parallel::for_chunks(share == Share::inner ? division.inner : division.outer, body.n_blocks,
+                         work);
+  }
+}
 
 /// For its lifetime a body is worked as if this rank were the only one: what is the same on all
 /// ranks, or of rank 0 once all is gathered.

@@ -1,7 +1,5 @@
 #include "common/scheme/ranks/exchange.hpp"
 
-#include "common/scheme/ranks/division.hpp"
-
 #include <algorithm>
 
 namespace diptych::scheme {
@@ -24,6 +22,19 @@ std::vector<const Field<Dim>*> places_of(const Body<Dim>& body, const Wanted& wa
     if (!is_there) places.push_back(&field);
   }
   return places;
+}
+
+/// For parallel::Halo: memory of nodes that neighbours read in these tables.
+template <int Dim>
+auto pieces_of(Body<Dim>& body, Tables<Dim> tables) {
+  const auto places = places_of(body, [&](const Field<Dim>& field) {
+    return field.read_by_neighbours &&
+           std::find(tables.begin(), tables.end(), field.table) != tables.end();
+  });
+  return [&body, places](std::int64_t begin, std::int64_t end, const auto& use) {
+    for (const Field<Dim>* place : places)
+      (body.*place->table).for_pieces(begin, end, place->first, place->n_components, use);
+  };
 }
 
 /// Memory of whole chunks.
@@ -94,16 +105,13 @@ void gather_field(Body<Dim>& body, const Field<Dim>& field) {
 }  // namespace
 
 template <int Dim>
-void exchange(Body<Dim>& body, std::initializer_list<NodeTable Body<Dim>::*> tables) {
-  if (!body.division) return;
-  const auto places = places_of(body, [&](const Field<Dim>& field) {
-    return field.read_by_neighbours &&
-           std::find(tables.begin(), tables.end(), field.table) != tables.end();
-  });
-  body.division->pairs.exchange([&](std::int64_t begin, std::int64_t end, const auto& use) {
-    for (const Field<Dim>* place : places)
-      (body.*place->table).for_pieces(begin, end, place->first, place->n_components, use);
-  });
+void begin_exchange(Body<Dim>& body, Tables<Dim> tables) {
+  body.division->pairs.begin(pieces_of(body, tables));
+}
+
+template <int Dim>
+void finish_exchange(Body<Dim>& body, Tables<Dim> tables) {
+  body.division->pairs.finish(pieces_of(body, tables));
 }
 
 template <int Dim>
@@ -138,10 +146,11 @@ void gather_unknowns(Body<Dim>& body, std::span<const std::int32_t> nodes) {
   }
 }
 
-#define DIPTYCH_INSTANTIATE(Dim)                                                     \
-  template void exchange(Body<Dim>&, std::initializer_list<NodeTable Body<Dim>::*>); \
-  template void gather(Body<Dim>&, Role);                                            \
-  template void gather_state(Body<Dim>&);                                            \
+#define DIPTYCH_INSTANTIATE(Dim)                          \
+  template void begin_exchange(Body<Dim>&, Tables<Dim>);  \
+  template void finish_exchange(Body<Dim>&, Tables<Dim>); \
+  template void gather(Body<Dim>&, Role);                 \
+  template void gather_state(Body<Dim>&);                 \
   template void gather_unknowns(Body<Dim>&, std::span<const std::int32_t>);
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)

@@ -89,47 +89,56 @@ void sum_forces_of_runs(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> m
   });
 }
 
-/// The same of the chunks that write to nodes of this rank.
+/// The same of the chunks that write to nodes of this rank. An even segment is of one share, and
+/// whichever is worked first, its sums have the same order.
 template <int Dim>
-void sum_forces_of_part(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> momentum) {
+void sum_forces_of_part(const MomentumSweep<Dim>& sweep,
+                        MomentumFunction<Dim> momentum,
+                        Share share) {
   const RunWork& work = sweep.body.division->runs;
   const auto end_of = [&](std::int64_t chunk) {
     return std::min(sweep.body.n_blocks, (chunk + 1) * parallel::chunk_size);
   };
-  parallel::for_shares(std::ssize(work.written), [&](std::int64_t i) {
-    const std::int64_t chunk = work.written[i];
-    clear_sums(sweep.body, chunk * parallel::chunk_size, end_of(chunk));
-  });
-  for (const auto& segments : work.segments) {
+  const auto work_segments = [&](std::span<const std::vector<std::int64_t>> segments) {
     parallel::for_shares(std::ssize(segments), [&](std::int64_t s) {
       for (const std::int64_t chunk : segments[s])
         momentum(sweep, chunk * parallel::chunk_size, end_of(chunk), chunk);
     });
+  };
+  const std::span even(work.segments[0]);
+  if (share != Share::outer) {
+    parallel::for_shares(std::ssize(work.written), [&](std::int64_t i) {
+      const std::int64_t chunk = work.written[i];
+      clear_sums(sweep.body, chunk * parallel::chunk_size, end_of(chunk));
+    });
+    work_segments(even.first(work.n_inner));
   }
-  parallel::for_chunks(sweep.body.part(), sweep.body.n_blocks,
-                       [&](auto begin, auto end, auto) { use_sums(sweep, begin, end); });
+  if (share == Share::inner) return;
+  work_segments(even.subspan(work.n_inner));
+  work_segments(work.segments[1]);
+  for_chunks_of(sweep.body, Share::whole,
+                [&](auto begin, auto end, auto) { use_sums(sweep, begin, end); });
 }
 
 }  // namespace
 
 template <int Dim>
-void sum_forces(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> momentum) {
+void sum_forces(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> momentum, Share share) {
   const bool runs = sweep.body.graph.shape.arrangement == Arrangement::runs;
   if (runs && sweep.body.division) {
-    sum_forces_of_part(sweep, momentum);
+    sum_forces_of_part(sweep, momentum, share);
     return;
   }
   if (runs) {
     sum_forces_of_runs(sweep, momentum);
     return;
   }
-  parallel::for_chunks(
-      sweep.body.part(), sweep.body.n_blocks,
-      [&](auto begin, auto end, auto chunk) { momentum(sweep, begin, end, chunk); });
+  for_chunks_of(sweep.body, share,
+                [&](auto begin, auto end, auto chunk) { momentum(sweep, begin, end, chunk); });
 }
 
-template void sum_forces(const MomentumSweep<2>&, MomentumFunction<2>);
-template void sum_forces(const MomentumSweep<3>&, MomentumFunction<3>);
+template void sum_forces(const MomentumSweep<2>&, MomentumFunction<2>, Share);
+template void sum_forces(const MomentumSweep<3>&, MomentumFunction<3>, Share);
 template MomentumFunction<2> momentum_function<2>(const DissipationKind& kind, bool has_H);
 template MomentumFunction<3> momentum_function<3>(const DissipationKind& kind, bool has_H);
 

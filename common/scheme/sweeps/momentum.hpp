@@ -19,6 +19,7 @@
 
 #include "common/scheme/body/body.hpp"
 #include "common/scheme/dissipation/dissipation.hpp"
+#include "common/scheme/ranks/share.hpp"
 
 namespace diptych::scheme {
 
@@ -51,8 +52,10 @@ MomentumFunction<Dim> momentum_sweep_of(const DissipationKind& kind);
 template <int Dim>
 MomentumFunction<Dim> momentum_function(const DissipationKind& kind, bool has_H);
 
-/// The sweep over all blocks: internal forces into state.T.
+/// The sweep over the blocks of a share: internal forces into state.T.
 template <int Dim>
-void sum_forces(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> momentum);
+void sum_forces(const MomentumSweep<Dim>& sweep,
+                MomentumFunction<Dim> momentum,
+                Share share = Share::whole);
 
 }  // namespace diptych::scheme

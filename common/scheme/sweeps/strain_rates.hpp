@@ -8,6 +8,7 @@
 #include "common/scheme/body/material_model.hpp"
 #include "common/scheme/body/relaxation.hpp"
 #include "common/scheme/body/stage_combination.hpp"
+#include "common/scheme/ranks/share.hpp"
 
 namespace diptych::scheme {
 
@@ -36,9 +37,9 @@ struct StrainRateSweep {
   double* old_power = nullptr;
 };
 
-/// The sweep over all blocks.
+/// The sweep over the blocks of a share.
 template <int Dim>
-void evaluate_strain_rates(const StrainRateSweep<Dim>& sweep);
+void evaluate_strain_rates(const StrainRateSweep<Dim>& sweep, Share share = Share::whole);
 
 /// dF/dt (18b) of the velocities as they stand into the records, and nothing else: for set-up,
 /// where v stands for another field. With the face correction where kappa_f is not zero.

@@ -11,10 +11,9 @@ namespace diptych::scheme {
 namespace {
 
 template <int Dim, class Work>
-void for_blocks(const Body<Dim>& body, const Work& work) {
-  parallel::for_chunks(
-      body.part(), body.n_blocks,
-      [&](std::int64_t begin, std::int64_t end, std::int64_t) { work(begin, end); });
+void for_blocks(const Body<Dim>& body, Share share, const Work& work) {
+  for_chunks_of(body, share,
+                [&](std::int64_t begin, std::int64_t end, std::int64_t) { work(begin, end); });
 }
 
 /// The first n of these, which have an entry for each chunk, as their ranks have them.
@@ -52,12 +51,11 @@ void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
                                  numerical_power_.data(),
                                  largest_rate_.data(),
                                  limited_pairs_.data()};
-  exchange(body, {&Body<Dim>::records});
-  if (body.options.has_frames) exchange(body, {&Body<Dim>::frames});
-  scheme::sum_forces(sweep, momentum_);
+  sweep_with(body, {&Body<Dim>::records, &Body<Dim>::frames},
+             [&](Share share) { scheme::sum_forces(sweep, momentum_, share); });
   if (body.bulk) body.bulk->add_forces(body, *material_);
   if (with_step && speeds == Speeds::bound) {
-    parallel::for_chunks(body.part(), body.n_blocks, [&](auto begin, auto end, auto chunk) {
+    for_chunks_of(body, Share::whole, [&](auto begin, auto end, auto chunk) {
       largest_rate_[chunk] = geometric_rate_ * largest_speed(body, begin, end);
     });
   }
@@ -85,21 +83,32 @@ void Sweeps<Dim>::strain_rates(Body<Dim>& body,
                                const StageCombination* stage,
                                double drift) {
   const double kappa_f = options_.face_correction;
-  exchange(body, {&Body<Dim>::v});
+  const StrainRateSweep<Dim> sweep{body,
+                                   *material_,
+                                   relaxation,
+                                   options_.energy_budget,
+                                   kappa_f,
+                                   stage,
+                                   drift,
+                                   viscous_dissipation_.data(),
+                                   least_J_.data(),
+                                   drift != 0 ? old_power_.data() : nullptr};
   if (kappa_f != 0) {
-    for_blocks(body, [&](auto begin, auto end) { face_.gradients(body, begin, end); });
-    exchange(body, {&Body<Dim>::gradients});
+    sweep_with(body, {&Body<Dim>::v}, [&](Share share) {
+      for_blocks(body, share, [&](auto begin, auto end) { face_.gradients(body, begin, end); });
+    });
   }
-  evaluate_strain_rates<Dim>({body, *material_, relaxation, options_.energy_budget, kappa_f, stage,
-                              drift, viscous_dissipation_.data(), least_J_.data(),
-                              drift != 0 ? old_power_.data() : nullptr});
+  sweep_with(body, {kappa_f != 0 ? &Body<Dim>::gradients : &Body<Dim>::v},
+             [&](Share share) { evaluate_strain_rates(sweep, share); });
   complete(body, {&least_J_, &viscous_dissipation_, &old_power_}, drift != 0 ? 3 : 2);
   if (kappa_f != 0) {
-    exchange(body, {&Body<Dim>::stresses});
-    for_blocks(body, [&](auto begin, auto end) { face_.stresses(body, kappa_f, begin, end); });
+    sweep_with(body, {&Body<Dim>::stresses}, [&](Share share) {
+      for_blocks(body, share,
+                 [&](auto begin, auto end) { face_.stresses(body, kappa_f, begin, end); });
+    });
   }
   if (body.options.has_frames)
-    for_blocks(body, [&](auto begin, auto end) { set_frames(body, begin, end); });
+    for_blocks(body, Share::whole, [&](auto begin, auto end) { set_frames(body, begin, end); });
 }
 
 template <int Dim>

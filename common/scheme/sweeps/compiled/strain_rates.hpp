@@ -3,6 +3,7 @@
 
 #include "common/algebra/versions.hpp"
 #include "common/scheme/body/pointwise.hpp"
+#include "common/scheme/ranks/division.hpp"
 #include "common/scheme/sweeps/face_correction.hpp"
 #include "common/scheme/sweeps/strain_rates.hpp"
 #include "common/scheme/sweeps/strain_sum.hpp"
@@ -107,11 +108,10 @@ void velocity_gradients(Body<Dim>& body, double kappa_f) {
 }
 
 template <int Dim>
-void evaluate_strain_rates(const StrainRateSweep<Dim>& sweep) {
+void evaluate_strain_rates(const StrainRateSweep<Dim>& sweep, Share share) {
   const auto evaluate = algebra::version_here<StrainRateVersions<Dim>>();
-  parallel::for_chunks(
-      sweep.body.part(), sweep.body.n_blocks,
-      [&](auto begin, auto end, auto chunk) { evaluate(sweep, begin, end, chunk); });
+  for_chunks_of(sweep.body, share,
+                [&](auto begin, auto end, auto chunk) { evaluate(sweep, begin, end, chunk); });
 }
 
 }  // namespace diptych::scheme

@@ -2,7 +2,7 @@
 
 namespace diptych::scheme {
 
-template void evaluate_strain_rates(const StrainRateSweep<3>&);
+template void evaluate_strain_rates(const StrainRateSweep<3>&, Share);
 template void velocity_gradients(Body<3>&, double);
 
 }  // namespace diptych::scheme

@@ -1,0 +1,70 @@
+#include "meshes/cavities.hpp"
+
+#include <map>
+#include <numeric>
+
+namespace diptych::meshes {
+
+namespace {
+
+/// Sets of numbers that have been joined.
+class Joined {
+ public:
+  explicit Joined(std::int64_t n) : parent_(static_cast<size_t>(n)) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  std::int32_t of(std::int32_t a) {
+    while (parent_[a] != a)
+      a = parent_[a] = parent_[parent_[a]];
+    return a;
+  }
+  void join(std::int32_t a, std::int32_t b) { parent_[of(b)] = of(a); }
+
+ private:
+  std::vector<std::int32_t> parent_;
+};
+
+/// What a face adds to the volume that its surface encloses, by the divergence theorem.
+/// @param origin  a point near, so that no digits are lost
+double volume_under(const Mesh& mesh, const BoundaryFace& face, const Vec3& origin) {
+  const auto corner = [&](int i) -> Vec3 { return mesh.nodes[face.nodes[i]] - origin; };
+  const Vec3 a = corner(0), b = corner(1);
+  if (face.n_nodes == 2) return 0.5 * (a[0] * b[1] - a[1] * b[0]);
+  const Vec3 c = corner(2), d = corner(face.n_nodes == 4 ? 3 : 0);
+  return (a + b + c + d).dot((c - a).cross(d - b)) / 24;
+}
+
+}  // namespace
+
+std::vector<Cavity> cavities_of(const Mesh& mesh) {
+  Joined surfaces(mesh.n_nodes());
+  for (const BoundaryFace& face : mesh.boundary_faces) {
+    for (int i = 1; i < face.n_nodes; ++i)
+      surfaces.join(face.nodes[0], face.nodes[i]);
+  }
+  std::vector<char> is_grouped(mesh.boundary_faces.size());
+  for (const BoundaryGroup& group : mesh.boundary_groups) {
+    for (const std::int32_t f : group.faces)
+      is_grouped[f] = 1;
+  }
+  std::map<std::int32_t, size_t> number;  // of the surface of a root
+  std::vector<Cavity> all;
+  for (size_t f = 0; f < mesh.boundary_faces.size(); ++f) {
+    const BoundaryFace& face = mesh.boundary_faces[f];
+    const std::int32_t root = surfaces.of(face.nodes[0]);
+    const size_t k = number.emplace(root, all.size()).first->second;
+    if (k == all.size()) all.emplace_back();
+    Cavity& cavity = all[k];
+    ++cavity.n_faces;
+    cavity.is_grouped = cavity.is_grouped || is_grouped[f] != 0;
+    cavity.volume -= volume_under(mesh, face, mesh.nodes[root]);  // outward is into the cavity
+    for (int i = 0; i < face.n_nodes; ++i)
+      cavity.centre += mesh.nodes[face.nodes[i]] / face.n_nodes;
+  }
+  std::erase_if(all, [](const Cavity& surface) { return !(surface.volume > 0); });
+  for (Cavity& cavity : all)
+    cavity.centre /= static_cast<double>(cavity.n_faces);
+  return all;
+}
+
+}  // namespace diptych::meshes
