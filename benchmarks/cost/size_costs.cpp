@@ -78,11 +78,11 @@ SizeRow measured(const Graph& kind, int side, const std::vector<std::string>& ov
   row.building = static_cast<double>(peak_rss_bytes() - before) / n;
   release_pairs(scene.graph);
   scene.mesh.mesh = {};
-  row.running = static_cast<double>(settled_memory() - before) / n;
   row.counted = static_cast<double>(solver.bytes()) / n;
   row.step_seconds = std::numeric_limits<double>::infinity();
   const int n_steps = std::max(least_steps, static_cast<int>(least_node_steps / n));
   solver.step(1e6);  // pages and caches
+  row.running = static_cast<double>(settled_memory() - before) / n;
   for (int i = 0; i < n_steps && !interrupt_requested(); ++i) {
     lap();
     solver.step(1e6);

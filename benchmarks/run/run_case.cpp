@@ -3,6 +3,7 @@
 #include "benchmarks/run/breakdown_place.hpp"
 #include "benchmarks/run/case_observers.hpp"
 #include "benchmarks/run/checkpoints.hpp"
+#include "benchmarks/run/first_step.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/judgement.hpp"
 #include "benchmarks/run/memory.hpp"
@@ -26,6 +27,7 @@
 #include <numeric>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace diptych::harness {
 
@@ -93,6 +95,7 @@ class CaseRun {
   void archive(algebra::Archive& archive);
   void tell(const std::string& notice) const;
   void warn(const std::string& notice) const;
+  void note_running_memory();
   void note_breakdown();
   void measure();
   void finish();
@@ -106,6 +109,7 @@ class CaseRun {
   RunResult result_;
   std::unique_ptr<Scene> scene_;
   std::optional<CaseObservers> observers_;
+  FirstStep first_step_{[this] { note_running_memory(); }};
   std::optional<run::Simulation> simulation_;
 };
 
@@ -119,7 +123,9 @@ CaseRun::CaseRun(const cases::Case& setup, const RunOptions& options)
   for (const std::string& notice : scene_->description.notices)
     tell(notice);
   observers_.emplace(setup, options, *scene_);
-  simulation_.emplace(setup_, *scene_->solver, observers_->all(), interrupt_requested);
+  std::vector<run::Observer*> observers = observers_->all();
+  observers.push_back(&first_step_);
+  simulation_.emplace(setup_, *scene_->solver, std::move(observers), interrupt_requested);
   if (!options.checkpoint.empty()) go_on();
   folder_.check();
   if (folder_.is_written() && options.before_writing) options.before_writing();
@@ -205,8 +211,7 @@ void CaseRun::go() {
   release_pairs(scene_->graph);
   s.solver_bytes = scene_->solver->bytes();
   s.building_rss_bytes = memory_.peak();
-  s.running_rss_bytes = memory_.settled();
-  note_memory(*scene_, s);
+  note_running_memory();
   s.setup_seconds = seconds_since(start_);
   try {
     s.status = run::status_of(simulation_->run());
@@ -216,6 +221,12 @@ void CaseRun::go() {
   }
   note_breakdown();
   finish();
+}
+
+/// Arrays are there once they are written to: after a step.
+void CaseRun::note_running_memory() {
+  result_.summary.running_rss_bytes = memory_.settled();
+  note_memory(*scene_, result_.summary);
 }
 
 void CaseRun::note_breakdown() {

@@ -102,7 +102,7 @@ struct RunSummary {
   double communication_seconds = 0;  ///< mean of the ranks, waiting included
   std::int64_t peak_rss_bytes = 0;
   std::int64_t solver_bytes = 0;        ///< arrays of the solver: state and geometry of the sweeps
-  std::int64_t running_rss_bytes = 0;   ///< resident set of the program before the first step
+  std::int64_t running_rss_bytes = 0;   ///< resident set of the program after the first step
   std::int64_t building_rss_bytes = 0;  ///< largest resident set until then
   double dt_min = 0, dt_max = 0;
   double spacing = 0;  ///< m, Omega^(1/d) of the mean interior node
