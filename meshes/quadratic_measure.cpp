@@ -2,6 +2,7 @@
 
 #include "common/algebra/monomials.hpp"
 #include "common/base/error.hpp"
+#include "common/parallel/for_chunks.hpp"
 #include "common/parallel/for_each.hpp"
 #include "meshes/cell_topology.hpp"
 #include "meshes/incidence.hpp"
@@ -29,8 +30,8 @@ using Vector = Eigen::VectorXd;
 constexpr size_t nodes_of_cell[] = {20, 64};
 constexpr size_t nodes_of_face[] = {6, 25};
 constexpr double decay = 0.3;  ///< of the weight of a change with the square of the distance
-/// Cells that are worked by one thread at a time.
-constexpr std::int64_t piece_size = 256;
+/// Cells whose weights are kept at a time.
+constexpr std::int64_t cells_at_once = 8192;
 /// Cosine of the angle between normals of one plane, less one.
 constexpr double plane = 1e-10;
 /// Part of the largest moment by which moments of volumes and areas may differ.
@@ -41,31 +42,57 @@ struct Weights {
   Vector value;
 };
 
-/// Corners of `cells`, all cells around those, and so on, until there are enough nodes.
-/// @param around  cells of a node  @param corners  of a cell
-template <class Around, class Corners>
-std::vector<std::int32_t> surrounding(std::int64_t cell,
+/// Ascending, each once.
+void make_set(std::vector<std::int32_t>& nodes) {
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+}
+
+/// These corners, the nodes that share a cell with one of them, and so on, until there are enough.
+/// @param add_sharing  add_sharing(a, nodes): adds the nodes that share a cell with node a
+template <class AddSharing>
+std::vector<std::int32_t> surrounding(std::span<const std::int32_t> corners,
                                       size_t enough,
-                                      const Around& around,
-                                      const Corners& corners) {
-  const auto own = corners(cell);
-  std::vector<std::int32_t> nodes(own.begin(), own.end());
+                                      const AddSharing& add_sharing) {
+  std::vector<std::int32_t> nodes(corners.begin(), corners.end());
   std::sort(nodes.begin(), nodes.end());
   while (nodes.size() < enough) {
     std::vector<std::int32_t> wider = nodes;
-    for (const std::int32_t a : nodes) {
-      for (const std::int64_t c : around(a)) {
-        const auto more = corners(c);
-        wider.insert(wider.end(), more.begin(), more.end());
-      }
-    }
-    std::sort(wider.begin(), wider.end());
-    wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
+    for (const std::int32_t a : nodes)
+      add_sharing(a, wider);
+    make_set(wider);
     if (wider.size() == nodes.size()) break;
     nodes = std::move(wider);
   }
   return nodes;
 }
+
+/// Of each node, the nodes that share a cell with it.
+struct Sharing {
+  explicit Sharing(const Mesh& mesh) : first(static_cast<size_t>(mesh.n_nodes()) + 1) {
+    const Incidence around = cells_around_nodes(mesh);
+    std::vector<std::vector<std::int32_t>> all(static_cast<size_t>(mesh.n_nodes()));
+    parallel::for_chunks(mesh.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+      for (auto a = static_cast<std::int32_t>(begin); a < end; ++a) {
+        for (const std::int64_t c : around.cells(a)) {
+          const auto corners = mesh.cell(c);
+          all[a].insert(all[a].end(), corners.begin(), corners.end());
+        }
+        make_set(all[a]);
+      }
+    });
+    for (size_t a = 0; a < all.size(); ++a) {
+      node.insert(node.end(), all[a].begin(), all[a].end());
+      first[a + 1] = static_cast<std::int64_t>(node.size());
+    }
+  }
+  void add(std::int32_t a, std::vector<std::int32_t>& nodes) const {
+    nodes.insert(nodes.end(), node.begin() + first[a], node.begin() + first[a + 1]);
+  }
+
+  std::vector<std::int64_t> first;
+  std::vector<std::int32_t> node;
+};
 
 /// Changes weights least, beside what a node has by the vertex rule, so that they integrate the
 /// polynomials as `exact` does; where nodes are too few, as nearly as they can.
@@ -89,7 +116,7 @@ void meet(const std::vector<Vec3>& at,
 }
 
 Weights volume_of(const Mesh& mesh,
-                  const Incidence& around,
+                  const Sharing& sharing,
                   const std::vector<double>& shares,
                   std::int64_t c) {
   const auto corners = mesh.cell(c);
@@ -104,9 +131,8 @@ Weights volume_of(const Mesh& mesh,
   h /= static_cast<double>(edges.size());
 
   Weights weights;
-  weights.nodes = surrounding(
-      c, nodes_of_cell[mesh.dimension - 2], [&](std::int32_t a) { return around.cells(a); },
-      [&](std::int64_t i) { return mesh.cell(i); });
+  weights.nodes = surrounding(corners, nodes_of_cell[mesh.dimension - 2],
+                              [&](std::int32_t a, auto& nodes) { sharing.add(a, nodes); });
   weights.value = Vector::Zero(static_cast<int>(weights.nodes.size()));
   std::vector<Vec3> at;
   std::vector<double> share;
@@ -133,18 +159,17 @@ std::vector<double> volumes_of(const Mesh& mesh,
                                const std::vector<double>& shares,
                                const BlockUse& use) {
   std::vector<double> Omega(static_cast<size_t>(mesh.n_nodes()), 0.0);
-  const Incidence around = cells_around_nodes(mesh);
-  const std::int64_t n_pieces = (mesh.n_cells() + piece_size - 1) / piece_size;
-  std::vector<std::vector<Weights>> pieces(static_cast<size_t>(n_pieces));
-  parallel::for_each(n_pieces, [&](std::int64_t i) {
-    const std::int64_t end = std::min(mesh.n_cells(), (i + 1) * piece_size);
-    for (std::int64_t c = i * piece_size; c < end; ++c)
-      pieces[i].push_back(volume_of(mesh, around, shares, c));
-  });
-  for (const auto& piece : pieces) {
-    for (const Weights& weights : piece) {
-      for (size_t i = 0; i < weights.nodes.size(); ++i)
-        Omega[weights.nodes[i]] += weights.value[static_cast<int>(i)];
+  const Sharing sharing(mesh);
+  std::vector<Weights> weights(cells_at_once);
+  for (std::int64_t begin = 0; begin < mesh.n_cells(); begin += cells_at_once) {
+    const std::int64_t n = std::min(mesh.n_cells() - begin, cells_at_once);
+    parallel::for_chunks(n, [&](std::int64_t first, std::int64_t end, std::int64_t) {
+      for (std::int64_t i = first; i < end; ++i)
+        weights[i] = volume_of(mesh, sharing, shares, begin + i);
+    });
+    for (std::int64_t i = 0; i < n; ++i) {
+      for (size_t k = 0; k < weights[i].nodes.size(); ++k)
+        Omega[weights[i].nodes[k]] += weights[i].value[static_cast<int>(k)];
     }
   }
   for (size_t a = 0; a < Omega.size(); ++a) {
@@ -204,7 +229,13 @@ class Sides {
       return faces;
     };
     Weights weights;
-    weights.nodes = surrounding(f, nodes_of_face[mesh_.dimension - 2], of_side, corners);
+    weights.nodes = surrounding(corners(f), nodes_of_face[mesh_.dimension - 2],
+                                [&](std::int32_t a, auto& nodes) {
+                                  for (const std::int32_t i : of_side(a)) {
+                                    const auto more = corners(i);
+                                    nodes.insert(nodes.end(), more.begin(), more.end());
+                                  }
+                                });
     Vec3 middle = Vec3::Zero();
     for (const std::int32_t a : corners(f))
       middle += mesh_.nodes[a] / face.n_nodes;
