@@ -2,6 +2,7 @@
 
 #include "benchmarks/cost/option_costs.hpp"
 #include "benchmarks/cost/size_costs.hpp"
+#include "benchmarks/probes/machine_probes.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
@@ -30,6 +31,7 @@ int report_costs(const CostArguments& arguments) {
     const auto rows = harness::measure_size_costs(
         {arguments.sizes, arguments.threads, arguments.overrides, arguments.quiet});
     if (!rows.empty()) {
+      print(probes::probes_text(probes::measure_machine(arguments.threads)) + "\n");
       print(harness::size_text(rows));
       write_output(arguments.folder, "size_costs.csv", harness::size_csv(rows));
     }
