@@ -101,16 +101,18 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
 
 Operators operators_of(const meshes::Mesh& mesh, const Options& options) {
   const Choice choice = choice_of(mesh, options);
-  if (choice.stencil != Stencil::sbp) return {choice.text, {}};
+  if (choice.stencil != Stencil::sbp)
+    return {choice.text, {}, !choice.text.empty() && !meshes::is_undistorted_block(mesh)};
   if (!meshes::is_undistorted_block(mesh)) {
     const std::vector<meshes::LatticeBlock> blocks = smooth_blocks(mesh);
     if (!blocks.empty())
-      return {blocks_text(blocks, options.order), blocks_notices(blocks, options.order)};
+      return {blocks_text(blocks, options.order), blocks_notices(blocks, options.order), false};
     return {fmt::format("sbp: order 2 on the cells around {} nodes", mesh.n_nodes()),
-            {closure::sign_notice}};
+            {closure::sign_notice},
+            false};
   }
   const std::vector<SbpLines> lines = sbp_lines(mesh, options.order);
-  Operators operators{lines_text(lines), {}};
+  Operators operators{lines_text(lines), {}, false};
   for (const SbpLines& line : lines) {
     if (line.order == options.order) continue;
     operators.lost.push_back(fmt::format(

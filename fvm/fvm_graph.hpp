@@ -29,6 +29,8 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options);
 struct Operators {
   std::string text;               ///< for the record; empty where edge or integral was asked for
   std::vector<std::string> lost;  ///< where less than the order asked for fits, and why
+  /// "auto" took the edge stencil because of the mesh alone: "sbp" may go with it.
+  bool may_sum_by_parts = false;
 };
 
 Operators operators_of(const meshes::Mesh& mesh, const Options& options);

@@ -1,5 +1,7 @@
 #include "meshes/cavities.hpp"
 
+#include "meshes/face_flux.hpp"
+
 #include <map>
 #include <numeric>
 
@@ -24,14 +26,16 @@ class Joined {
   std::vector<std::int32_t> parent_;
 };
 
-/// What a face adds to the volume that its surface encloses, by the divergence theorem.
+/// What a face has of the volume that its surface encloses.
 /// @param origin  a point near, so that no digits are lost
 double volume_under(const Mesh& mesh, const BoundaryFace& face, const Vec3& origin) {
-  const auto corner = [&](int i) -> Vec3 { return mesh.nodes[face.nodes[i]] - origin; };
-  const Vec3 a = corner(0), b = corner(1);
-  if (face.n_nodes == 2) return 0.5 * (a[0] * b[1] - a[1] * b[0]);
-  const Vec3 c = corner(2), d = corner(face.n_nodes == 4 ? 3 : 0);
-  return (a + b + c + d).dot((c - a).cross(d - b)) / 24;
+  double x[4][3];
+  for (int a = 0; a < 4; ++a) {
+    for (int i = 0; i < 3; ++i)
+      x[a][i] = mesh.nodes[face.nodes[a < face.n_nodes ? a : 0]][i] - origin[i];
+  }
+  return face.n_nodes == 2 ? area_under_edge(x[0], x[1])
+                           : volume_under_face(x[0], x[1], x[2], x[3]);
 }
 
 }  // namespace

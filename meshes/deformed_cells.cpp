@@ -3,6 +3,7 @@
 #include "common/algebra/lanes.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "meshes/cell_topology.hpp"
+#include "meshes/face_flux.hpp"
 #include "meshes/shape_integrals.hpp"
 
 #include <cmath>
@@ -15,31 +16,19 @@ using algebra::n_lanes;
 
 namespace {
 
-/// By its faces: with m the mean of the corners, the flux of x through the bilinear face of four is
-/// 1/2 m . ((x_3 - x_1) x (x_4 - x_2)); a triangle is a face whose fourth corner is its first. Of
-/// one cell, or of eight with the same bits: compiled without fused multiply-adds.
+/// Of one cell, or of eight with the same bits: compiled without fused multiply-adds.
 /// @param x  corners, from the first one: a body far from the origin loses no digits
 template <class T>
 T volume_by_faces(CellType type, const T (&x)[max_cell_nodes][3]) {
   T volume{};
   for (const LocalFace& face : faces_of(type)) {
     const auto& corner = face.nodes;
-    if (face.n_nodes == 2) {  // an edge in the plane
-      const auto &a = x[corner[0]], &b = x[corner[1]];
-      volume = volume + 0.5 * (a[0] * b[1] - a[1] * b[0]);
-      continue;
+    if (face.n_nodes == 2) {
+      volume = volume + area_under_edge(x[corner[0]], x[corner[1]]);
+    } else {
+      volume = volume + volume_under_face(x[corner[0]], x[corner[1]], x[corner[2]],
+                                          x[corner[face.n_nodes == 4 ? 3 : 0]]);
     }
-    const auto &a = x[corner[0]], &b = x[corner[1]], &c = x[corner[2]],
-               &d = x[corner[face.n_nodes == 4 ? 3 : 0]];
-    T e[3], f[3], m[3];
-    for (int i = 0; i < 3; ++i) {
-      e[i] = c[i] - a[i];
-      f[i] = d[i] - b[i];
-      m[i] = (a[i] + b[i]) + (c[i] + d[i]);
-    }
-    volume = volume +
-             (1.0 / 24) * (m[0] * (e[1] * f[2] - e[2] * f[1]) + m[1] * (e[2] * f[0] - e[0] * f[2]) +
-                           m[2] * (e[0] * f[1] - e[1] * f[0]));
   }
   return volume;
 }

@@ -1,5 +1,9 @@
 #include "meshes/incidence.hpp"
 
+#include "common/parallel/for_chunks.hpp"
+
+#include <algorithm>
+
 namespace diptych::meshes {
 
 Incidence cells_around_nodes(const Mesh& mesh) {
@@ -21,6 +25,29 @@ Incidence cells_around_nodes(const Mesh& mesh) {
     }
   }
   return around;
+}
+
+NodalGraph nodal_graph(const Mesh& mesh) {
+  const Incidence cells = cells_around_nodes(mesh);
+  std::vector<std::vector<std::int32_t>> all(static_cast<size_t>(mesh.n_nodes()));
+  parallel::for_chunks(mesh.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+    for (auto a = static_cast<std::int32_t>(begin); a < end; ++a) {
+      std::vector<std::int32_t>& nodes = all[a];
+      for (const std::int64_t c : cells.cells(a)) {
+        const auto corners = mesh.cell(c);
+        nodes.insert(nodes.end(), corners.begin(), corners.end());
+      }
+      std::sort(nodes.begin(), nodes.end());
+      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    }
+  });
+  NodalGraph graph;
+  graph.first.push_back(0);
+  for (const std::vector<std::int32_t>& nodes : all) {
+    graph.node.insert(graph.node.end(), nodes.begin(), nodes.end());
+    graph.first.push_back(static_cast<std::int64_t>(graph.node.size()));
+  }
+  return graph;
 }
 
 }  // namespace diptych::meshes

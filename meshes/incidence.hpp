@@ -1,5 +1,5 @@
 #pragma once
-/// Cells around the nodes of a mesh.
+/// Cells around the nodes of a mesh, and the nodes that share a cell.
 
 #include "meshes/mesh.hpp"
 
@@ -22,5 +22,18 @@ struct Incidence {
 };
 
 Incidence cells_around_nodes(const Mesh& mesh);
+
+/// Of node a, the nodes that share a cell with it, itself among them: node[first[a]] to
+/// node[first[a + 1] - 1], ascending.
+struct NodalGraph {
+  std::vector<std::int64_t> first;
+  std::vector<std::int32_t> node;
+
+  std::span<const std::int32_t> around(std::int32_t a) const {
+    return {node.data() + first[a], static_cast<size_t>(first[a + 1] - first[a])};
+  }
+};
+
+NodalGraph nodal_graph(const Mesh& mesh);
 
 }  // namespace diptych::meshes

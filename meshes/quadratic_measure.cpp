@@ -67,33 +67,6 @@ std::vector<std::int32_t> surrounding(std::span<const std::int32_t> corners,
   return nodes;
 }
 
-/// Of each node, the nodes that share a cell with it.
-struct Sharing {
-  explicit Sharing(const Mesh& mesh) : first(static_cast<size_t>(mesh.n_nodes()) + 1) {
-    const Incidence around = cells_around_nodes(mesh);
-    std::vector<std::vector<std::int32_t>> all(static_cast<size_t>(mesh.n_nodes()));
-    parallel::for_chunks(mesh.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-      for (auto a = static_cast<std::int32_t>(begin); a < end; ++a) {
-        for (const std::int64_t c : around.cells(a)) {
-          const auto corners = mesh.cell(c);
-          all[a].insert(all[a].end(), corners.begin(), corners.end());
-        }
-        make_set(all[a]);
-      }
-    });
-    for (size_t a = 0; a < all.size(); ++a) {
-      node.insert(node.end(), all[a].begin(), all[a].end());
-      first[a + 1] = static_cast<std::int64_t>(node.size());
-    }
-  }
-  void add(std::int32_t a, std::vector<std::int32_t>& nodes) const {
-    nodes.insert(nodes.end(), node.begin() + first[a], node.begin() + first[a + 1]);
-  }
-
-  std::vector<std::int64_t> first;
-  std::vector<std::int32_t> node;
-};
-
 /// Changes weights least, beside what a node has by the vertex rule, so that they integrate the
 /// polynomials as `exact` does; where nodes are too few, as nearly as they can.
 /// @param at     [nodes] places from the middle, over h
@@ -116,7 +89,7 @@ void meet(const std::vector<Vec3>& at,
 }
 
 Weights volume_of(const Mesh& mesh,
-                  const Sharing& sharing,
+                  const NodalGraph& sharing,
                   const std::vector<double>& shares,
                   std::int64_t c) {
   const auto corners = mesh.cell(c);
@@ -131,8 +104,11 @@ Weights volume_of(const Mesh& mesh,
   h /= static_cast<double>(edges.size());
 
   Weights weights;
-  weights.nodes = surrounding(corners, nodes_of_cell[mesh.dimension - 2],
-                              [&](std::int32_t a, auto& nodes) { sharing.add(a, nodes); });
+  weights.nodes =
+      surrounding(corners, nodes_of_cell[mesh.dimension - 2], [&](std::int32_t a, auto& nodes) {
+        const auto more = sharing.around(a);
+        nodes.insert(nodes.end(), more.begin(), more.end());
+      });
   weights.value = Vector::Zero(static_cast<int>(weights.nodes.size()));
   std::vector<Vec3> at;
   std::vector<double> share;
@@ -159,7 +135,7 @@ std::vector<double> volumes_of(const Mesh& mesh,
                                const std::vector<double>& shares,
                                const BlockUse& use) {
   std::vector<double> Omega(static_cast<size_t>(mesh.n_nodes()), 0.0);
-  const Sharing sharing(mesh);
+  const NodalGraph sharing = nodal_graph(mesh);
   std::vector<Weights> weights(cells_at_once);
   for (std::int64_t begin = 0; begin < mesh.n_cells(); begin += cells_at_once) {
     const std::int64_t n = std::min(mesh.n_cells() - begin, cells_at_once);

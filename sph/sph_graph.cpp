@@ -10,6 +10,7 @@
 #include "meshes/dual_measure.hpp"
 #include "meshes/quadratic_measure.hpp"
 #include "meshes/structured_block.hpp"
+#include "sph/gaps.hpp"
 #include "sph/kernel_correction.hpp"
 #include "sph/neighbours.hpp"
 #include "sph/sbp_graph.hpp"
@@ -152,6 +153,7 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
   for (double& r : radius)
     r *= kernel.support;
   Rows rows = find_neighbours(graph.X, radius);
+  if (!meshes::is_undistorted_block(mesh)) drop_pairs_across_gaps(mesh, rows);
   graph.row = std::move(rows.row);
   graph.neighbour = std::move(rows.neighbour);
   link_reverse_pairs(graph);
@@ -171,12 +173,18 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
 
 Operators operators_of(const meshes::Mesh& mesh, const Options& options) {
   const Choice choice = choice_of(mesh, options);
-  if (choice.gradient != Gradient::sbp) return {choice.text, {}};
+  if (choice.gradient != Gradient::sbp) {
+    return {choice.text,
+            {},
+            !choice.text.empty() && options.closure && options.kappa > 1 &&
+                !meshes::is_undistorted_block(mesh)};
+  }
   if (!meshes::is_undistorted_block(mesh)) {
     return {fmt::format("sbp: order 2 on {} nodes, kappa {:.4g}", mesh.n_nodes(), options.kappa),
-            {closure::sign_notice}};
+            {closure::sign_notice},
+            false};
   }
-  return {sbp_text(options.kappa), sbp_notices(mesh)};
+  return {sbp_text(options.kappa), sbp_notices(mesh), false};
 }
 
 }  // namespace diptych::sph

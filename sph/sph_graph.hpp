@@ -31,6 +31,8 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options);
 struct Operators {
   std::string text;                  ///< for the record; empty where corrected was asked for
   std::vector<std::string> notices;  ///< where it promises less
+  /// "auto" took the corrected gradient because of the nodes alone: "sbp" may go with them.
+  bool may_sum_by_parts = false;
 };
 
 Operators operators_of(const meshes::Mesh& mesh, const Options& options);

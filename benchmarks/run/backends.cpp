@@ -46,14 +46,12 @@ constexpr const char* pressure_notice =
     "moduli it turns cells inside out (the run is then stopped); the default operators bear it "
     "(notes 10.1)";
 
-/// Where the choice was left to operators of second order because of the mesh alone. Others take
-/// long to set up there, and refuse many meshes.
+/// Where the choice was left: operators that sum by parts take long to set up on meshes that are no
+/// boxes, and refuse many.
 std::vector<std::string> advice(const cases::Case& setup,
                                 const std::string& text,
                                 const std::string& key) {
-  const bool is_of_mesh = text.ends_with("the mesh is no box") ||  // FVM
-                          (text.ends_with("the nodes are no lattice") && setup.sph.kappa > 1);
-  if (!is_of_mesh || run::wants_safe_volumes(setup)) return {};
+  if (run::wants_safe_volumes(setup)) return {};
   return {
       fmt::format("{}; {} = \"sbp\" takes longer to set up and errs several times less on a "
                   "body with plane sides (benchmarks/DEFAULTS.md)",
@@ -130,12 +128,12 @@ GraphDescription graph_description(const std::string& method,
   if (method == "sph") {
     sph::Operators operators = sph::operators_of(mesh, sph_options(setup));
     if (is_block && run::wants_line_slopes(setup)) operators.notices.clear();
-    if (operators.notices.empty())
+    if (operators.may_sum_by_parts)
       operators.notices = advice(setup, operators.text, "sph.gradient");
     return description_of(setup, operators.text, operators.notices, is_block);
   }
   fvm::Operators operators = fvm::operators_of(mesh, fvm_options(setup));
-  if (operators.lost.empty()) operators.lost = advice(setup, operators.text, "fvm.stencil");
+  if (operators.may_sum_by_parts) operators.lost = advice(setup, operators.text, "fvm.stencil");
   return description_of(setup, operators.text, operators.lost, is_block);
 }
 

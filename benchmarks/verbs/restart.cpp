@@ -64,6 +64,8 @@ void go_on_from_latest(const cases::Case& setup, harness::StudyOptions& options)
 }
 
 void go_on_from(const std::string& file, bool has_folder, harness::StudyOptions& options) {
+  if (!fs::is_regular_file(file))
+    throw base::InputError(fmt::format("--restart {}: there is no such file", file));
   const std::string method = harness::identity_in(file).method;
   if (std::count(options.methods.begin(), options.methods.end(), method) == 0) {
     throw base::InputError(fmt::format("{}: is of method {}, --method asks for {}", file, method,

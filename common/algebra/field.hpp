@@ -16,6 +16,7 @@
 
 namespace diptych::algebra {
 
+/// To the system, or to the heap.
 struct GiveBack {
   size_t mapped = 0;  ///< bytes from the system; 0: of the heap
   void operator()(std::byte* begin) const {

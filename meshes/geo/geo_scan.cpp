@@ -188,6 +188,17 @@ class Scan {
       check(files_[i]);
   }
 
+  bool uses(std::string_view name) const {
+    return std::any_of(files_.begin(), files_.end(), [&](const File& file) {
+      const std::string text = msh::file_bytes(file.path.string());
+      Tokens tokens(text, 0);
+      for (Token token = tokens.next(); token.kind != Token::Kind::end; token = tokens.next()) {
+        if (token.kind == Token::Kind::word && token.text == name) return true;
+      }
+      return false;
+    });
+  }
+
  private:
   struct File {
     std::string shown;  ///< as messages name it
@@ -325,6 +336,10 @@ class Scan {
 
 void check_geo(const std::string& path) {
   Scan{path};
+}
+
+bool uses_name(const std::string& path, std::string_view name) {
+  return Scan(path).uses(name);
 }
 
 }  // namespace diptych::meshes

@@ -3,6 +3,7 @@
 /// it can start others, write anywhere and read other scripts. Test: tests/meshes/geo_scan_test.cpp
 
 #include <string>
+#include <string_view>
 
 namespace diptych::meshes {
 
@@ -16,5 +17,9 @@ namespace diptych::meshes {
 /// @throws base::InputError "file:line: ..." on the first offence, a file that is not there or no
 ///         regular one
 void check_geo(const std::string& path);
+
+/// Whether the file, or one that it takes in, uses this name outside comments and strings.
+/// @throws base::InputError as check_geo
+bool uses_name(const std::string& path, std::string_view name);
 
 }  // namespace diptych::meshes

@@ -13,12 +13,14 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 
 namespace diptych::meshes {
@@ -27,8 +29,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Before the value of h that the file ended with.
+constexpr std::string_view size_line = "diptych: h = ";
+
 /// Read by gmsh behind the .geo file, so that it has the last word.
-constexpr const char* fixed_options = "Mesh.Algorithm3D = 1;\nMesh.Binary = 0;\n";
+constexpr const char* fixed_options =
+    "Mesh.Algorithm3D = 1;\nMesh.Binary = 0;\nPrintf(\"diptych: h = %.17g\", h);\n";
 
 void check_arguments(const std::string& geo_path, int dimension, double size) {
   if (dimension != 2 && dimension != 3) {
@@ -139,6 +145,29 @@ ChildResult run_gmsh(const std::string& program,
       fmt::format("{}: gmsh failed ({}): {}", geo_path, result.ending(), errors));
 }
 
+/// The value of h at the end of the file; nan: gmsh did not say.
+double size_at_end(const std::string& output) {
+  const size_t at = output.rfind(size_line);
+  if (at == std::string::npos) return NAN;
+  return std::strtod(output.c_str() + at + size_line.size(), nullptr);
+}
+
+/// A file that does not take the size that it is given would have the same mesh on all levels.
+void check_size(const std::string& geo_path, double size, const std::string& output) {
+  if (!uses_name(geo_path, "h")) {
+    throw base::InputError(fmt::format(
+        "{}: mesh.size has no effect, since the file has no h: write DefineConstant[ h = {:.6g} ]; "
+        "and give its points h as their size, or mesh it yourself and give the .msh file",
+        geo_path, size));
+  }
+  const double end = size_at_end(output);
+  if (std::isnan(end) || std::abs(end - size) <= 1e-12 * size) return;
+  throw base::InputError(
+      fmt::format("{}: mesh.size = {:.6g} has no effect, since the file sets h = {:.6g} itself: "
+                  "write DefineConstant[ h = {:.6g} ]; instead",
+                  geo_path, size, end, end));
+}
+
 }  // namespace
 
 bool has_gmsh() {
@@ -172,6 +201,7 @@ Mesh mesh_geo(const std::string& geo_path,
     throw base::EnvironmentError(
         fmt::format("{}: gmsh wrote no mesh: {}", geo_path, errors_of(result.output)));
   }
+  check_size(geo_path, size, result.output);
   return read_msh(msh.string());
 }
 

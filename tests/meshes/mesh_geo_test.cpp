@@ -184,6 +184,19 @@ TEST_F(MeshGeoWithGmsh, PlaneRecombinedMeshHasQuadrilateralsAndAnArcGroup) {
   EXPECT_LT((area_of_group(mesh, "arc") - Vec3(1, 1, 0)).norm(), 1e-12);
 }
 
+TEST_F(MeshGeoWithGmsh, ASizeWithoutEffectIsWrongInput) {
+  const auto message = [&](const std::string& first, const std::string& size) {
+    const std::string geo = write(
+        "square.geo", first + "\nPoint(1) = {0, 0, 0, " + size +
+                          "};\nExtrude {1, 0, 0} { Point{1}; }\n"
+                          "Extrude {0, 1, 0} { Curve{1}; }\nPhysical Surface(\"body\") = {5};\n");
+    return input_error_of([&] { mesh_geo(geo, 2, 0.25, work()); });
+  };
+  EXPECT_EQ(message("DefineConstant[ h = 0.5 ];", "h"), "");
+  EXPECT_THAT(message("h = 0.5;", "h"), HasSubstr("the file sets h = 0.5 itself"));
+  EXPECT_THAT(message("// h is not used", "0.5"), HasSubstr("the file has no h"));
+}
+
 TEST_F(MeshGeoWithGmsh, SyntaxErrorIsWrongInputWithItsLine) {
   const std::string bad = write("bad.geo", "\nPoint(1) = {0, 0;\n");
   EXPECT_THAT(input_error_of([&] { mesh_geo(bad, 3, 1, work()); }),

@@ -34,13 +34,19 @@ void EnergyGuard::refuse_loss(const Check& check, double lost) const {
       lost / energy_.scale(), largest_loss_, instant_of(check.step)));
 }
 
-void EnergyGuard::refuse_residual(const Check& check, double residual) const {
+/// Of a step before judged_from_.
+double EnergyGuard::bound_of_start(std::int64_t step) const {
+  const auto n = static_cast<double>(step - (judged_from_ - steps_of_start));
+  return error_of_start / (n * n);
+}
+
+void EnergyGuard::refuse_residual(const Check& check, double residual, double bound) const {
   throw base::BreakdownError(fmt::format(
       "the energy budget does not close: residual {:.3g} of the largest energy so far, bound {:g}, "
       "{}\n"
       "  the step is too large, or the scheme is unstable here: try a smaller time.cfl or a finer "
       "mesh; guards.energy_residual raises the bound",
-      residual, threshold_, instant_of(check.step)));
+      residual, bound, instant_of(check.step)));
 }
 
 void EnergyGuard::at_check(const Check& check) {
@@ -50,12 +56,15 @@ void EnergyGuard::at_check(const Check& check) {
       std::max(energy.kinetic + std::abs(energy.strain), std::abs(energy.external_work));
   const double lost = energy.numerical_dissipation, scale = energy_.scale();
   if (-lost > threshold_ * scale + least_energy_) refuse_gain(check, -lost);
-  if (!std::isfinite(residual)) refuse_residual(check, residual);
+  if (!std::isfinite(residual)) refuse_residual(check, residual, threshold_);
   if (held <= least_energy_) judged_from_ = check.step.step + steps_of_start;
-  if (check.step.step < judged_from_) return;
+  const bool is_start = check.step.step < judged_from_;
+  const double bound =
+      is_start ? std::max(threshold_, bound_of_start(check.step.step)) : threshold_;
   // first what an unstable step does, which dissipates, too
-  if (std::abs(residual) * scale > threshold_ * scale + least_energy_)
-    refuse_residual(check, residual);
+  if (std::abs(residual) * scale > bound * scale + least_energy_)
+    refuse_residual(check, residual, bound);
+  if (is_start) return;
   if (lost > largest_loss_ * scale + least_energy_) refuse_loss(check, lost);
 }
 

@@ -159,6 +159,28 @@ TEST(EnergyGuard, DoesNotJudgeLossesInTheFirstStepsOfABodyAtRest) {
   EXPECT_THROW(judge(EnergyGuard::steps_of_start, 1, 0.8), base::BreakdownError);
 }
 
+TEST(EnergyGuard, StopsEnergyOfNothingInTheFirstStepsOfABodyAtRest) {
+  const auto judge = [&](std::int64_t number, double kinetic) {
+    EnergyGuard guard(scheme::Balance{}, 0.01, 0.5, 1e-9);
+    scheme::Balance now;
+    scheme::Audit audit;
+    guard.at_check({StepReport{}, now, audit});
+    now.kinetic = kinetic;
+    audit.external_work = 1;
+    StepReport step;
+    step.step = number;
+    guard.at_check({step, now, audit});
+  };
+  // of 8/n^2: 0.32, 0.08 and 0.022 of the energy held
+  EXPECT_NO_THROW(judge(2, 100));
+  EXPECT_NO_THROW(judge(5, 1.4));
+  EXPECT_THROW(judge(5, 1.5), base::BreakdownError);
+  EXPECT_NO_THROW(judge(10, 1.08));
+  EXPECT_THROW(judge(10, 1.09), base::BreakdownError);
+  EXPECT_THROW(judge(19, 1.03), base::BreakdownError);
+  EXPECT_NO_THROW(judge(10, 1e-10 + 1));
+}
+
 /// The step at which the energy of a body first is more than its budget allows.
 class FirstGrowth : public Observer {
  public:
