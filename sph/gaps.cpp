@@ -8,6 +8,8 @@ namespace diptych::sph {
 
 namespace {
 
+/// How far a path may lead, over the distance of the farthest neighbour: meshes are not all
+/// Delaunay.
 constexpr double detour = 1.25;
 
 /// Walks from one node at a time; a thread has one of its own.

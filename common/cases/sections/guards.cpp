@@ -11,10 +11,10 @@ SectionEntry guards_section() {
                "The run is stopped (code 3) where the energy that the budget does not account for, "
                "or that numerical dissipation has given to the body, is more than this share of "
                "the largest energy so far, at an output instant or "
-               "50 steps after the last judgement. What the budget does not account for is not "
-               "judged in "
-               "the first 20 steps of a body at rest. Needs "
-               "scheme.energy_budget.",
+               "50 steps after the last judgement. For what the budget "
+               "does not account for the bound is 8/n^2, where that is larger, in step n < 20 "
+               "after "
+               "a state of rest. Needs scheme.energy_budget.",
                "0.02"})
           .key("numerical_dissipation", &GuardsCase::numerical_dissipation,
                optional({"-", Range{0, 1, false, true},

@@ -76,8 +76,10 @@ SectionKeys<MeshCase> mesh_keys() {
             "Cells in each direction at level 0; level L has 2^L times as many.", "[4, 4, 24]",
             "required for a box"})
       .key("size", KeyType::number,
-           {"m", above(0), "Element size at level 0; level L has size / 2^L.", "0.1",
-            "required for a .geo file"})
+           {"m", above(0),
+            "Element size at level 0; level L has size / 2^L. The file takes it as h: "
+            "DefineConstant[ h = 0.1 ];",
+            "0.1", "required for a .geo file"})
       .key("perturbation", &MeshCase::perturbation,
            {"-", Range{0, 0.5, true, false},
             "Random shift of interior nodes as a fraction of the local spacing.", "0.2"})
