@@ -5,6 +5,7 @@
 #include "common/run/boundary_group.hpp"
 #include "common/run/default_cfl.hpp"
 #include "common/run/energy_record.hpp"
+#include "common/run/initial_check.hpp"
 #include "common/run/model_menu.hpp"
 #include "common/scheme/dissipation/limiters/limiter_menu.hpp"
 #include "common/scheme/option_menus.hpp"
@@ -151,6 +152,7 @@ scheme::BodyOptions body_options_of(const cases::Case& setup,
 
 template <int Dim>
 std::unique_ptr<Solver> solver_in(const cases::Case& setup, const scheme::PairGraph& graph) {
+  check_initial_deformation(setup, graph);
   const ModelMaker maker = model_menu().at(setup.material.model);
   scheme::AppliedBoundary boundary = boundary_of(setup, graph);
   if (setup.scheme.angular_momentum_projection && boundary.has_walls()) {

@@ -13,7 +13,9 @@ SectionEntry initial_section() {
           .key("velocity", &InitialCase::velocity,
                {"m/s", any, "Velocity at t = 0.", "[\"10*z/6\", 0, 0]"})
           .key("deformation_gradient", &InitialCase::deformation_gradient,
-               {"-", any, "F at t = 0, by rows; in 2-D two rows of two, or three of three.",
+               {"-", any,
+                "F at t = 0, by rows; in 2-D two rows of two, or three of three. It must be that "
+                "of the displacement, to 1e-3.",
                 "[[\"1 + 1e-3*cos(pi*x)\", 0, 0], [0, 1, 0], [0, 0, 1]]"})
           .choice("internal", &InitialCase::relaxed, {{"virgin", false}, {"relaxed", true}},
                   {"-", any,

@@ -3,6 +3,7 @@
 /// program makes them; graphs of meshes of their own.
 
 #include "benchmarks/run/scene.hpp"
+#include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 #include "meshes/generators.hpp"
 
@@ -42,6 +43,18 @@ inline Scene scene_of(const std::string& method,
                       const std::string& text,
                       const std::vector<std::string>& overrides = {}) {
   return {method, cases::case_from_text(text, "scene", overrides)};
+}
+
+/// What such a scene is refused with; empty where it can be made.
+inline std::string refusal_of(const std::string& method,
+                              const std::string& text,
+                              const std::vector<std::string>& overrides = {}) {
+  try {
+    scene_of(method, text, overrides);
+  } catch (const base::InputError& error) {
+    return error.what();
+  }
+  return "";
 }
 
 inline void run_to(run::Solver& solver, double end) {
