@@ -38,6 +38,7 @@ BodySolver<Dim>::BodySolver(time::MovingBody<Dim> moving,
       begin_(moving_),
       max_retries_(max_retries) {
   set_initial_state(initial, kappa_f, moving_.body);
+  moving_.boundary.require_in_front_of_walls(moving_.body);
   moving_.boundary.constrain(moving_.body, 0);
   moving_.sweeps.strain_rates(moving_.body, {}, nullptr, 0);
   if (!time::is_sound(moving_)) throw scheme::breakdown_error(moving_.body, 0, 0, 0, "");

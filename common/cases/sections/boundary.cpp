@@ -42,7 +42,7 @@ SectionKeys<BoundaryCase> boundary_keys() {
       .key("type", &BoundaryCase::type,
            one_of(scheme::boundary_menu().names(), kinds_with_notes(), "\"traction\"", "required"))
       .key("point", KeyType::vector,
-           {"m", any, "A point of the rigid plane.", "[0, 0, -4e-3]",
+           {"m", any, "A point of the rigid plane; the body begins before it.", "[0, 0, -4e-3]",
             "with " + kinds_that_take(Takes::plane)})
       .key("normal", KeyType::vector,
            {"-", any, "Normal of the rigid plane, towards the body; any length but 0.", "[0, 0, 1]",

@@ -143,7 +143,7 @@ void AppliedBoundary::place_walls(const PairGraph& graph) {
       const auto held = std::find_if(constrained_.begin(), constrained_.end(),
                                      [&](const ConstrainedNode& c) { return c.node == node; });
       const Mat3 keep = held == constrained_.end() ? Mat3(Mat3::Identity()) : held->keep;
-      walls_.add(*wall, {node, graph.Omega[node], graph.X[node], X_[node], keep});
+      walls_.add(*wall, {node, graph.Omega[node], graph.X[node], X_[node], keep, placed.patch});
     }
   }
   walls_.list_chunks();

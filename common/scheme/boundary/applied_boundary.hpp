@@ -47,6 +47,11 @@ class AppliedBoundary {
   void follow(std::shared_ptr<KnownLoads> known);
 
   bool has_walls() const { return !walls_.empty(); }
+  /// @throws base::InputError where the body, as it begins, stands behind a rigid wall
+  template <int Dim>
+  void require_in_front_of_walls(const Body<Dim>& body) const {
+    walls_.require_in_front(body);
+  }
   bool has_loads() const { return !loaded_nodes_.empty() || body_loads_.is_there(); }
 
   /// Copies what the boundary knows into `state`, and back.

@@ -3,6 +3,7 @@
 #include "common/scheme/boundary/node_vector.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace diptych::scheme {
@@ -54,6 +55,31 @@ double gap_of(const RigidWall& wall, const Vec3& X, const BlockField& u, std::in
 }
 
 }  // namespace
+
+/// The wall would throw the node out within one step. Depths that rounding makes (of a state in
+/// single precision too, or of a mesh file) cost velocities of a millionth of the wave speed.
+template <int Dim>
+void WallContacts::require_in_front(const Body<Dim>& body) const {
+  const WallNode* deepest = nullptr;
+  double depth = 0;
+  for (const WallNode& w : nodes_) {
+    const double gap = gap_of<Dim>(w.wall, w.body.X, body.u, w.body.node);
+    const double size =
+        std::pow(w.body.Omega, 1.0 / Dim) + vector_at<Dim>(body.u, w.body.node).norm();
+    const double rounding = 1e-6 * size + 1e-12 * (w.body.X.norm() + w.wall.point.norm());
+    if (-gap <= std::max(depth, rounding)) continue;
+    depth = -gap;
+    deepest = &w;
+  }
+  if (deepest == nullptr) return;
+  const Vec3& X = deepest->body.X;
+  throw base::InputError(fmt::format(
+      "group '{}' begins {:.6g} m behind its rigid wall, deepest at the node at ({:g}, {:g}, "
+      "{:g}): "
+      "move the point of the wall by as much against its normal, or the body along it; the normal "
+      "must point towards the body",
+      deepest->body.patch->name, depth, X[0], X[1], X[2]));
+}
 
 /// Sets v_n by an impulse along the free direction.
 template <int Dim>
@@ -215,6 +241,7 @@ Vec3 WallContacts::force(const Body<Dim>& body, const std::vector<std::int32_t>&
 }
 
 #define DIPTYCH_INSTANTIATE(Dim)                                                                 \
+  template void WallContacts::require_in_front(const Body<Dim>&) const;                          \
   template void WallContacts::hold(Body<Dim>&, const StageCombination&, const StageCombination&, \
                                    ConstraintAction&);                                           \
   template void WallContacts::hold_in_middle(Body<Dim>&, double, ConstraintAction&);             \

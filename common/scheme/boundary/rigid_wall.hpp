@@ -33,6 +33,7 @@ struct WallCandidate {
   Vec3 X;            ///< m
   Vec3 X_centred;    ///< m, for moments
   Mat3 keep;         ///< projector on the directions that other conditions leave free
+  const BoundaryPatch* patch = nullptr;  ///< that it is of
 };
 
 class WallContacts {
@@ -43,6 +44,10 @@ class WallContacts {
   /// To be called once all nodes are there.
   void list_chunks();
   bool empty() const { return nodes_.empty(); }
+  /// To be called with the state that a run begins with: within steps no node comes behind a wall.
+  /// @throws base::InputError where one stands there by more than rounding, with the deepest
+  template <int Dim>
+  void require_in_front(const Body<Dim>& body) const;
   /// Among ranks: takes what the owners of nodes know of them.
   void complete(const parallel::Part& part);
 

@@ -5,7 +5,7 @@
 #include "common/time/integrator.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 namespace diptych {
 namespace {
@@ -161,7 +161,13 @@ TEST_P(RigidWall, NoNodeIsInsideAtTheEndOfAStep) {
   }
 }
 
-TEST(RigidWallInput, LeavesHeldDirectionsAlone) {
+class RigidWallInput : public testing::Test {
+ protected:
+  void SetUp() override { parallel::set_threads(1); }
+  void TearDown() override { parallel::set_threads(0); }
+};
+
+TEST_F(RigidWallInput, LeavesHeldDirectionsAlone) {
   // the wall meets the roller plane at a right angle: it pushes along the plane only
   Scene s = scene_of("fvm", std::string(bar) + R"(
 [[boundary]]
@@ -172,6 +178,20 @@ type = "symmetry"
   for (const Vec3& v : s.solver->snapshot(wall_nodes(s)).v)
     EXPECT_EQ(v.x(), 0);
   EXPECT_EQ(s.solver->audit().external_work, 0) << "nothing hit: the group is held";
+}
+
+TEST_F(RigidWallInput, RefusesABodyThatBeginsBehindItsWall) {
+  const std::string behind = "group 'x_min' begins 0.001 m behind its rigid wall";
+  for (const auto& [given, message] :
+       {std::pair<std::string, std::string>{"boundary.0.point=[1e-3,7]", behind},
+        {"initial.displacement=[\"-2e-3\",\"0\"]", behind},
+        {"boundary.0.normal=[-2,0]", behind},
+        {"boundary.0.point=[1e-10,7]", ""},  // rounding
+        {"initial.displacement=[\"-1e-3\",\"0\"]", ""}}) {
+    const std::string said = tests::refusal_of("fvm", bar, {given});
+    EXPECT_THAT(said, testing::StartsWith(message)) << given;
+    EXPECT_EQ(said.empty(), message.empty()) << said;
+  }
 }
 
 }  // namespace
