@@ -4,11 +4,13 @@
 #include "benchmarks/run/breakdowns.hpp"
 #include "benchmarks/run/memory_estimate.hpp"
 #include "benchmarks/run/output_folder.hpp"
+#include "common/base/error.hpp"
 #include "common/base/text.hpp"
 #include "common/run/field_norms.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -95,10 +97,32 @@ std::vector<CampaignRun> plan_of(const std::vector<Column>& columns,
     for (const Column& column : columns) {
       plan.push_back(
           {&column.setup, run_options(options, level, column), column.name(), column.method});
+      plan.back().may_be_refused =
+          options.goes_past_refusals && options.methods.size() == 2 && column.variant.empty();
       plan.back().options.before_writing = [&output] { output.prepare(); };
     }
   }
   return plan;
+}
+
+/// Told at once, as the other method may take long.
+void tell(const Refusal& one) {
+  std::fputs(
+      fmt::format("{} level {} is refused: {}\n", one.column, one.level, one.message).c_str(),
+      stderr);
+}
+
+/// What both methods say is said once.
+[[noreturn]] void refuse_all(const std::vector<Refusal>& refusals) {
+  std::vector<std::string> messages;
+  for (const Refusal& one : refusals)
+    messages.push_back(one.message);
+  const bool is_one = std::equal(messages.begin() + 1, messages.end(), messages.begin());
+  if (is_one) throw base::InputError(messages.front());
+  std::string all = "no method takes the case";
+  for (const Refusal& one : refusals)
+    all += fmt::format("\n  {} level {}: {}", one.column, one.level, one.message);
+  throw base::InputError(all);
 }
 
 }  // namespace
@@ -127,6 +151,11 @@ Study run_study(const cases::Case& setup, const StudyOptions& options) {
     const RunOptions& run = plan[number].options;
     const std::string column = run.column();
     RunResult& result = made.run;
+    if (result.summary.status == "failed") {
+      study.refusals.push_back({column, run.level, result.summary.failure->message});
+      if (!options.quiet && number + 1 < plan.size()) tell(study.refusals.back());
+      return;
+    }
     if (result.summary.status == "breakdown") {
       study.breakdowns.push_back(breakdown_of(result.summary));
       return;
@@ -141,6 +170,7 @@ Study run_study(const cases::Case& setup, const StudyOptions& options) {
     finest.push_back({column, run.variant.empty(), std::move(result)});
   };
   if (!make_runs(plan, options.resume ? TakeOver::finished : TakeOver::nothing, add)) return study;
+  if (study.is_empty() && !study.refusals.empty()) refuse_all(study.refusals);
   add_differences(finest, study);
   output.prepare();  // where all runs were taken over
   return study;

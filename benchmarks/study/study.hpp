@@ -25,16 +25,25 @@ struct StudyOptions {
   bool shapes = false;  ///< keep deformed surfaces of both methods, finest level, for the report
   bool resume = false;  ///< runs that the same program has finished there are taken over
   bool force = false;   ///< results of another case in the folder may be replaced
-  bool keeps_checkpoints = false;                  ///< of runs, see RunOptions::checkpoints
-  bool goes_on = false;                            ///< with what lies in the folder (one level)
+  bool goes_past_refusals = false;  ///< a method that cannot begin leaves the other one to run
+  bool keeps_checkpoints = false;   ///< of runs, see RunOptions::checkpoints
+  bool goes_on = false;             ///< with what lies in the folder (one level)
   std::map<std::string, std::string> checkpoints;  ///< method: file to go on from
+};
+
+/// A run that could not be begun, of which nothing was written.
+struct Refusal {
+  std::string column;
+  int level = 0;
+  std::string message;
 };
 
 struct Study {
   std::vector<Column> columns;  ///< both methods, then the variants
-  /// level by level, in the order of the columns; without those that broke down
+  /// level by level, in the order of the columns; without those that broke down or were refused
   std::vector<io::RunSummary> runs;
   std::vector<report::Breakdown> breakdowns;
+  std::vector<Refusal> refusals;  ///< where the options go past them
   // of each column the finest level that did not break down
   std::map<std::string, std::vector<io::HistoryRow>> histories;  ///< column: rows
   std::map<std::string, std::vector<io::HistoryColumn>> exact;   ///< column: columns of exact.csv
@@ -56,7 +65,8 @@ struct Study {
 
 /// Runs both methods and the variants on all levels; a breakdown ends only its own run, an
 /// interrupt all.
-/// @throws base::InputError where results of another case lie in the folder
+/// @throws base::InputError where results of another case lie in the folder, and of a run that
+///         cannot be begun: where the options go past refusals, once no method can
 Study run_study(const cases::Case& setup, const StudyOptions& options);
 
 /// The study as the report shows it. @param convergence  of its runs; empty: of one level

@@ -146,6 +146,19 @@ std::string end_of(const harness::Study& study, const std::string& folder) {
                           : harness::begin_again(folder);
 }
 
+int exit_code_of(const harness::Study& study, const std::string& to_go_on) {
+  const int code = harness::exit_code_of_study(study.breakdowns, study.runs, to_go_on);
+  for (const harness::Refusal& one : study.refusals) {
+    std::fputs(
+        fmt::format("diptych: {} level {} was refused: {}\n", one.column, one.level, one.message)
+            .c_str(),
+        stderr);
+  }
+  const bool is_refused =
+      !study.refusals.empty() && code != static_cast<int>(base::ExitCode::interrupted);
+  return is_refused ? static_cast<int>(base::ExitCode::wrong_input) : code;
+}
+
 void write_report(const cases::Case& setup,
                   const harness::Study& study,
                   const std::string& folder,

@@ -71,6 +71,10 @@ void print_references(const cases::Case& setup, const harness::Study& study);
 /// Of a command without levels that was interrupted: where what it has is, and how to go on.
 std::string end_of(const harness::Study& study, const std::string& folder);
 
+/// See exit_code_of_study; but 2 where a method was refused, with lines on the standard error
+/// stream.
+int exit_code_of(const harness::Study& study, const std::string& to_go_on);
+
 /// Writes DIR/report.html and says so. @param convergence  of the runs; empty: of one level
 void write_report(const cases::Case& setup,
                   const harness::Study& study,

@@ -27,7 +27,7 @@ void print_comparison(const cases::Case& setup, const harness::Study& study) {
     if (study.runs.size() > 2) print("\n" + harness::columns_table(study.runs, study.distances));
     for (const auto& summary : study.runs)
       print(harness::inverted_cells_warning(summary));
-  } else {  // the other one broke down, or was never begun
+  } else {  // the other one broke down, was refused or never begun
     for (const auto& summary : study.runs)
       print(harness::run_table(summary) + "\n");
   }
@@ -37,13 +37,13 @@ int compare_methods(const CaseArguments& arguments) {
   const cases::Case setup = arguments.read();
   auto options = arguments.comparison_options(setup);
   options.shapes = true;
+  options.goes_past_refusals = true;
   const harness::Study study = harness::run_study(setup, options);
   print_comparison(setup, study);
   print_references(setup, study);
   print_breakdowns(study);
   if (study.has_all()) write_report(setup, study, options.directory);
-  return harness::exit_code_of_study(study.breakdowns, study.runs,
-                                     end_of(study, options.directory));
+  return exit_code_of(study, end_of(study, options.directory));
 }
 
 }  // namespace

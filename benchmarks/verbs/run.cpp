@@ -17,6 +17,7 @@ int run_methods(const CaseArguments& arguments) {
   const cases::Case setup = arguments.read();
   auto options = arguments.study_options(setup);
   options.keeps_checkpoints = true;
+  options.goes_past_refusals = true;
   go_on(setup, arguments.restart, !arguments.directory.empty(), options);
   const harness::Study study = harness::run_study(setup, options);
   for (const std::string& directory : study.taken_over)
@@ -25,10 +26,8 @@ int run_methods(const CaseArguments& arguments) {
     print(harness::run_table(summary) + "\n");
   print_breakdowns(study);
   if (!study.is_empty()) print("output: " + options.directory + "\n");
-  return harness::exit_code_of_study(study.breakdowns, study.runs,
-                                     study.is_empty()
-                                         ? end_of(study, options.directory)
-                                         : harness::go_on_from_checkpoint(options.directory));
+  return exit_code_of(study, study.is_empty() ? end_of(study, options.directory)
+                                              : harness::go_on_from_checkpoint(options.directory));
 }
 
 }  // namespace
