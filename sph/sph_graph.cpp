@@ -137,8 +137,9 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
   const Kernel kernel = kernels().at(options.kernel);
   if (!(options.kappa >= least_kappa && options.kappa <= greatest_kappa)) {
     throw base::InputError(
-        fmt::format("kappa = {:.6g} is out of range; use {} to {} (1.2 is usual)", options.kappa,
-                    least_kappa, greatest_kappa));
+        fmt::format("kappa = {:.6g} is out of range; use {} to {} (1.2 is usual; corners of boxes "
+                    "take 0.708, with quintic-spline 0.5)",
+                    options.kappa, least_kappa, greatest_kappa));
   }
   const bool sums_by_parts = choice_of(mesh, options).gradient == Gradient::sbp;
   if (sums_by_parts && meshes::is_undistorted_block(mesh))

@@ -6,6 +6,7 @@
 #include "meshes/gmsh.hpp"
 #include "meshes/renumber.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -63,6 +64,29 @@ std::filesystem::path new_folder(const std::string& work_directory) {
   return name;
 }
 
+/// A file may mix cells; prisms have no name that a case could give.
+void check_element(const cases::Case& setup, const meshes::Mesh& mesh) {
+  const auto& menu = meshes::cell_menu();
+  const auto has = [&](const std::string& name) {
+    const auto& types = mesh.cell_types;
+    return std::find(types.begin(), types.end(), menu.at(name)) != types.end();
+  };
+  if (has(setup.mesh.element)) return;
+  for (const std::string& name : menu.names()) {
+    if (!has(name)) continue;
+    throw base::InputError(
+        fmt::format("{}: mesh.element = \"{}\", but '{}' has no such cells: its own are of type "
+                    "{}; write mesh.element = \"{}\"",
+                    setup.file, setup.mesh.element, setup.mesh.file, name, name));
+  }
+  if (mesh.dimension == cases::dimension_of(setup.mesh)) return;
+  throw base::InputError(fmt::format(
+      "{}: mesh.element = \"{}\" makes the case {}-D, but the cells of '{}' are {}-D; give an "
+      "element of theirs",
+      setup.file, setup.mesh.element, cases::dimension_of(setup.mesh), setup.mesh.file,
+      mesh.dimension));
+}
+
 meshes::Mesh file_mesh(const cases::Case& setup, int level, const std::string& work_directory) {
   const std::filesystem::path path = setup.mesh.file;
   if (!std::filesystem::exists(path)) {
@@ -106,6 +130,7 @@ CaseMesh mesh_of(const cases::Case& setup, int level, const std::string& work_di
     result.mesh = box_of(setup.mesh, level);
   } else {
     result.mesh = file_mesh(setup, level, work_directory);
+    check_element(setup, result.mesh);
   }
   if (setup.mesh.perturbation > 0) {
     meshes::perturb_interior(result.mesh, setup.mesh.perturbation, setup.mesh.seed + level);

@@ -171,6 +171,11 @@ bool is_redirected(Tokens tokens) {
   return opens(tokens.next()) && pass_parenthesis(tokens) && tokens.next().is('>');
 }
 
+/// Whether = stands here, and not ==.
+bool is_given_a_value(Tokens tokens) {
+  return tokens.next().is('=') && !tokens.next().is('=');
+}
+
 bool is_below(const fs::path& path, const fs::path& folder) {
   const auto [in_folder, in_path] =
       std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
@@ -193,7 +198,8 @@ class Scan {
       const std::string text = msh::file_bytes(file.path.string());
       Tokens tokens(text, 0);
       for (Token token = tokens.next(); token.kind != Token::Kind::end; token = tokens.next()) {
-        if (token.kind == Token::Kind::word && token.text == name) return true;
+        if (token.kind == Token::Kind::word && token.text == name && !is_given_a_value(tokens))
+          return true;
       }
       return false;
     });

@@ -18,7 +18,8 @@ namespace diptych::meshes {
 ///         regular one
 void check_geo(const std::string& path);
 
-/// Whether the file, or one that it takes in, uses this name outside comments and strings.
+/// Whether the file, or one that it takes in, uses this name outside comments and strings: other
+/// than to give it a value.
 /// @throws base::InputError as check_geo
 bool uses_name(const std::string& path, std::string_view name);
 

@@ -156,7 +156,8 @@ double size_at_end(const std::string& output) {
 void check_size(const std::string& geo_path, double size, const std::string& output) {
   if (!uses_name(geo_path, "h")) {
     throw base::InputError(fmt::format(
-        "{}: mesh.size has no effect, since the file has no h: write DefineConstant[ h = {:.6g} ]; "
+        "{}: mesh.size has no effect, since the file does not use h: write DefineConstant[ h = "
+        "{:.6g} ]; "
         "and give its points h as their size, or mesh it yourself and give the .msh file",
         geo_path, size));
   }

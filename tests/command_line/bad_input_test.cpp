@@ -159,6 +159,21 @@ TEST(BadMesh, InvertedCellIsNamed) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 
+TEST(BadMesh, CellsOfAnotherElementAreNamed) {
+  const Folder folder;
+  folder.write("pair.msh",
+               "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n"
+               "4 0 0 1\n5 1 1 1\n$EndNodes\n$Elements\n2\n1 4 2 1 1 1 2 3 4\n"
+               "2 4 2 1 1 2 3 4 5\n$EndElements\n");
+  folder.write("case.toml", with("lower = [0, 0, 0]\nupper = [1, 1, 1]\ncells = [2, 2, 2]",
+                                 "file = \"pair.msh\""));
+  const auto outcome = diptych(folder, "run case.toml --quiet --out out");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr("case.toml: mesh.element = \"hexahedron\""),
+                                  HasSubstr("write mesh.element = \"tetrahedron\"")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
 TEST(CommandLine, WrongWordsEndWithCodeTwo) {
   const Folder folder;
   for (const char* arguments :

@@ -194,7 +194,10 @@ TEST_F(MeshGeoWithGmsh, ASizeWithoutEffectIsWrongInput) {
   };
   EXPECT_EQ(message("DefineConstant[ h = 0.5 ];", "h"), "");
   EXPECT_THAT(message("h = 0.5;", "h"), HasSubstr("the file sets h = 0.5 itself"));
-  EXPECT_THAT(message("// h is not used", "0.5"), HasSubstr("the file has no h"));
+  EXPECT_THAT(message("// h is not used", "0.5"), HasSubstr("the file does not use h"));
+  EXPECT_THAT(message("DefineConstant[ h = 0.5 ];", "0.5"), HasSubstr("the file does not use h"));
+  EXPECT_EQ(message("DefineConstant[ h = 0.5 ];\nn = h;", "n"), "");
+  EXPECT_EQ(message("DefineConstant[ h = 0.5 ];\nIf (h == 0.25)\n  n = 1;\nEndIf", "0.5"), "");
 }
 
 TEST_F(MeshGeoWithGmsh, SyntaxErrorIsWrongInputWithItsLine) {

@@ -61,7 +61,7 @@ SectionKeys<MeshCase> mesh_keys() {
       .key("element", &MeshCase::element,
            with_default(one_of(meshes::cell_menu().names(),
                                "Cell type; the last two make the case 2-D (plane strain), and then "
-                               "all vectors have two entries.",
+                               "all vectors have two entries. A mesh file must have such cells.",
                                "\"tetrahedron\"", "required with mesh.file")))
       .key("file", &MeshCase::file,
            optional(
