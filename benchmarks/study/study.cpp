@@ -120,8 +120,11 @@ void tell(const Refusal& one) {
   const bool is_one = std::equal(messages.begin() + 1, messages.end(), messages.begin());
   if (is_one) throw base::InputError(messages.front());
   std::string all = "no method takes the case";
-  for (const Refusal& one : refusals)
-    all += fmt::format("\n  {} level {}: {}", one.column, one.level, one.message);
+  const char* before = ": ";
+  for (const Refusal& one : refusals) {
+    all += fmt::format("{}{} level {}: {}", before, one.column, one.level, one.message);
+    before = "; ";
+  }
   throw base::InputError(all);
 }
 
