@@ -66,6 +66,26 @@ DIPTYCH_CLONES void apply_rows(
   }
 }
 
+/// How far a quadratic is from linear on a row (spline_levels.hpp).
+void row_moments(const scheme::PairGraph& graph,
+                 const std::vector<double>& k,
+                 const Mat3& inverse,
+                 std::int64_t a,
+                 SplineLevels<quadratic>::Moments& left,
+                 SplineLevels<quadratic>::Moments& whole) {
+  using Levels = SplineLevels<quadratic>;
+  Eigen::Matrix<double, 3, Levels::n_terms> mixed =
+      Eigen::Matrix<double, 3, Levels::n_terms>::Zero();
+  whole.setZero();
+  for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+    const Vec3 X = graph.X[graph.neighbour[p]] - graph.X[a];
+    const Levels::Terms m = Levels::monomials(X);
+    whole += (0.25 * k[p]) * m * m.transpose();
+    mixed += (0.5 * k[p]) * X * m.transpose();
+  }
+  left = whole - mixed.transpose() * inverse * mixed;
+}
+
 }  // namespace
 
 std::vector<Mat3> inverse_second_moments(const scheme::PairGraph& graph,
@@ -99,7 +119,9 @@ PairCorrection::PairCorrection(const scheme::PairGraph& graph, const std::vector
       inverse_(inverse_second_moments(graph, k)),
       diagonal_(graph.X.size(), 0.0),
       records_(graph.n_nodes()),
-      smooth_(graph, k, inverse_) {
+      smooth_(graph, [&](std::int64_t a, auto& left, auto& whole) {
+        row_moments(graph, k, inverse_[a], a, left, whole);
+      }) {
   for_each_node(diagonal_.size(), [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t a = begin; a < end; ++a) {
       const Vec3 m = inverse_[a] * first_moment(graph, k, a);

@@ -43,7 +43,7 @@ class PairCorrection {
   std::vector<Mat3> inverse_;
   std::vector<double> diagonal_;
   algebra::AlignedArray<Record> records_;
-  SplineLevels smooth_;
+  SplineLevels<quadratic> smooth_;
 };
 
 }  // namespace diptych::closure

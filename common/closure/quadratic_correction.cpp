@@ -244,8 +244,65 @@ QuadraticCorrection<D>::QuadraticCorrection(const scheme::PairGraph& graph,
   for (std::int64_t a = 0; a < graph.n_nodes(); ++a)
     inverse_[a] = invert(moments[a], graph, a);
   set_blocks();
-  smooth_ = std::make_unique<SplineLevels>(graph, k, inverse_second_moments(graph, k), h_);
-  smooth_->scale_to([this](const Field& y, Field& S_y) { apply_S(y, S_y); });
+  set_smooth();
+}
+
+/// Preconditioners of what is smooth. Jumps t_ab of (s, grad s / 3) are a multiple of the monomials
+/// of degree 4, those of (0, s e_i) X_i times those of degree 2; row a leaves of either what it
+/// does not fit.
+template <int D>
+void QuadraticCorrection<D>::set_smooth() {
+  using Fourth = SplineLevels<quartic>;
+  using Second = SplineLevels<quadratic>;
+  cubics_ = std::make_unique<Fourth>(graph_, [&](std::int64_t a, auto& left, auto& whole) {
+    left.setZero();
+    whole.setZero();
+    add_moments<Fourth>(
+        a, [](const Vec3&) { return 1.0; }, left, whole);
+  });
+  cubics_->set_slopes(graph_, h_);
+  cubics_->scale_to([this](const Field& y, Field& S_y) { apply_S(y, S_y); });
+  gradients_ = std::make_unique<Second>(graph_, [&](std::int64_t a, auto& left, auto& whole) {
+    left.setZero();
+    whole.setZero();
+    for (int i = 0; i < D; ++i)
+      add_moments<Second>(
+          a, [i](const Vec3& X) { return X[i]; }, left, whole);
+  });
+  of_gradient_.resize(h_.size());
+  sum_of_gradient_.resize(h_.size());
+  Field all(h_.size() * n_conditions), S_all(all.size());
+  gradients_->scale_to([&](const Field& y, Field& S_y) {  // the mean over directions
+    std::fill(S_y.begin(), S_y.end(), Vec3::Zero());
+    for (int i = 0; i < D; ++i) {
+      std::fill(all.begin(), all.end(), Vec3::Zero());
+      for (size_t a = 0; a < h_.size(); ++a)
+        all[a * n_conditions + 1 + i] = h_[a] * y[a];
+      apply_S(all, S_all);
+      for (size_t a = 0; a < h_.size(); ++a)
+        S_y[a] += h_[a] / D * S_all[a * n_conditions + 1 + i];
+    }
+  });
+}
+
+/// T_a of spline_levels.hpp with jumps factor(X) times its monomials.
+template <int D>
+template <class Levels, class Factor>
+void QuadraticCorrection<D>::add_moments(std::int64_t a,
+                                         const Factor& factor,
+                                         typename Levels::Moments& left,
+                                         typename Levels::Moments& whole) const {
+  Eigen::Matrix<double, n_terms, Levels::n_terms> mixed;
+  mixed.setZero();
+  typename Levels::Moments all = Levels::Moments::Zero();
+  for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
+    const Vec3 X = graph_.X[graph_.neighbour[p]] - graph_.X[a];
+    const typename Levels::Terms m = factor(X) * Levels::monomials(X);
+    all += k_[p] * m * m.transpose();
+    mixed += k_[p] * terms(X / reach_[a]) * m.transpose();
+  }
+  whole += all;
+  left += all - mixed.transpose() * inverse_[a] * mixed;
 }
 
 /// Of S, from what a multiplier of node a does to its own row and, one pair each, to those of its
@@ -355,7 +412,20 @@ void QuadraticCorrection<D>::precondition(const Field& r, Field& z) {
           Eigen::Map<const Conditions>(r[first].data()) * blocks_[a];
     }
   });
-  smooth_->add(r, z);
+  cubics_->add(r, z);
+  for (int i = 0; i < D; ++i) {
+    for_each_node(h_.size(), [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t a = begin; a < end; ++a) {
+        of_gradient_[a] = h_[a] * r[a * n_conditions + 1 + i];
+        sum_of_gradient_[a].setZero();
+      }
+    });
+    gradients_->add(of_gradient_, sum_of_gradient_);
+    for_each_node(h_.size(), [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t a = begin; a < end; ++a)
+        z[a * n_conditions + 1 + i] += h_[a] * sum_of_gradient_[a];
+    });
+  }
 }
 
 template <int D>

@@ -54,6 +54,12 @@ class QuadraticCorrection {
  private:
   void fit(const Field& y);
   void set_blocks();
+  void set_smooth();
+  template <class Levels, class Factor>
+  void add_moments(std::int64_t a,
+                   const Factor& factor,
+                   typename Levels::Moments& left,
+                   typename Levels::Moments& whole) const;
 
   const scheme::PairGraph& graph_;
   const std::vector<double>& k_;
@@ -62,7 +68,9 @@ class QuadraticCorrection {
   std::vector<Square> inverse_;  ///< (sum k q q^T)^-1 with q of X/reach_a
   std::vector<Block> blocks_;    ///< inverse diagonal blocks of S
   algebra::AlignedArray<Record> records_;
-  std::unique_ptr<SplineLevels> smooth_;
+  std::unique_ptr<SplineLevels<quartic>> cubics_;       ///< of (s, grad s / 3)
+  std::unique_ptr<SplineLevels<quadratic>> gradients_;  ///< of (0, s e_i), each i
+  Field of_gradient_, sum_of_gradient_;                 ///< work space  [n_nodes]
 };
 
 extern template class QuadraticCorrection<2>;

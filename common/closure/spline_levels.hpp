@@ -3,18 +3,21 @@
 ///
 /// The operator S of repair_closure_pairs measures how far a field is from linear on each row: a
 /// fourth-order operator, on which conjugate gradients with a diagonal need of the order of (L/h)^2
-/// steps. On smooth fields
-///   y.S y ~ sum_a Hess_a : T_a : Hess_a,
-///   T_a = 1/4 sum_b k_ab r_ab r_ab^T,  r_ab = monomials of degree 2 less their linear fit,
-/// so quadratic B-splines (C^1) on grids of spacing H, 2H, 4H, ... carry the additive
-/// preconditioner of Bramble, Pasciak and Xu (1990):
+/// steps. That of quadratic_correction.hpp measures how far a field is from a cubic, multipliers
+/// (y, Y h) = (phi, h grad phi / 3) do nothing where phi is one: an eighth-order operator. On
+/// smooth fields, with m = 2 or 4 and D^m the derivatives of order m,
+///   y.S y ~ sum_a D^m_a : T_a : D^m_a,
+///   T_a = c sum_b k_ab r_ab r_ab^T,  r_ab = monomials of degree m less what their row fits to
+///   them,
+/// so that B-splines of degree m, which are C^(m-1), on grids of spacing H, 2H, 4H, ... carry the
+/// additive preconditioner of Bramble, Pasciak and Xu (1990):
 ///   z = D^-1 r + sum_levels P D_level^-1 P^T r.
+/// Splines of a lower degree have jumps in D^m, which cost S far more than what is smooth.
 ///
-/// The operator of quadratic_correction.hpp measures how far a field is from a cubic: multipliers
-/// (y, Y h) = (phi, h grad phi / 3) do nothing where phi is one. The same splines, with their
-/// gradients, carry its smooth modes; what their energy is beside that of their curvature is
-/// measured, level by level, on sums of all splines with random signs.
-/// Test: tests/graphs/closure_repair_test.cpp (steps stay bounded when the grid is refined).
+/// For the second the same splines come with their gradients; what their energy is beside that of
+/// their derivatives is measured, level by level, on sums of all splines with random signs.
+/// Test: tests/graphs/closure_repair_test.cpp, tests/graphs/summation_by_parts_test.cpp (steps stay
+/// bounded when the grid is refined).
 
 #include "common/algebra/field.hpp"
 #include "common/algebra/four.hpp"
@@ -22,27 +25,33 @@
 #include "common/closure/spline_sums.hpp"
 #include "common/scheme/graph/pair_graph.hpp"
 
+#include <Eigen/Core>
+
 #include <array>
 #include <functional>
 #include <vector>
 
 namespace diptych::closure {
 
+/// @tparam P  quadratic, of fields of one vector a node; quartic, of multipliers with gradients, of
+///            1 + dimension vectors a node
+template <int P>
 class SplineLevels {
  public:
   using Index = SplineIndex;
+  static constexpr int n_terms = (P + 1) * (P + 2) / 2;  ///< derivatives of order P in space
+  using Terms = Eigen::Matrix<double, n_terms, 1>;
+  using Moments = Eigen::Matrix<double, n_terms, n_terms>;
+  /// T_a, and the same of the monomials as they are.
+  using RowMoments = std::function<void(std::int64_t a, Moments& left, Moments& whole)>;
 
-  /// @param k       [n_pairs] weights of the repair
-  /// @param inverse [n_nodes] inverse second moments of the rows, see repair_closure_pairs
-  SplineLevels(const scheme::PairGraph& graph,
-               const std::vector<double>& k,
-               const std::vector<Mat3>& inverse);
-  /// For multipliers with gradients: fields hold 1 + dimension vectors a node.
-  /// @param h [n_nodes] spacings  [m]
-  SplineLevels(const scheme::PairGraph& graph,
-               const std::vector<double>& k,
-               const std::vector<Mat3>& inverse,
-               const std::vector<double>& h);
+  SplineLevels(const scheme::PairGraph& graph, const RowMoments& moments);
+
+  /// X^alpha / alpha!, what the derivative alpha of order P is multiplied with in Taylor's series.
+  static Terms monomials(const Vec3& X);
+
+  /// With their gradients.  @param h [n_nodes] spacings  [m]
+  void set_slopes(const scheme::PairGraph& graph, const std::vector<double>& h);
 
   /// Makes the energy of each level that of S.
   void scale_to(const FieldOperator& S);
@@ -54,16 +63,16 @@ class SplineLevels {
   struct Level {
     Vec3 H = Vec3::Ones();             ///< m, per direction
     Index n{1, 1, 1};                  ///< splines per direction
-    std::vector<double> diagonal;      ///< Hess : T : Hess of each spline, 0 where it is left out
-    std::vector<double> uncorrected;   ///< the same without the linear fit, to judge round-off
+    std::vector<double> diagonal;      ///< D^P : T : D^P of each spline, 0 where it is left out
+    std::vector<double> uncorrected;   ///< the same without any fit, to judge round-off
     std::vector<double> mass;          ///< sum_a Omega_a value^2, to judge whether it is felt
     algebra::AlignedArray<Four> grid;  ///< work space: a vector per spline
     std::int64_t size() const { return static_cast<std::int64_t>(n[0]) * n[1] * n[2]; }
   };
-  /// The splines that a point feels: three per direction from `first`, values and derivatives.
+  /// The splines that a point feels: P + 1 per direction from `first`; derivatives of order 0 to P.
   struct Splines {
     Index first{};
-    double value[3][3]{}, slope[3][3]{}, curvature[3][3]{};
+    double value[P + 1][3][P + 1]{};
   };
 
   void set_levels(const scheme::PairGraph& graph);
@@ -74,23 +83,27 @@ class SplineLevels {
   void add_energy(Level& level,
                   const Splines& s,
                   double Omega,
-                  const Eigen::Matrix<double, 6, 6> T[2]) const;
+                  const Moments& left,
+                  const Moments& whole) const;
   void leave_out_unfelt(Level& level);
   void prolong(size_t level, std::vector<Vec3>& z);
-  /// Calls visit(fine, coarse, weight) for the two-scale relation 1/4 (1 3 3 1) in each direction.
+  /// Calls visit(fine, coarse, weight) for the two-scale relation in each direction that is halved.
   template <class Visit>
   void for_each_child(const Level& fine, const Level& coarse, const Visit& visit) const;
 
   int dimension_ = 3;
-  int per_direction_z_ = 3;  ///< splines felt in z: one in 2-D
+  int n_z_ = P + 1;  ///< splines felt in z: one in 2-D
   Vec3 lower_ = Vec3::Zero();
   std::vector<Level> levels_;
-  std::vector<NodeSplines> node_splines_;  ///< [n_nodes] on the finest level
-  std::vector<NodeSlopes> node_slopes_;    ///< [n_nodes], empty without gradients
-  /// Nodes by the layer of the finest grid that they are in; three layers apart they share no
+  std::vector<NodeSplines<P>> node_splines_;  ///< [n_nodes] on the finest level
+  std::vector<NodeSlopes<P>> node_slopes_;    ///< [n_nodes], empty without gradients
+  /// Nodes by the layer of the finest grid that they are in; P + 1 layers apart they share no
   /// spline.
   std::vector<std::int32_t> by_layer_;
   std::vector<std::int64_t> layer_;  ///< [n_layers + 1] into by_layer_
 };
+
+extern template class SplineLevels<quadratic>;
+extern template class SplineLevels<quartic>;
 
 }  // namespace diptych::closure

@@ -6,19 +6,19 @@ namespace diptych::closure {
 
 DIPTYCH_CLONES void spread_nodes(const std::int32_t* begin,
                                  const std::int32_t* end,
-                                 const NodeSplines* splines,
+                                 const NodeSplines<quadratic>* splines,
                                  const SplineIndex& n,
                                  int n_z,
                                  const Vec3* r,
                                  Four* grid) {
   for (; begin != end; ++begin) {
-    const NodeSplines& s = splines[*begin];
+    const NodeSplines<quadratic>& s = splines[*begin];
     const Four field = algebra::load_three(r[*begin]);
     for (int k = 0; k < n_z; ++k) {
-      for (int j = 0; j < 3; ++j) {
+      for (int j = 0; j <= quadratic; ++j) {
         const Four w = s.value[2][k] * s.value[1][j] * field;
         Four* g = grid + s.first + (static_cast<std::int64_t>(k) * n[1] + j) * n[0];
-        for (int i = 0; i < 3; ++i)
+        for (int i = 0; i <= quadratic; ++i)
           g[i] += s.value[0][i] * w;
       }
     }
@@ -27,16 +27,16 @@ DIPTYCH_CLONES void spread_nodes(const std::int32_t* begin,
 
 DIPTYCH_CLONES void gather_nodes(std::int64_t begin,
                                  std::int64_t end,
-                                 const NodeSplines* splines,
+                                 const NodeSplines<quadratic>* splines,
                                  const SplineIndex& n,
                                  int n_z,
                                  const Four* grid,
                                  Vec3* z) {
   for (std::int64_t a = begin; a < end; ++a) {
-    const NodeSplines& s = splines[a];
+    const NodeSplines<quadratic>& s = splines[a];
     Four sum = algebra::load_three(z[a]);
     for (int k = 0; k < n_z; ++k) {
-      for (int j = 0; j < 3; ++j) {
+      for (int j = 0; j <= quadratic; ++j) {
         const Four* g = grid + s.first + (static_cast<std::int64_t>(k) * n[1] + j) * n[0];
         sum += s.value[2][k] * s.value[1][j] *
                (s.value[0][0] * g[0] + s.value[0][1] * g[1] + s.value[0][2] * g[2]);
@@ -48,26 +48,26 @@ DIPTYCH_CLONES void gather_nodes(std::int64_t begin,
 
 DIPTYCH_CLONES void spread_nodes_with_slopes(const std::int32_t* begin,
                                              const std::int32_t* end,
-                                             const NodeSplines* splines,
-                                             const NodeSlopes* slopes,
+                                             const NodeSplines<quartic>* splines,
+                                             const NodeSlopes<quartic>* slopes,
                                              const SplineIndex& n,
                                              int d,
                                              const Vec3* r,
                                              Four* grid) {
   for (; begin != end; ++begin) {
-    const NodeSplines& s = splines[*begin];
-    const NodeSlopes& g = slopes[*begin];
+    const NodeSplines<quartic>& s = splines[*begin];
+    const NodeSlopes<quartic>& g = slopes[*begin];
     const Vec3* of_node = r + static_cast<std::int64_t>(*begin) * (1 + d);
     const Four field = algebra::load_three(of_node[0]), by_x = algebra::load_three(of_node[1]),
                by_y = algebra::load_three(of_node[2]),
                by_z = d == 3 ? algebra::load_three(of_node[3]) : Four{};
-    for (int k = 0; k < (d == 3 ? 3 : 1); ++k) {
-      for (int j = 0; j < 3; ++j) {
+    for (int k = 0; k < (d == 3 ? quartic + 1 : 1); ++k) {
+      for (int j = 0; j <= quartic; ++j) {
         const double z = s.value[2][k], y = s.value[1][j];
         const Four across = z * y * field + z * g.value[1][j] * by_y + g.value[2][k] * y * by_z;
         const Four along = z * y * by_x;
         Four* place = grid + s.first + (static_cast<std::int64_t>(k) * n[1] + j) * n[0];
-        for (int i = 0; i < 3; ++i)
+        for (int i = 0; i <= quartic; ++i)
           place[i] += s.value[0][i] * across + g.value[0][i] * along;
       }
     }
@@ -76,23 +76,24 @@ DIPTYCH_CLONES void spread_nodes_with_slopes(const std::int32_t* begin,
 
 DIPTYCH_CLONES void gather_nodes_with_slopes(std::int64_t begin,
                                              std::int64_t end,
-                                             const NodeSplines* splines,
-                                             const NodeSlopes* slopes,
+                                             const NodeSplines<quartic>* splines,
+                                             const NodeSlopes<quartic>* slopes,
                                              const SplineIndex& n,
                                              int d,
                                              const Four* grid,
                                              Vec3* z) {
   for (std::int64_t a = begin; a < end; ++a) {
-    const NodeSplines& s = splines[a];
-    const NodeSlopes& g = slopes[a];
+    const NodeSplines<quartic>& s = splines[a];
+    const NodeSlopes<quartic>& g = slopes[a];
     Four sum{}, by[3]{};
-    for (int k = 0; k < (d == 3 ? 3 : 1); ++k) {
-      for (int j = 0; j < 3; ++j) {
+    for (int k = 0; k < (d == 3 ? quartic + 1 : 1); ++k) {
+      for (int j = 0; j <= quartic; ++j) {
         const Four* place = grid + s.first + (static_cast<std::int64_t>(k) * n[1] + j) * n[0];
-        const Four value =
-            s.value[0][0] * place[0] + s.value[0][1] * place[1] + s.value[0][2] * place[2];
-        const Four slope =
-            g.value[0][0] * place[0] + g.value[0][1] * place[1] + g.value[0][2] * place[2];
+        Four value{}, slope{};
+        for (int i = 0; i <= quartic; ++i) {
+          value += s.value[0][i] * place[i];
+          slope += g.value[0][i] * place[i];
+        }
         sum += s.value[2][k] * s.value[1][j] * value;
         by[0] += s.value[2][k] * s.value[1][j] * slope;
         by[1] += s.value[2][k] * g.value[1][j] * value;

@@ -12,21 +12,26 @@ using algebra::Four;
 using algebra::Vec3;
 using SplineIndex = std::array<int, 3>;
 
-/// The splines of the finest level that a node feels.
+/// The splines of degree P of the finest level that a node feels, P + 1 per direction.
+template <int P>
 struct NodeSplines {
   std::int64_t first = 0;  ///< index of the lowest spline
-  double value[3][3];      ///< by direction
+  double value[3][P + 1];  ///< by direction
 };
 
 /// h/3 times their slopes, where fields have gradients.
+template <int P>
 struct NodeSlopes {
-  double value[3][3];
+  double value[3][P + 1];
 };
+
+/// Of fields of one vector a node, and of those with gradients.
+inline constexpr int quadratic = 2, quartic = 4;
 
 /// grid[first...] += w r over the splines of a node, value = {x, y, z} per direction.
 void spread_nodes(const std::int32_t* begin,
                   const std::int32_t* end,
-                  const NodeSplines* splines,
+                  const NodeSplines<quadratic>* splines,
                   const SplineIndex& n,
                   int n_z,
                   const Vec3* r,
@@ -35,7 +40,7 @@ void spread_nodes(const std::int32_t* begin,
 /// z += the splines of nodes [begin, end).
 void gather_nodes(std::int64_t begin,
                   std::int64_t end,
-                  const NodeSplines* splines,
+                  const NodeSplines<quadratic>* splines,
                   const SplineIndex& n,
                   int n_z,
                   const Four* grid,
@@ -44,8 +49,8 @@ void gather_nodes(std::int64_t begin,
 /// The same of fields with gradients, 1 + d vectors a node.
 void spread_nodes_with_slopes(const std::int32_t* begin,
                               const std::int32_t* end,
-                              const NodeSplines* splines,
-                              const NodeSlopes* slopes,
+                              const NodeSplines<quartic>* splines,
+                              const NodeSlopes<quartic>* slopes,
                               const SplineIndex& n,
                               int d,
                               const Vec3* r,
@@ -53,8 +58,8 @@ void spread_nodes_with_slopes(const std::int32_t* begin,
 
 void gather_nodes_with_slopes(std::int64_t begin,
                               std::int64_t end,
-                              const NodeSplines* splines,
-                              const NodeSlopes* slopes,
+                              const NodeSplines<quartic>* splines,
+                              const NodeSlopes<quartic>* slopes,
                               const SplineIndex& n,
                               int d,
                               const Four* grid,
