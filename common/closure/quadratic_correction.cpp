@@ -255,16 +255,12 @@ void QuadraticCorrection<D>::set_smooth() {
   using Fourth = SplineLevels<quartic>;
   using Second = SplineLevels<quadratic>;
   cubics_ = std::make_unique<Fourth>(graph_, [&](std::int64_t a, auto& left, auto& whole) {
-    left.setZero();
-    whole.setZero();
     add_moments<Fourth>(
         a, [](const Vec3&) { return 1.0; }, left, whole);
   });
   cubics_->set_slopes(graph_, h_);
   cubics_->scale_to([this](const Field& y, Field& S_y) { apply_S(y, S_y); });
   gradients_ = std::make_unique<Second>(graph_, [&](std::int64_t a, auto& left, auto& whole) {
-    left.setZero();
-    whole.setZero();
     for (int i = 0; i < D; ++i)
       add_moments<Second>(
           a, [i](const Vec3& X) { return X[i]; }, left, whole);

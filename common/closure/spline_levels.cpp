@@ -135,9 +135,9 @@ SplineLevels<P>::SplineLevels(const scheme::PairGraph& graph, const RowMoments& 
   const Index cells{finest.n[0] - P, std::max(1, finest.n[1] - P), std::max(1, finest.n[2] - P)};
   std::vector<Cluster<Moments>> clusters(static_cast<size_t>(cells[0]) * cells[1] * cells[2]);
   visit_layers([&](const std::int32_t* begin, const std::int32_t* end) {
-    Moments left, whole;
     for (; begin != end; ++begin) {
       const std::int32_t a = *begin;
+      Moments left = Moments::Zero(), whole = Moments::Zero();
       moments(a, left, whole);
       const Splines s = splines_at(finest, graph.X[a]);
       add_energy(finest, s, graph.Omega[a], left, whole);

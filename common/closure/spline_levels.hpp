@@ -25,8 +25,6 @@
 #include "common/closure/spline_sums.hpp"
 #include "common/scheme/graph/pair_graph.hpp"
 
-#include <Eigen/Core>
-
 #include <array>
 #include <functional>
 #include <vector>
@@ -42,7 +40,7 @@ class SplineLevels {
   static constexpr int n_terms = (P + 1) * (P + 2) / 2;  ///< derivatives of order P in space
   using Terms = Eigen::Matrix<double, n_terms, 1>;
   using Moments = Eigen::Matrix<double, n_terms, n_terms>;
-  /// T_a, and the same of the monomials as they are.
+  /// Adds T_a, and the same of the monomials as they are.
   using RowMoments = std::function<void(std::int64_t a, Moments& left, Moments& whole)>;
 
   SplineLevels(const scheme::PairGraph& graph, const RowMoments& moments);
