@@ -1,9 +1,9 @@
 #include "fvm/fvm_graph.hpp"
 
+#include "common/base/error.hpp"
 #include "common/base/registry.hpp"
 #include "common/closure/closure_repair.hpp"
 #include "common/closure/sbp_operator.hpp"
-#include "common/closure/summation_by_parts.hpp"
 #include "common/scheme/graph/classify_rows.hpp"
 #include "fvm/cell_stencil.hpp"
 #include "fvm/sbp_blocks_graph.hpp"
@@ -67,18 +67,53 @@ scheme::PairGraph graph_of_cells(const meshes::Mesh& mesh, meshes::Quadrature qu
   return graph;
 }
 
-/// What stencil = "auto" comes to on a mesh.
-struct Choice {
-  Stencil stencil = Stencil::edge;
-  std::string text;  ///< why it is not sbp, where it was to choose
-};
+/// Along the lines of a box.
+scheme::Operators sbp_on_box(const meshes::Mesh& mesh, int order) {
+  const std::vector<SbpLines> lines = sbp_lines(mesh, order);
+  scheme::Operators operators{sbp_graph(mesh, order), lines_text(lines), {}};
+  for (const SbpLines& line : lines) {
+    if (line.order == order) continue;
+    operators.notices.push_back(fmt::format(
+        "order {} instead of {} along ({:.3g}, {:.3g}, {:.3g}): its lines have {} nodes, order {} "
+        "takes {}",
+        line.order, order, line.direction[0], line.direction[1], line.direction[2], line.n_nodes,
+        order, closure::sbp_table(order).least_nodes()));
+  }
+  return operators;
+}
 
-Choice choice_of(const meshes::Mesh& mesh, const Options& options) {
-  const Stencil asked = stencils().at(options.stencil);
-  if (asked != Stencil::automatic) return {asked, ""};
-  const std::string because = unsure_because(mesh, options.order);
-  if (because.empty()) return {Stencil::sbp, ""};
-  return {Stencil::edge, fmt::format("edge stencil: {}", because)};
+scheme::Operators sbp_on(const meshes::Mesh& mesh, int order) {
+  if (meshes::is_undistorted_block(mesh)) return sbp_on_box(mesh, order);
+  const std::vector<meshes::LatticeBlock> blocks = smooth_blocks(mesh);
+  if (!blocks.empty()) {
+    return {sbp_blocks_graph(mesh, blocks, order), blocks_text(blocks, order),
+            blocks_notices(blocks, order)};
+  }
+  return {sbp_graph_of_cells(mesh),
+          fmt::format("sbp: order 2 on the cells around {} nodes", mesh.n_nodes()),
+          {}};
+}
+
+scheme::Operators edge_because(const meshes::Mesh& mesh,
+                               const std::string& because,
+                               std::vector<std::string> notices = {}) {
+  return {graph_of_cells(mesh, meshes::Quadrature::vertex),
+          fmt::format("edge stencil: {}", because), std::move(notices)};
+}
+
+/// What stencil = "auto" comes to.
+scheme::Operators chosen_on(const meshes::Mesh& mesh, const Options& options) {
+  if (const std::string because = unsure_because(mesh, options.order); !because.empty())
+    return edge_because(mesh, because);
+  if (meshes::is_undistorted_block(mesh)) return sbp_on_box(mesh, options.order);
+  if (options.strong_pressure)
+    return edge_because(mesh, "cells carry the pressure of this nearly incompressible material");
+  try {
+    return sbp_on(mesh, options.order);
+  } catch (const base::InputError& refusal) {
+    return edge_because(mesh, "sbp does not go with this mesh",
+                        {fmt::format("edge stencil, since {}", refusal.what())});
+  }
 }
 
 }  // namespace
@@ -87,41 +122,22 @@ const std::vector<std::string>& stencil_names() {
   return stencils().names();
 }
 
-scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) {
-  const Stencil stencil = choice_of(mesh, options).stencil;
-  if (stencil == Stencil::sbp) {
-    if (meshes::is_undistorted_block(mesh)) return sbp_graph(mesh, options.order);
-    const std::vector<meshes::LatticeBlock> blocks = smooth_blocks(mesh);
-    return blocks.empty() ? sbp_graph_of_cells(mesh)
-                          : sbp_blocks_graph(mesh, blocks, options.order);
+scheme::Operators operators_on(const meshes::Mesh& mesh, const Options& options) {
+  switch (stencils().at(options.stencil)) {
+    case Stencil::automatic:
+      return chosen_on(mesh, options);
+    case Stencil::sbp:
+      return sbp_on(mesh, options.order);
+    case Stencil::edge:
+      return {graph_of_cells(mesh, meshes::Quadrature::vertex), "", {}};
+    case Stencil::integral:
+      return {graph_of_cells(mesh, meshes::Quadrature::exact), "", {}};
   }
-  return graph_of_cells(
-      mesh, stencil == Stencil::edge ? meshes::Quadrature::vertex : meshes::Quadrature::exact);
+  __builtin_unreachable();
 }
 
-Operators operators_of(const meshes::Mesh& mesh, const Options& options) {
-  const Choice choice = choice_of(mesh, options);
-  if (choice.stencil != Stencil::sbp)
-    return {choice.text, {}, !choice.text.empty() && !meshes::is_undistorted_block(mesh)};
-  if (!meshes::is_undistorted_block(mesh)) {
-    const std::vector<meshes::LatticeBlock> blocks = smooth_blocks(mesh);
-    if (!blocks.empty())
-      return {blocks_text(blocks, options.order), blocks_notices(blocks, options.order), false};
-    return {fmt::format("sbp: order 2 on the cells around {} nodes", mesh.n_nodes()),
-            {closure::sign_notice},
-            false};
-  }
-  const std::vector<SbpLines> lines = sbp_lines(mesh, options.order);
-  Operators operators{lines_text(lines), {}, false};
-  for (const SbpLines& line : lines) {
-    if (line.order == options.order) continue;
-    operators.lost.push_back(fmt::format(
-        "order {} instead of {} along ({:.3g}, {:.3g}, {:.3g}): its lines have {} nodes, order {} "
-        "takes {}",
-        line.order, options.order, line.direction[0], line.direction[1], line.direction[2],
-        line.n_nodes, options.order, closure::sbp_table(options.order).least_nodes()));
-  }
-  return operators;
+scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) {
+  return operators_on(mesh, options).graph;
 }
 
 }  // namespace diptych::fvm

@@ -5,7 +5,7 @@
 /// block (sbp_graph.hpp; notes 4.3) or of curved blocks glued at their nodes (sbp_blocks_graph.hpp;
 /// notes 4.6), elsewhere over two rings of cells (sbp_cells_graph.hpp; notes 4.5).
 
-#include "common/scheme/graph/pair_graph.hpp"
+#include "common/scheme/graph/operators.hpp"
 #include "meshes/mesh.hpp"
 
 #include <string>
@@ -14,25 +14,21 @@
 namespace diptych::fvm {
 
 struct Options {
-  /// edge or integral, on simplices the same up to the boundary; sbp; auto: sbp on blocks where an
-  /// order above two fits, edge elsewhere
+  /// edge or integral, on simplices the same up to the boundary; sbp; auto: sbp where an order
+  /// above two fits on a box, on blocks, and where they go with them on other cells, edge elsewhere
   std::string stencil = "edge";
   int order = 4;  ///< of sbp on blocks
+  /// auto: off boxes those alone that bear any bulk pressure, in volumes of cells (notes 10.1)
+  bool strong_pressure = false;
 };
 
 /// What Options::stencil may be.
 const std::vector<std::string>& stencil_names();
 
+/// @throws base::InputError where sbp was asked for and the mesh does not go with it
+scheme::Operators operators_on(const meshes::Mesh& mesh, const Options& options);
+
+/// Their graph alone.
 scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options);
-
-/// What build_graph makes of a mesh, where that depends on more than the options.
-struct Operators {
-  std::string text;               ///< for the record; empty where edge or integral was asked for
-  std::vector<std::string> lost;  ///< where less than the order asked for fits, and why
-  /// "auto" took the edge stencil because of the mesh alone: "sbp" may go with it.
-  bool may_sum_by_parts = false;
-};
-
-Operators operators_of(const meshes::Mesh& mesh, const Options& options);
 
 }  // namespace diptych::fvm

@@ -120,11 +120,11 @@ scheme::PairGraph sbp_graph(const Mesh& mesh, int order) {
 }
 
 std::string unsure_because(const Mesh& mesh, int order) {
-  if (!meshes::is_undistorted_block(mesh)) return "the mesh is no box";
+  if (order == 2) return "fvm.order = 2";
+  if (!meshes::is_undistorted_block(mesh)) return "";
   meshes::StructuredBlock block = meshes::structured_block(mesh, use);
   const std::vector<closure::SbpOperator> along = operators_along(block, order);
   std::vector<std::vector<double>> H = weights_of(along, block);
-  if (order == 2) return "fvm.order = 2";
   const int longest = *std::max_element(block.n_nodes.begin(), block.n_nodes.end());
   if (longest < 3) return fmt::format("lines of {} nodes", longest);
   return meshes::BlockMeasure(mesh, std::move(block), std::move(H), use).unfit_group();

@@ -201,10 +201,10 @@ scheme::PairGraph sbp_graph(const meshes::Mesh& mesh, const Kernel& kernel, doub
 }
 
 std::string unsure_because(const meshes::Mesh& mesh, const Kernel& kernel, double kappa) {
-  if (!meshes::is_undistorted_block(mesh)) return "the nodes are no lattice";
   const double support = kernel.support * kappa;
   if (!(support > 2)) return "the support is two spacings or less";
   if (support > widest_sure_support) return "the support is more than four spacings";
+  if (!meshes::is_undistorted_block(mesh)) return "";
   StructuredBlock block = meshes::structured_block(mesh, use);
   for (int d = 0; d < block.dimension; ++d) {
     if (block.n_nodes[d] < least_nodes) return fmt::format("lines of {} nodes", block.n_nodes[d]);

@@ -111,39 +111,9 @@ void repair_closure(const Kernel& kernel, const std::vector<double>& h, scheme::
   closure::repair_closure_pairs(graph, weights_of(kernel, h, graph));
 }
 
-/// What gradient = "auto" comes to on a mesh.
-struct Choice {
-  Gradient gradient = Gradient::corrected;
-  std::string text;  ///< why it is not sbp, where it was to choose
-};
-
-Choice choice_of(const meshes::Mesh& mesh, const Options& options) {
-  const Gradient asked = gradients().at(options.gradient);
-  if (asked != Gradient::automatic) return {asked, ""};
-  const std::string because =
-      options.closure ? unsure_because(mesh, kernels().at(options.kernel), options.kappa)
-                      : "closure = false";
-  if (because.empty()) return {Gradient::sbp, ""};
-  return {Gradient::corrected, fmt::format("corrected gradient: {}", because)};
-}
-
-}  // namespace
-
-const std::vector<std::string>& gradient_names() {
-  return gradients().names();
-}
-
-scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) {
+/// On any nodes.
+scheme::PairGraph graph_of(const meshes::Mesh& mesh, const Options& options, bool sums_by_parts) {
   const Kernel kernel = kernels().at(options.kernel);
-  if (!(options.kappa >= least_kappa && options.kappa <= greatest_kappa)) {
-    throw base::InputError(
-        fmt::format("kappa = {:.6g} is out of range; use {} to {} (1.2 is usual; corners of boxes "
-                    "take 0.708, with quintic-spline 0.5)",
-                    options.kappa, least_kappa, greatest_kappa));
-  }
-  const bool sums_by_parts = choice_of(mesh, options).gradient == Gradient::sbp;
-  if (sums_by_parts && meshes::is_undistorted_block(mesh))
-    return sbp_graph(mesh, kernel, options.kappa);
   const meshes::DualMeasure by_vertices = meshes::dual_measure(mesh, meshes::Quadrature::vertex);
   const std::vector<double> h = smoothing_lengths(mesh, by_vertices.Omega, options.kappa);
   scheme::PairGraph graph;
@@ -161,6 +131,7 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
   set_corrected_gradients(kernel, h, graph);
   if (sums_by_parts) {
     closure::make_sum_by_parts(graph, wide_weights_of(kernel, h, graph));
+    graph.loses_sign = true;
   } else if (options.closure) {
     repair_closure(kernel, h, graph);
   }
@@ -172,20 +143,68 @@ scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) 
   return graph;
 }
 
-Operators operators_of(const meshes::Mesh& mesh, const Options& options) {
-  const Choice choice = choice_of(mesh, options);
-  if (choice.gradient != Gradient::sbp) {
-    return {choice.text,
-            {},
-            !choice.text.empty() && options.closure && options.kappa > 1 &&
-                !meshes::is_undistorted_block(mesh)};
+scheme::Operators sbp_on(const meshes::Mesh& mesh, const Options& options) {
+  if (meshes::is_undistorted_block(mesh)) {
+    return {sbp_graph(mesh, kernels().at(options.kernel), options.kappa), sbp_text(options.kappa),
+            sbp_notices(mesh)};
   }
-  if (!meshes::is_undistorted_block(mesh)) {
-    return {fmt::format("sbp: order 2 on {} nodes, kappa {:.4g}", mesh.n_nodes(), options.kappa),
-            {closure::sign_notice},
-            false};
+  return {graph_of(mesh, options, true),
+          fmt::format("sbp: order 2 on {} nodes, kappa {:.4g}", mesh.n_nodes(), options.kappa),
+          {}};
+}
+
+scheme::Operators corrected_because(const meshes::Mesh& mesh,
+                                    const Options& options,
+                                    const std::string& because,
+                                    std::vector<std::string> notices = {}) {
+  return {graph_of(mesh, options, false), fmt::format("corrected gradient: {}", because),
+          std::move(notices)};
+}
+
+/// What gradient = "auto" comes to.
+scheme::Operators chosen_on(const meshes::Mesh& mesh, const Options& options) {
+  if (!options.closure) return corrected_because(mesh, options, "closure = false");
+  const Kernel kernel = kernels().at(options.kernel);
+  if (const std::string because = unsure_because(mesh, kernel, options.kappa); !because.empty())
+    return corrected_because(mesh, options, because);
+  if (options.strong_pressure && !meshes::is_undistorted_block(mesh)) {
+    return corrected_because(mesh, options,
+                             "cells carry the pressure of this nearly incompressible material");
   }
-  return {sbp_text(options.kappa), sbp_notices(mesh), false};
+  try {
+    return sbp_on(mesh, options);
+  } catch (const base::InputError& refusal) {
+    return corrected_because(mesh, options, "sbp does not go with these nodes",
+                             {fmt::format("corrected gradient, since {}", refusal.what())});
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& gradient_names() {
+  return gradients().names();
+}
+
+scheme::Operators operators_on(const meshes::Mesh& mesh, const Options& options) {
+  if (!(options.kappa >= least_kappa && options.kappa <= greatest_kappa)) {
+    throw base::InputError(
+        fmt::format("kappa = {:.6g} is out of range; use {} to {} (1.2 is usual; corners of boxes "
+                    "take 0.708, with quintic-spline 0.5)",
+                    options.kappa, least_kappa, greatest_kappa));
+  }
+  switch (gradients().at(options.gradient)) {
+    case Gradient::automatic:
+      return chosen_on(mesh, options);
+    case Gradient::corrected:
+      return {graph_of(mesh, options, false), "", {}};
+    case Gradient::sbp:
+      return sbp_on(mesh, options);
+  }
+  __builtin_unreachable();
+}
+
+scheme::PairGraph build_graph(const meshes::Mesh& mesh, const Options& options) {
+  return operators_on(mesh, options).graph;
 }
 
 }  // namespace diptych::sph

@@ -13,11 +13,6 @@ namespace diptych::harness {
 
 namespace {
 
-scheme::PairGraph in_precision(scheme::PairGraph graph, const std::string& precision) {
-  set_precision(graph, scheme::precision_menu().at(precision));
-  return graph;
-}
-
 /// Why a case that leaves the choice ("auto") has operators of second order, whatever the mesh;
 /// empty: it may have others. The face correction is for derivatives of second order; volumes of
 /// cells have boundary areas of their own.
@@ -28,15 +23,33 @@ std::string second_order_because(const cases::Case& setup, const std::string& me
   return setup.scheme.volumes == "cells" ? "volumes of cells carry the pressure" : "";
 }
 
-sph::Options sph_options(const cases::Case& setup) {
-  const bool is_corrected = !second_order_because(setup, "sph").empty();
-  return {setup.sph.kernel, setup.sph.kappa, setup.sph.closure,
-          is_corrected ? "corrected" : setup.sph.gradient};
+/// "corrected gradient: the face correction is for it"
+scheme::Operators because_of_case(scheme::Operators operators,
+                                  const std::string& name,
+                                  const std::string& because) {
+  operators.text = fmt::format("{}: {}", name, because);
+  return operators;
 }
 
-fvm::Options fvm_options(const cases::Case& setup) {
-  const bool is_edge = !second_order_because(setup, "fvm").empty();
-  return {is_edge ? "edge" : setup.fvm.stencil, setup.fvm.order};
+scheme::Operators sph_operators(const meshes::Mesh& mesh, const cases::Case& setup) {
+  const std::string because = second_order_because(setup, "sph");
+  const sph::Options options{setup.sph.kernel, setup.sph.kappa, setup.sph.closure,
+                             because.empty() ? setup.sph.gradient : "corrected",
+                             run::wants_safe_volumes(setup)};
+  scheme::Operators operators = sph::operators_on(mesh, options);
+  // its lines have slopes, with which the sign is known
+  if (!operators.graph.slopes.empty() && run::wants_line_slopes(setup)) operators.notices.clear();
+  return because.empty() ? operators
+                         : because_of_case(std::move(operators), "corrected gradient", because);
+}
+
+scheme::Operators fvm_operators(const meshes::Mesh& mesh, const cases::Case& setup) {
+  const std::string because = second_order_because(setup, "fvm");
+  const fvm::Options options{because.empty() ? setup.fvm.stencil : "edge", setup.fvm.order,
+                             run::wants_safe_volumes(setup)};
+  scheme::Operators operators = fvm::operators_on(mesh, options);
+  return because.empty() ? operators
+                         : because_of_case(std::move(operators), "edge stencil", because);
 }
 
 /// Of operators that sum by parts but do not commute, in bodies whose pressure volumes of cells
@@ -46,26 +59,19 @@ constexpr const char* pressure_notice =
     "moduli it turns cells inside out (the run is then stopped); the default operators bear it "
     "(notes 10.1)";
 
-/// Where the choice was left: operators that sum by parts take long to set up on meshes that are no
-/// boxes, and refuse many.
-std::vector<std::string> advice(const cases::Case& setup,
-                                const std::string& text,
-                                const std::string& key) {
-  if (run::wants_safe_volumes(setup)) return {};
-  return {
-      fmt::format("{}; {} = \"sbp\" takes longer to set up and errs several times less on a "
-                  "body with plane sides (benchmarks/DEFAULTS.md)",
-                  text, key)};
-}
+/// Of the same: jumps that lose their sign were found to harm bodies under such pressure alone.
+constexpr const char* sign_notice =
+    "sbp: on these nodes the sign of the numerical dissipation is known with scheme.limiter = "
+    "\"sign-preserving\" alone; without it a body under strong pressure may come apart (notes 4.5)";
 
-GraphDescription description_of(const cases::Case& setup,
-                                const std::string& text,
-                                std::vector<std::string> notices,
-                                bool is_safe) {
-  const bool sums_by_parts = text.starts_with("sbp");
-  if (sums_by_parts && !is_safe && run::wants_safe_volumes(setup))
-    notices.push_back(pressure_notice);
-  return {text, std::move(notices)};
+/// In the precision of the case, with what its other options make of them.
+scheme::Operators finished(scheme::Operators operators, const cases::Case& setup) {
+  if (operators.graph.loses_sign && run::wants_safe_volumes(setup)) {
+    if (setup.scheme.limiter == "none") operators.notices.emplace_back(sign_notice);
+    operators.notices.emplace_back(pressure_notice);
+  }
+  set_precision(operators.graph, scheme::precision_menu().at(setup.scheme.precision));
+  return operators;
 }
 
 /// What SPH that sums by parts does not go with.
@@ -79,7 +85,8 @@ void check_sph(const cases::Case& setup) {
 
 /// What finite volumes that sum by parts do not go with.
 void check_fvm(const cases::Case& setup) {
-  const std::string stencil = fvm_options(setup).stencil;
+  const std::string& stencil = setup.fvm.stencil;
+  if (!second_order_because(setup, "fvm").empty()) return;
   if ((stencil != "sbp" && stencil != "auto") || setup.fvm.order == 2) return;
   const cases::SchemeCase& scheme = setup.scheme;
   if (scheme.face_correction != 0) {
@@ -102,39 +109,17 @@ void check_fvm(const cases::Case& setup) {
 }  // namespace
 
 const base::Registry<GraphMaker>& method_menu() {
-  static const auto menu =
-      base::Registry<GraphMaker>("method")
-          .add("sph",
-               [](const meshes::Mesh& mesh, const cases::Case& setup) {
-                 check_sph(setup);
-                 return in_precision(sph::build_graph(mesh, sph_options(setup)),
-                                     setup.scheme.precision);
-               })
-          .add("fvm", [](const meshes::Mesh& mesh, const cases::Case& setup) {
-            check_fvm(setup);
-            return in_precision(fvm::build_graph(mesh, fvm_options(setup)), setup.scheme.precision);
-          });
+  static const auto menu = base::Registry<GraphMaker>("method")
+                               .add("sph",
+                                    [](const meshes::Mesh& mesh, const cases::Case& setup) {
+                                      check_sph(setup);
+                                      return finished(sph_operators(mesh, setup), setup);
+                                    })
+                               .add("fvm", [](const meshes::Mesh& mesh, const cases::Case& setup) {
+                                 check_fvm(setup);
+                                 return finished(fvm_operators(mesh, setup), setup);
+                               });
   return menu;
-}
-
-GraphDescription graph_description(const std::string& method,
-                                   const meshes::Mesh& mesh,
-                                   const cases::Case& setup) {
-  if (const std::string because = second_order_because(setup, method); !because.empty()) {
-    const char* name = method == "sph" ? "corrected gradient" : "edge stencil";
-    return {fmt::format("{}: {}", name, because), {}};
-  }
-  const bool is_block = meshes::is_undistorted_block(mesh);
-  if (method == "sph") {
-    sph::Operators operators = sph::operators_of(mesh, sph_options(setup));
-    if (is_block && run::wants_line_slopes(setup)) operators.notices.clear();
-    if (operators.may_sum_by_parts)
-      operators.notices = advice(setup, operators.text, "sph.gradient");
-    return description_of(setup, operators.text, operators.notices, is_block);
-  }
-  fvm::Operators operators = fvm::operators_of(mesh, fvm_options(setup));
-  if (operators.may_sum_by_parts) operators.lost = advice(setup, operators.text, "fvm.stencil");
-  return description_of(setup, operators.text, operators.lost, is_block);
 }
 
 }  // namespace diptych::harness

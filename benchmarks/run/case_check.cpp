@@ -53,7 +53,7 @@ CaseCheck check_case(const cases::Case& setup, const std::string& method, int le
   check.estimated_bytes = setup.mesh.file.empty() ? estimate_memory(setup, method, level).bytes
                                                   : estimate_memory(setup, method, mesh).bytes;
   check.quality = scheme::quality(scene.graph);
-  check.operators = scene.description.operators;
+  check.operators = scene.operators;
   check.nodes = scene.graph.n_nodes();
   check.cells = mesh.n_cells();
   check.pairs = scene.graph.n_pairs();

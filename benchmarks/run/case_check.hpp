@@ -19,7 +19,7 @@ struct CaseCheck {
   double seconds = 0;               ///< of all steps, as the first ones went; without output
   double dt = 0;                    ///< s, of the first step
   scheme::GraphQuality quality;
-  std::string operators;  ///< see GraphDescription
+  std::string operators;  ///< see CaseGraph
 };
 
 /// Builds mesh, graph and solver, and makes steps for half a second.

@@ -112,17 +112,18 @@ double pairs_of_lines(const Lattice& lattice, int order) {
   return pairs;
 }
 
-/// Whether operators sum by parts on nodes that are no lattice (notes 4.5).
-bool sums_anywhere(const cases::Case& setup, const std::string& method) {
-  const bool sums = method == "sph" ? setup.sph.gradient == "sbp" : setup.fvm.stencil == "sbp";
-  return sums && (is_simplex(setup.mesh.element) || setup.mesh.perturbation != 0 ||
-                  !setup.mesh.file.empty());
-}
-
 /// Neighbours of a node of a large mesh within two rings of edges.
 double two_rings(const std::string& element, int dimension) {
   if (is_simplex(element)) return dimension == 3 ? 64 : 18;
   return dimension == 3 ? 24 : 12;
+}
+
+/// Directed pairs of finite volumes that sum by parts on nodes that are no lattice. Nodes at sides
+/// of hexahedra reach a ring further, and their neighbours reach them.
+double pairs_of_rings(const Lattice& lattice, const std::string& element) {
+  const double rings = lattice.nodes() * two_rings(element, lattice.dimension);
+  if (is_simplex(element)) return rings;
+  return rings + (lattice.nodes() - lattice.product(-1)) * (lattice.dimension == 3 ? 59 : 18.5);
 }
 
 /// Finite volumes that sum by parts along the lines of a box, asked for or chosen.
@@ -140,6 +141,20 @@ double reach_of(const cases::Case& setup) {
 /// Of the support of the kernel, in spacings of a cube of the same volume.
 double support_radius(const cases::SphCase& sph) {
   return (sph.kernel == "quintic-spline" ? 3 : 2) * sph.kappa;
+}
+
+/// Whether operators sum by parts on nodes that are no lattice (notes 4.5).
+bool sums_anywhere(const cases::Case& setup, const std::string& method) {
+  if (!is_simplex(setup.mesh.element) && setup.mesh.perturbation == 0 && setup.mesh.file.empty())
+    return false;
+  const bool is_sph = method == "sph";
+  const std::string& asked = is_sph ? setup.sph.gradient : setup.fvm.stencil;
+  if (asked != "auto") return asked == "sbp";
+  const bool is_open = setup.scheme.face_correction == 0 && setup.scheme.volumes != "cells" &&
+                       !run::wants_safe_volumes(setup);
+  return is_open && (is_sph ? setup.sph.closure && support_radius(setup.sph) > 2 &&
+                                  support_radius(setup.sph) <= 4
+                            : setup.fvm.order > 2);
 }
 
 /// Nodes in a ball of so many spacings, without its middle.
@@ -327,7 +342,7 @@ MemoryEstimate estimate_memory(const cases::Case& setup, const std::string& meth
   size.cells = lattice.n_cells() * simplices_of_cell(setup.mesh);
   const bool is_sph = method == "sph";
   const double radius = is_sph ? support_radius(setup.sph) : reach_of(setup);
-  bool is_regular = setup.mesh.perturbation == 0;
+  bool is_regular = setup.mesh.perturbation == 0 && !sums_anywhere(setup, method);
   if (is_sph) {
     const bool exact = is_exact(setup.mesh, lattice);  // else one half, by rounding
     const Support support = support_of(lattice, radius, exact ? 1 : 0.5);
@@ -335,7 +350,7 @@ MemoryEstimate estimate_memory(const cases::Case& setup, const std::string& meth
     size.pairs = sums ? pairs_of_lattice(lattice, radius) : particle_pairs(lattice, support);
     is_regular = is_regular && (sums || !support.is_touched || exact);
   } else if (sums_anywhere(setup, method)) {
-    size.pairs = size.nodes * two_rings(setup.mesh.element, lattice.dimension);
+    size.pairs = pairs_of_rings(lattice, setup.mesh.element);
   } else if (sums_along_lines(setup)) {
     size.pairs = pairs_of_lines(lattice, setup.fvm.order);
   } else {

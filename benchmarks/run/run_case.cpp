@@ -44,7 +44,7 @@ double seconds_since(Clock::time_point start) {
 double spacing_of(const CaseGraph& scene) {
   const scheme::PairGraph& graph = scene.graph;
   double volume = 0, n = 0;
-  if (scene.description.operators.starts_with("sbp")) {
+  if (scene.operators.starts_with("sbp")) {
     for (const double part : meshes::filled_angle(scene.mesh.mesh))
       n += part;
     volume = std::accumulate(graph.Omega.begin(), graph.Omega.end(), 0.0);
@@ -71,7 +71,7 @@ void describe_graph(const CaseGraph& scene, io::RunSummary& s) {
   s.mean_neighbours = q.mean_neighbours;
   s.graph_closure = q.closure;
   s.graph_linear_exactness = q.linear_exactness;
-  s.graph_operators = scene.description.operators;
+  s.graph_operators = scene.operators;
   s.spacing = spacing_of(scene);
 }
 
@@ -120,7 +120,7 @@ CaseRun::CaseRun(const cases::Case& setup, const RunOptions& options)
   scene_ = scene_of_run(setup, options);
   identify();
   describe_graph(*scene_, result_.summary);
-  for (const std::string& notice : scene_->description.notices)
+  for (const std::string& notice : scene_->notices)
     tell(notice);
   observers_.emplace(setup, options, *scene_);
   std::vector<run::Observer*> observers = observers_->all();

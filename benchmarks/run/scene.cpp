@@ -4,6 +4,7 @@
 #include "meshes/cavities.hpp"
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace diptych::harness {
 
@@ -32,9 +33,11 @@ CaseGraph graph_of(const cases::Case& setup,
   scene.mesh = mesh_of(setup, level);
   require_memory(setup, method, level, scene.mesh.mesh);
   if (made) made(ScenePart::mesh);
-  scene.graph = method_menu().at(method)(scene.mesh.mesh, setup);
-  scene.description = graph_description(method, scene.mesh.mesh, setup);
-  if (!setup.mesh.file.empty()) note_cavities(scene.mesh.mesh, scene.description.notices);
+  scheme::Operators operators = method_menu().at(method)(scene.mesh.mesh, setup);
+  scene.graph = std::move(operators.graph);
+  scene.operators = std::move(operators.text);
+  scene.notices = std::move(operators.notices);
+  if (!setup.mesh.file.empty()) note_cavities(scene.mesh.mesh, scene.notices);
   if (made) made(ScenePart::graph);
   return scene;
 }

@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace diptych::harness {
 
@@ -23,7 +24,8 @@ using PartMade = std::function<void(ScenePart part)>;
 struct CaseGraph {
   CaseMesh mesh;
   scheme::PairGraph graph;
-  GraphDescription description;
+  std::string operators;             ///< what the method made of the mesh (scheme::Operators)
+  std::vector<std::string> notices;  ///< the same
 };
 
 /// @param made  may be empty

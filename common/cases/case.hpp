@@ -145,14 +145,15 @@ struct SphCase {
   double kappa = 1.2;             ///< h_a = kappa (Omega_a / filled part of the angle)^(1/d)
   bool closure = true;            ///< repair of the closure, notes 3.3
   std::string gradient = "auto";  ///< corrected (first order), sbp (operators that sum by
-                                  ///< parts), or auto: sbp on boxes
+                                  ///< parts), or auto: sbp where the mesh takes it
 };
 
 /// [fvm]
 struct FvmCase {
-  std::string stencil = "auto";  ///< edge (nodal quadrature), integral (2 int N_a grad N_b dV),
-                                 ///< sbp (operators that sum by parts), or auto: sbp on boxes
-  int order = 4;                 ///< of sbp, inside: 2, 4 or 6
+  std::string stencil =
+      "auto";     ///< edge (nodal quadrature), integral (2 int N_a grad N_b dV),
+                  ///< sbp (operators that sum by parts), or auto: sbp where the mesh takes it
+  int order = 4;  ///< of sbp, inside: 2, 4 or 6
 };
 
 /// [exact]: solution the run is measured against. Missing fields are derived from displacement.

@@ -19,13 +19,8 @@ namespace diptych::closure {
 /// Part of Omega_a^((d-1)/d) by which an adjoint may miss its condition.
 struct SummationLimits {
   double residual = 1e-4;
-  int iterations = 4000;
+  int iterations = 1000;
 };
-
-/// Of operators on nodes that are no lattice (notes 4.5).
-inline constexpr const char* sign_notice =
-    "sbp: on these nodes the sign of the numerical dissipation is known with scheme.limiter = "
-    "\"sign-preserving\" alone; without it a body under strong pressure may come apart (notes 4.5)";
 
 /// What it took. Residuals are relative to Omega_a^((d-1)/d), greatest.
 struct SummationByParts {

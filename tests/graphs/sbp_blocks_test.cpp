@@ -186,7 +186,7 @@ TEST(SbpBlocks, GiveGroupsTheAreaOfTheirSides) {
 
 TEST(SbpBlocks, AreTakenWhereLinesAreSmooth) {
   const auto text = [](const meshes::Mesh& mesh, const char* stencil = "sbp") {
-    return fvm::operators_of(mesh, {stencil, 4}).text;
+    return fvm::operators_on(mesh, {stencil, 4}).text;
   };
   EXPECT_EQ(text(curved_block(9, 0)), "sbp: one curved block, order 4 on lines of 10 nodes");
   EXPECT_EQ(
@@ -195,15 +195,14 @@ TEST(SbpBlocks, AreTakenWhereLinesAreSmooth) {
       "of them rings");
   EXPECT_EQ(text(bent_l(8, 0)), "sbp: 3 blocks glued at their nodes, order 4 on lines of 9 nodes");
   EXPECT_THAT(text(test_box(CellType::hexahedron, 6, 0.2)), HasSubstr("on the cells around"));
-  EXPECT_EQ(text(bent_l(8, 0), "auto"), "edge stencil: the mesh is no box");
-  EXPECT_THAT(fvm::operators_of(bent_l(4, 0), {"sbp", 4}).lost,
+  EXPECT_EQ(text(bent_l(8, 0), "auto"), text(bent_l(8, 0)));
+  EXPECT_THAT(fvm::operators_on(bent_l(4, 0), {"sbp", 4}).notices,
               ElementsAre("order 2 instead of 4 on lines of 5 nodes, order 4 takes 8"));
-  EXPECT_THAT(fvm::operators_of(ring(4, 8, 0), {"sbp", 4}).lost,
+  EXPECT_THAT(fvm::operators_on(ring(4, 8, 0), {"sbp", 4}).notices,
               ElementsAre("order 2 instead of 4 on rings of 4 nodes, order 4 takes 5"));
-  EXPECT_THAT(fvm::operators_of(curved_block(16, 0), {"sbp", 6}).lost,
+  EXPECT_THAT(fvm::operators_on(curved_block(16, 0), {"sbp", 6}).notices,
               ElementsAre(HasSubstr("order 4 instead of 6")));
-  EXPECT_THAT(fvm::operators_of(curved_block(5, 0), {"sbp", 4}).lost,
-              testing::Contains(HasSubstr("lines of six nodes")));
+  EXPECT_TRUE(fvm::operators_on(curved_block(5, 0), {"sbp", 4}).graph.loses_sign);
 }
 
 TEST(SbpBlocks, RefuseLinesThatBendTooMuch) {

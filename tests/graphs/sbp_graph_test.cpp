@@ -185,14 +185,14 @@ TEST(SbpGraph, FallsToTheWidestPairThatFitsAndSaysSo) {
   EXPECT_EQ(lines[0].order, 6);
   EXPECT_EQ(lines[1].order, 4);
   EXPECT_EQ(lines[2].order, 2);
-  const fvm::Operators operators = fvm::operators_of(mesh, {"sbp", 6});
+  const scheme::Operators operators = fvm::operators_on(mesh, {"sbp", 6});
   EXPECT_EQ(operators.text,
             "sbp: order 6 on 13 nodes along (1, 0, 0), order 4 on 9 nodes along (0, 1, 0), order 2 "
             "on 2 nodes along (0, 0, 1)");
-  ASSERT_EQ(operators.lost.size(), 2U);
-  EXPECT_THAT(operators.lost[1],
+  ASSERT_EQ(operators.notices.size(), 2U);
+  EXPECT_THAT(operators.notices[1],
               HasSubstr("order 2 instead of 6 along (0, 0, 1): its lines have 2 nodes"));
-  EXPECT_TRUE(fvm::operators_of(mesh, {"edge"}).text.empty());
+  EXPECT_TRUE(fvm::operators_on(mesh, {"edge"}).text.empty());
 }
 
 }  // namespace

@@ -29,9 +29,10 @@ SectionEntry fvm_section() {
                    "(integral), or from operators that sum by parts (sbp): along the "
                    "lines of nodes of boxes of hexahedra or quadrilaterals and of smooth curved "
                    "blocks of them, glued where they meet (transfinite meshes of Gmsh), elsewhere "
-                   "over two rings of cells of a body with plane sides. auto: sbp on such boxes "
-                   "with a line of three nodes or more and boundary groups that cover whole sides "
-                   "or end far from their edges, but with a face correction; else edge.",
+                   "over two rings of cells of a body with plane sides. auto: sbp where the mesh "
+                   "takes it, on boxes with a line of three nodes or more and boundary groups that "
+                   "cover whole sides or end far from their edges, but with a face correction and, "
+                   "off boxes, where cells carry the pressure (scheme.volumes); else edge.",
                    "\"sbp\""}))
           .key("order", &FvmCase::order,
                {"-", between(2, 6),

@@ -36,7 +36,7 @@ inline cases::Case second_order() {
 inline scheme::PairGraph graph_of(const std::string& method,
                                   const meshes::Mesh& mesh,
                                   const cases::Case& setup = second_order()) {
-  return harness::method_menu().at(method)(mesh, setup);
+  return harness::method_menu().at(method)(mesh, setup).graph;
 }
 
 inline Scene scene_of(const std::string& method,

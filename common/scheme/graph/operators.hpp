@@ -1,0 +1,17 @@
+#pragma once
+/// A pair graph with what its factory made of the mesh.
+
+#include "common/scheme/graph/pair_graph.hpp"
+
+#include <string>
+#include <vector>
+
+namespace diptych::scheme {
+
+struct Operators {
+  PairGraph graph;
+  std::string text;                  ///< for the record; empty where they were asked for by name
+  std::vector<std::string> notices;  ///< where they are less than could be, or promise less
+};
+
+}  // namespace diptych::scheme
