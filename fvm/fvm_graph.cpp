@@ -108,6 +108,11 @@ scheme::Operators chosen_on(const meshes::Mesh& mesh, const Options& options) {
   if (meshes::is_undistorted_block(mesh)) return sbp_on_box(mesh, options.order);
   if (options.strong_pressure)
     return edge_because(mesh, "cells carry the pressure of this nearly incompressible material");
+  if (gives_energy(smooth_blocks(mesh), options.order)) {
+    return edge_because(
+        mesh,
+        "curved lines of six nodes, on which D_ab of sbp gives energy; five or seven take it");
+  }
   try {
     return sbp_on(mesh, options.order);
   } catch (const base::InputError& refusal) {

@@ -140,8 +140,15 @@ std::string blocks_text(const std::vector<LatticeBlock>& blocks, int order) {
   return text;
 }
 
+bool gives_energy(const std::vector<LatticeBlock>& blocks, int order) {
+  const int most = std::min(order, highest_order);
+  if (most == 2) return false;
+  const std::vector<Line> lines = lines_of(blocks, most);
+  return std::any_of(lines.begin(), lines.end(),
+                     [](const Line& line) { return line.n_nodes == 6 && !line.is_closed; });
+}
+
 std::vector<std::string> blocks_notices(const std::vector<LatticeBlock>& blocks, int order) {
-  constexpr int sixes = 6;
   std::vector<std::string> texts;
   if (order > highest_order) {
     texts.push_back(
@@ -151,10 +158,8 @@ std::vector<std::string> blocks_notices(const std::vector<LatticeBlock>& blocks,
   }
   const int most = std::min(order, highest_order);
   std::map<std::pair<int, bool>, Line> lost;
-  bool has_sixes = false;
   for (const Line& line : lines_of(blocks, most)) {
     if (line.order != most) lost[{line.n_nodes, line.is_closed}] = line;
-    has_sixes = has_sixes || (line.n_nodes == sixes && !line.is_closed && most > 2);
   }
   for (const auto& [key, line] : lost) {
     texts.push_back(
@@ -163,7 +168,7 @@ std::vector<std::string> blocks_notices(const std::vector<LatticeBlock>& blocks,
                     line.is_closed ? 2 * std::ssize(closure::sbp_table(most).interior) + 1
                                    : closure::sbp_table(most).least_nodes()));
   }
-  if (has_sixes) {
+  if (gives_energy(blocks, order)) {
     texts.emplace_back(
         "lines of six nodes: D_ab gives energy to some motions unless scheme.limiter = "
         "\"sign-preserving\"; five or seven nodes are safer (notes 4.6)");

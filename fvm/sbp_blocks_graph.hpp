@@ -34,6 +34,10 @@ scheme::PairGraph sbp_blocks_graph(const meshes::Mesh& mesh,
 /// "sbp: 3 blocks glued at their nodes, order 4 on lines of 9 to 17 nodes"
 std::string blocks_text(const std::vector<meshes::LatticeBlock>& blocks, int order);
 
+/// Whether D_ab of unlimited reconstructions feeds some motions faster than others of its pairs
+/// brake them: on lines of six nodes, whose Q_14 > 0 (notes 4.6).
+bool gives_energy(const std::vector<meshes::LatticeBlock>& blocks, int order);
+
 /// What is lost there, one entry for each length of lines too short for the order asked for, and
 /// what to look out for.
 std::vector<std::string> blocks_notices(const std::vector<meshes::LatticeBlock>& blocks, int order);

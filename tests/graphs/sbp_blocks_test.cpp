@@ -196,6 +196,7 @@ TEST(SbpBlocks, AreTakenWhereLinesAreSmooth) {
   EXPECT_EQ(text(bent_l(8, 0)), "sbp: 3 blocks glued at their nodes, order 4 on lines of 9 nodes");
   EXPECT_THAT(text(test_box(CellType::hexahedron, 6, 0.2)), HasSubstr("on the cells around"));
   EXPECT_EQ(text(bent_l(8, 0), "auto"), text(bent_l(8, 0)));
+  EXPECT_THAT(text(curved_block(5, 0), "auto"), HasSubstr("edge stencil: curved lines of six"));
   EXPECT_THAT(fvm::operators_on(bent_l(4, 0), {"sbp", 4}).notices,
               ElementsAre("order 2 instead of 4 on lines of 5 nodes, order 4 takes 8"));
   EXPECT_THAT(fvm::operators_on(ring(4, 8, 0), {"sbp", 4}).notices,

@@ -32,7 +32,8 @@ SectionEntry fvm_section() {
                    "over two rings of cells of a body with plane sides. auto: sbp where the mesh "
                    "takes it, on boxes with a line of three nodes or more and boundary groups that "
                    "cover whole sides or end far from their edges, but with a face correction and, "
-                   "off boxes, where cells carry the pressure (scheme.volumes); else edge.",
+                   "off boxes, where cells carry the pressure (scheme.volumes) or curved lines "
+                   "have six nodes; else edge.",
                    "\"sbp\""}))
           .key("order", &FvmCase::order,
                {"-", between(2, 6),
