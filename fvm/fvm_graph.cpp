@@ -82,16 +82,18 @@ scheme::Operators sbp_on_box(const meshes::Mesh& mesh, int order) {
   return operators;
 }
 
-scheme::Operators sbp_on(const meshes::Mesh& mesh, int order) {
-  if (meshes::is_undistorted_block(mesh)) return sbp_on_box(mesh, order);
-  const std::vector<meshes::LatticeBlock> blocks = smooth_blocks(mesh);
+/// @param blocks  of the mesh, smooth; empty where it is none
+scheme::Operators sbp_off_boxes(const meshes::Mesh& mesh,
+                                const std::vector<meshes::LatticeBlock>& blocks,
+                                int order) {
   if (!blocks.empty()) {
     return {sbp_blocks_graph(mesh, blocks, order), blocks_text(blocks, order),
-            blocks_notices(blocks, order)};
+            blocks_notices(blocks, order), true};
   }
   return {sbp_graph_of_cells(mesh),
           fmt::format("sbp: order 2 on the cells around {} nodes", mesh.n_nodes()),
-          {}};
+          {},
+          true};
 }
 
 scheme::Operators edge_because(const meshes::Mesh& mesh,
@@ -103,18 +105,21 @@ scheme::Operators edge_because(const meshes::Mesh& mesh,
 
 /// What stencil = "auto" comes to.
 scheme::Operators chosen_on(const meshes::Mesh& mesh, const Options& options) {
+  if (!options.second_order_because.empty())
+    return edge_because(mesh, options.second_order_because);
   if (const std::string because = unsure_because(mesh, options.order); !because.empty())
     return edge_because(mesh, because);
   if (meshes::is_undistorted_block(mesh)) return sbp_on_box(mesh, options.order);
   if (options.strong_pressure)
     return edge_because(mesh, "cells carry the pressure of this nearly incompressible material");
-  if (gives_energy(smooth_blocks(mesh), options.order)) {
+  const std::vector<meshes::LatticeBlock> blocks = smooth_blocks(mesh);
+  if (gives_energy(blocks, options.order)) {
     return edge_because(
         mesh,
         "curved lines of six nodes, on which D_ab of sbp gives energy; five or seven take it");
   }
   try {
-    return sbp_on(mesh, options.order);
+    return sbp_off_boxes(mesh, blocks, options.order);
   } catch (const base::InputError& refusal) {
     return edge_because(mesh, "sbp does not go with this mesh",
                         {fmt::format("edge stencil, since {}", refusal.what())});
@@ -132,7 +137,8 @@ scheme::Operators operators_on(const meshes::Mesh& mesh, const Options& options)
     case Stencil::automatic:
       return chosen_on(mesh, options);
     case Stencil::sbp:
-      return sbp_on(mesh, options.order);
+      if (meshes::is_undistorted_block(mesh)) return sbp_on_box(mesh, options.order);
+      return sbp_off_boxes(mesh, smooth_blocks(mesh), options.order);
     case Stencil::edge:
       return {graph_of_cells(mesh, meshes::Quadrature::vertex), "", {}};
     case Stencil::integral:

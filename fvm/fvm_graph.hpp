@@ -17,7 +17,8 @@ struct Options {
   /// edge or integral, on simplices the same up to the boundary; sbp; auto: sbp where an order
   /// above two fits on a box, on blocks, and where they go with them on other cells, edge elsewhere
   std::string stencil = "edge";
-  int order = 4;  ///< of sbp on blocks
+  int order = 4;                          ///< of sbp on blocks
+  std::string second_order_because = {};  ///< auto: edge, for this reason, unless empty
   /// auto: off boxes those alone that bear any bulk pressure, in volumes of cells (notes 10.1)
   bool strong_pressure = false;
 };

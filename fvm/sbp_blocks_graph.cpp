@@ -112,7 +112,6 @@ scheme::PairGraph sbp_blocks_graph(const meshes::Mesh& mesh,
     k[p] = 0.5 * (graph.C[p].norm() + graph.C[graph.reverse[p]].norm());
   closure::repair_closure_pairs(graph, k);
   set_classes(graph);
-  graph.loses_sign = true;
   validate(graph);
   return graph;
 }

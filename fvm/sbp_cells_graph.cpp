@@ -102,7 +102,6 @@ scheme::PairGraph sbp_graph_of_cells(const meshes::Mesh& mesh) {
   link_reverse_pairs(graph);
   add_cells(mesh, meshes::Quadrature::vertex, graph);
   closure::make_sum_by_parts(graph, weights_of(mesh, graph));
-  graph.loses_sign = true;
   validate(graph);
   return graph;
 }

@@ -233,7 +233,8 @@ class Sides {
     weights.value = Vector::Zero(static_cast<int>(at.size()));
     const int dimension = mesh_.dimension - 1;
     Vector exact = Vector::Zero(n_monomials(dimension, 3));
-    for_points(face, [&](const std::array<double, 4>& N, double dA) {
+    for_points(f, [&](const std::array<double, 4>& N, const Vec3& normal_dA) {
+      const double dA = normal_dA.norm();
       Vec3 X = Vec3::Zero();
       for (int i = 0; i < face.n_nodes; ++i) {
         X += N[i] * mesh_.nodes[face.nodes[i]];
@@ -249,6 +250,20 @@ class Sides {
 
   const Vec3& normal(std::int32_t f) const { return normal_[f]; }
 
+  /// Calls visit(X, N dA) at the points of a fine rule on all faces.
+  template <class Visit>
+  void for_all_points(const Visit& visit) const {
+    for (std::int32_t f = 0; f < static_cast<std::int32_t>(side_.size()); ++f) {
+      const BoundaryFace& face = mesh_.boundary_faces[f];
+      for_points(f, [&](const std::array<double, 4>& N, const Vec3& normal_dA) {
+        Vec3 X = Vec3::Zero();
+        for (int i = 0; i < face.n_nodes; ++i)
+          X += N[i] * mesh_.nodes[face.nodes[i]];
+        visit(X, normal_dA);
+      });
+    }
+  }
+
  private:
   Vec3 area_of(const BoundaryFace& face) const {
     Vec3 sum = Vec3::Zero();
@@ -257,12 +272,13 @@ class Sides {
     return sum;
   }
 
-  /// Calls visit(shape functions, area) at the points of a fine rule.
+  /// Calls visit(shape functions, N dA) at the points of a fine rule on a face.
   template <class Visit>
-  void for_points(const BoundaryFace& face, const Visit& visit) const {
+  void for_points(std::int32_t f, const Visit& visit) const {
+    const BoundaryFace& face = mesh_.boundary_faces[f];
     if (face.n_nodes == 2) {
       const double g = std::sqrt(0.15);
-      const double length = (mesh_.nodes[face.nodes[1]] - mesh_.nodes[face.nodes[0]]).norm();
+      const Vec3 length = area_[f] * normal_[f];
       visit({0.5 + g, 0.5 - g, 0, 0}, 5. / 18 * length);
       visit({0.5, 0.5, 0, 0}, 8. / 18 * length);
       visit({0.5 - g, 0.5 + g, 0, 0}, 5. / 18 * length);
@@ -278,7 +294,8 @@ class Sides {
         s += point.dN[i][1] * mesh_.nodes[face.nodes[i]];
         N[i] = point.N[i];
       }
-      visit(N, point.weight * t.cross(s).norm());
+      const Vec3 area = point.weight * t.cross(s);
+      visit(N, area.dot(normal_[f]) < 0 ? Vec3(-area) : area);
     }
   }
 
@@ -307,7 +324,7 @@ void add_areas(const std::vector<Weights>& of_face,
     area[of_face[f].nodes[i]] += of_face[f].value[static_cast<int>(i)] * sides.normal(f);
 }
 
-/// Both sides of sum_a Omega_a d_i X^m = sum_a (A_aN_a)_i X_a^m for all monomials up to degree 3.
+/// Of sum_a Omega_a d_i X^m = sum_a (A_aN_a)_i X_a^m for all monomials up to degree 3.
 class MomentCheck {
  public:
   MomentCheck(const Mesh& mesh, const std::vector<Vec3>& boundary_area) : mesh_(mesh) {
@@ -332,33 +349,24 @@ class MomentCheck {
   /// @throws base::InputError where volumes at the nodes differ from the areas
   void of_nodes(const std::vector<double>& Omega, const BlockUse& use) const {
     Matrix of_volumes = Matrix::Zero(of_areas_.rows(), 3);
-    for (size_t a = 0; a < mesh_.nodes.size(); ++a)
-      add(mesh_.nodes[a], Omega[a], of_volumes);
-    judge(of_volumes, use);
-  }
-
-  /// The same with the integrals over the cells, which take no volumes at nodes.
-  void of_cells(const BlockUse& use) const {
-    Matrix of_volumes = Matrix::Zero(of_areas_.rows(), 3);
-    for (std::int64_t c = 0; c < mesh_.n_cells(); ++c) {
-      const auto corners = mesh_.cell(c);
-      const ReferenceCell& cell = reference_cell(mesh_.cell_types[c]);
-      for (const QuadraturePoint& point : cell.fine) {
-        Vec3 X = Vec3::Zero();
-        for (int i = 0; i < cell.n_nodes; ++i)
-          X += point.N[i] * mesh_.nodes[corners[i]];
-        add(X, point.weight * jacobian(cell, point, corners, mesh_.nodes).determinant(),
-            of_volumes);
-      }
+    for (size_t a = 0; a < mesh_.nodes.size(); ++a) {
+      const Vec3 X = (mesh_.nodes[a] - middle_) / size_;
+      of_volumes += Omega[a] / size_ * monomial_gradients(X, mesh_.dimension, 3);
     }
     judge(of_volumes, use);
   }
 
- private:
-  void add(const Vec3& X, double volume, Matrix& moments) const {
-    moments += volume / size_ * monomial_gradients((X - middle_) / size_, mesh_.dimension, 3);
+  /// The same before volumes are made: theirs are integrals over the body, which are integrals over
+  /// its boundary.
+  void of_body(const Sides& sides, const BlockUse& use) const {
+    Matrix of_boundary = Matrix::Zero(of_areas_.rows(), 3);
+    sides.for_all_points([&](const Vec3& X, const Vec3& normal_dA) {
+      of_boundary += monomials((X - middle_) / size_, mesh_.dimension, 3) * normal_dA.transpose();
+    });
+    judge(of_boundary, use);
   }
 
+ private:
   void judge(const Matrix& of_volumes, const BlockUse& use) const {
     const double difference = (of_volumes - of_areas_).cwiseAbs().maxCoeff() / largest_;
     if (difference <= most_difference) return;
@@ -398,7 +406,7 @@ DualMeasure quadratic_measure(const Mesh& mesh, const BlockUse& use) {
     }
   }
   const MomentCheck check(mesh, measure.boundary_area);
-  check.of_cells(use);
+  check.of_body(sides, use);
   measure.Omega = volumes_of(mesh, measure.Omega, use);
   check.of_nodes(measure.Omega, use);
   return measure;

@@ -131,7 +131,6 @@ scheme::PairGraph graph_of(const meshes::Mesh& mesh, const Options& options, boo
   set_corrected_gradients(kernel, h, graph);
   if (sums_by_parts) {
     closure::make_sum_by_parts(graph, wide_weights_of(kernel, h, graph));
-    graph.loses_sign = true;
   } else if (options.closure) {
     repair_closure(kernel, h, graph);
   }
@@ -150,7 +149,8 @@ scheme::Operators sbp_on(const meshes::Mesh& mesh, const Options& options) {
   }
   return {graph_of(mesh, options, true),
           fmt::format("sbp: order 2 on {} nodes, kappa {:.4g}", mesh.n_nodes(), options.kappa),
-          {}};
+          {},
+          true};
 }
 
 scheme::Operators corrected_because(const meshes::Mesh& mesh,
@@ -163,6 +163,8 @@ scheme::Operators corrected_because(const meshes::Mesh& mesh,
 
 /// What gradient = "auto" comes to.
 scheme::Operators chosen_on(const meshes::Mesh& mesh, const Options& options) {
+  if (!options.second_order_because.empty())
+    return corrected_because(mesh, options, options.second_order_because);
   if (!options.closure) return corrected_because(mesh, options, "closure = false");
   const Kernel kernel = kernels().at(options.kernel);
   if (const std::string because = unsure_because(mesh, kernel, options.kappa); !because.empty())

@@ -15,6 +15,7 @@ struct Options {
   double kappa = 1.2;                   ///< h_a = kappa (Omega_a / filled part of the angle)^(1/d)
   bool closure = true;                  ///< repair the closure
   std::string gradient = "corrected";   ///< corrected, sbp or auto: sbp where it is sure to do
+  std::string second_order_because = {};  ///< auto: corrected, for this reason, unless empty
   /// auto: off boxes those alone that bear any bulk pressure, in volumes of cells (notes 10.1)
   bool strong_pressure = false;
 };

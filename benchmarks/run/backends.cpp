@@ -23,33 +23,19 @@ std::string second_order_because(const cases::Case& setup, const std::string& me
   return setup.scheme.volumes == "cells" ? "volumes of cells carry the pressure" : "";
 }
 
-/// "corrected gradient: the face correction is for it"
-scheme::Operators because_of_case(scheme::Operators operators,
-                                  const std::string& name,
-                                  const std::string& because) {
-  operators.text = fmt::format("{}: {}", name, because);
+scheme::Operators sph_operators(const meshes::Mesh& mesh, const cases::Case& setup) {
+  scheme::Operators operators = sph::operators_on(
+      mesh, {setup.sph.kernel, setup.sph.kappa, setup.sph.closure, setup.sph.gradient,
+             second_order_because(setup, "sph"), run::wants_safe_volumes(setup)});
+  // its lines have slopes, with which the sign is known
+  if (!operators.graph.slopes.empty() && run::wants_line_slopes(setup)) operators.notices.clear();
   return operators;
 }
 
-scheme::Operators sph_operators(const meshes::Mesh& mesh, const cases::Case& setup) {
-  const std::string because = second_order_because(setup, "sph");
-  const sph::Options options{setup.sph.kernel, setup.sph.kappa, setup.sph.closure,
-                             because.empty() ? setup.sph.gradient : "corrected",
-                             run::wants_safe_volumes(setup)};
-  scheme::Operators operators = sph::operators_on(mesh, options);
-  // its lines have slopes, with which the sign is known
-  if (!operators.graph.slopes.empty() && run::wants_line_slopes(setup)) operators.notices.clear();
-  return because.empty() ? operators
-                         : because_of_case(std::move(operators), "corrected gradient", because);
-}
-
 scheme::Operators fvm_operators(const meshes::Mesh& mesh, const cases::Case& setup) {
-  const std::string because = second_order_because(setup, "fvm");
-  const fvm::Options options{because.empty() ? setup.fvm.stencil : "edge", setup.fvm.order,
-                             run::wants_safe_volumes(setup)};
-  scheme::Operators operators = fvm::operators_on(mesh, options);
-  return because.empty() ? operators
-                         : because_of_case(std::move(operators), "edge stencil", because);
+  return fvm::operators_on(mesh,
+                           {setup.fvm.stencil, setup.fvm.order, second_order_because(setup, "fvm"),
+                            run::wants_safe_volumes(setup)});
 }
 
 /// Of operators that sum by parts but do not commute, in bodies whose pressure volumes of cells
@@ -66,7 +52,7 @@ constexpr const char* sign_notice =
 
 /// In the precision of the case, with what its other options make of them.
 scheme::Operators finished(scheme::Operators operators, const cases::Case& setup) {
-  if (operators.graph.loses_sign && run::wants_safe_volumes(setup)) {
+  if (operators.loses_sign && run::wants_safe_volumes(setup)) {
     if (setup.scheme.limiter == "none") operators.notices.emplace_back(sign_notice);
     operators.notices.emplace_back(pressure_notice);
   }

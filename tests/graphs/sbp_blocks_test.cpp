@@ -203,7 +203,9 @@ TEST(SbpBlocks, AreTakenWhereLinesAreSmooth) {
               ElementsAre("order 2 instead of 4 on rings of 4 nodes, order 4 takes 5"));
   EXPECT_THAT(fvm::operators_on(curved_block(16, 0), {"sbp", 6}).notices,
               ElementsAre(HasSubstr("order 4 instead of 6")));
-  EXPECT_TRUE(fvm::operators_on(curved_block(5, 0), {"sbp", 4}).graph.loses_sign);
+  EXPECT_THAT(fvm::operators_on(curved_block(5, 0), {"sbp", 4}).notices,
+              testing::Contains(HasSubstr("lines of six nodes")));
+  EXPECT_TRUE(fvm::operators_on(curved_block(8, 0), {"sbp", 4}).loses_sign);
 }
 
 TEST(SbpBlocks, RefuseLinesThatBendTooMuch) {

@@ -12,6 +12,9 @@ struct Operators {
   PairGraph graph;
   std::string text;                  ///< for the record; empty where they were asked for by name
   std::vector<std::string> notices;  ///< where they are less than could be, or promise less
+  /// Off boxes, of those that sum by parts: what linear reconstructions leave of jumps may give
+  /// energy to some motions, unless a limiter keeps the sign of the jumps (notes 4.5, 4.6).
+  bool loses_sign = false;
 };
 
 }  // namespace diptych::scheme

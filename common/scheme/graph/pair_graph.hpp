@@ -60,9 +60,6 @@ struct PairGraph {
   /// Along lines of nodes, for jumps between the nearest on them; empty where there are no lines.
   SlopeRows slopes;
   bool commutes = false;  ///< its derivatives in different directions do, as of tensor products
-  /// What linear reconstructions leave of jumps may give energy to some motions, unless a limiter
-  /// keeps the sign of the jumps (notes 4.5, 4.6).
-  bool loses_sign = false;
   Precision precision = Precision::full;  ///< see set_precision
 
   std::int64_t n_nodes() const { return static_cast<std::int64_t>(X.size()); }
