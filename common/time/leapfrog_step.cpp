@@ -35,7 +35,7 @@ double leapfrog_step(MovingBody<Dim>& moving, double t_limit) {
   book(moving, boundary.constrain(body, t + dt / 2));
   const double old_loads = boundary.power_of_loads(body);
   rate.external_work = 0.5 * old_loads;
-  rate.external_work += 0.5 * boundary.power_of_constraints(body, 0.5);
+  rate.external_work += 0.5 * boundary.power_against_forces(body);
   const Rule rule = moving.has_branches() ? Rule::linear : Rule::frozen;
   sweeps.strain_rates(body, {rule, true, dt, sweeps.material().branches()}, nullptr, dt);
   if (!is_sound(moving)) return dt;
@@ -46,7 +46,7 @@ double leapfrog_step(MovingBody<Dim>& moving, double t_limit) {
   load_rates = boundary.add_loads(body, t + dt);
   rate.external_work += 0.5 * load_rates.power;
   // the same velocities against the forces of the end: the trapezoid, of second order
-  rate.external_work += 0.5 * boundary.power_of_constraints(body, 0.5);
+  rate.external_work += 0.5 * boundary.power_against_forces(body);
   rate.impulse.linear += 0.5 * load_rates.force;
   rate.impulse.angular += 0.5 * load_rates.torque;
   rate.numerical_dissipation += 0.5 * sweeps.numerical_power();

@@ -2,7 +2,6 @@
 
 #include "common/scheme/body/body_archive.hpp"
 
-#include <fmt/format.h>
 #include <string>
 
 namespace diptych::time {
@@ -65,10 +64,7 @@ void archive_loads(scheme::LoadRates& rates, Archive& archive) {
 void archive_boundary(scheme::AppliedBoundary& boundary, Archive& archive) {
   scheme::BoundaryState state;
   boundary.keep(state);
-  archive.real("boundary/step begin", "s", state.step_begin);
-  archive.real("boundary/step", "s", state.step);
-  for (size_t k = 0; k < state.in_step.size(); ++k)
-    archive.vectors(fmt::format("boundary/prescribed {} of 4", k), "m/s", state.in_step[k]);
+  state.in_step.archive(archive);
   const auto n_targets = static_cast<std::int64_t>(state.target.size());
   archive.vectors("boundary/target", "m/s", state.target, n_targets);
   const auto n_forces = static_cast<std::int64_t>(state.forces.size());

@@ -49,7 +49,7 @@ double ssp_step(MovingBody<Dim>& moving, double t_limit) {
     }
     load_rates = boundary.add_loads(body, clock.time + fraction * dt);
     scheme::Audit rate = audit_rates(moving);
-    rate.external_work += boundary.power_of_constraints(body, fraction);
+    rate.external_work += boundary.power_against_forces(body);
     const scheme::StageCombination stage = combination(i);
     audit = audit.combined(stage.alpha, audit_0, stage.beta, stage.dt, rate);
     combine_motion(body, stage);

@@ -191,8 +191,6 @@ void AppliedBoundary::complete(const parallel::Part& part) {
 }
 
 void AppliedBoundary::keep(BoundaryState& state) const {
-  state.step_begin = step_begin_;
-  state.step = step_;
   state.in_step = in_step_;
   state.target = target_;
   if (loads_depend_on_time_) state.forces = forces_;  // others never change
@@ -201,8 +199,6 @@ void AppliedBoundary::keep(BoundaryState& state) const {
 }
 
 void AppliedBoundary::restore(const BoundaryState& state) {
-  step_begin_ = state.step_begin;
-  step_ = state.step;
   in_step_ = state.in_step;
   target_ = state.target;
   if (loads_depend_on_time_) forces_ = state.forces;
@@ -211,45 +207,40 @@ void AppliedBoundary::restore(const BoundaryState& state) {
 }
 
 void AppliedBoundary::begin_step(double t, double dt) {
-  const bool goes_on = t == step_begin_ + step_ && !in_step_[4].empty();
-  step_begin_ = t;
-  step_ = dt;
-  if (!has_velocities_) return;
-  if (goes_on) {
-    std::swap(in_step_[0], in_step_[4]);
+  if (has_velocities_) {
+    in_step_.begin_step(t, dt, [this](double instant) { return prescribed(instant); });
   } else {
-    in_step_[0] = prescribed(t);
+    in_step_.begin_step(t, dt);
   }
-  for (int k = 1; k <= 4; ++k)
-    in_step_[k] = prescribed(t + 0.25 * k * dt);
-}
-
-/// Rate of prescribed velocity k by the fourth-order differences of its five values.
-Vec3 AppliedBoundary::rate(size_t k, double fraction) const {
-  constexpr double begin[5] = {-25, 48, -36, 16, -3}, middle[5] = {1, -8, 0, 8, -1};
-  Vec3 sum = Vec3::Zero();
-  for (size_t i = 0; i < 5; ++i) {
-    const double weight = fraction == 0 ? begin[i] : fraction == 1 ? -begin[4 - i] : middle[i];
-    sum += weight * in_step_[i][k];
-  }
-  return sum / (3 * step_);
 }
 
 template <int Dim>
 ConstraintAction AppliedBoundary::constrain(Body<Dim>& body, double t) {
-  const bool at_end = t == step_begin_ + step_, in_middle = t == step_begin_ + 0.5 * step_;
+  const bool has_step = in_step_.step() > 0;
+  const bool at_end = has_step && t == in_step_.end();
+  const bool in_middle = has_step && t == in_step_.middle();
   if (has_velocities_) {
-    target_ = step_ > 0 && at_end      ? in_step_[4]
-              : step_ > 0 && in_middle ? in_step_[2]
-                                       : prescribed(t);
+    target_ = at_end ? in_step_.at_end() : in_middle ? in_step_.at_middle() : prescribed(t);
   }
-  ConstraintAction action{overwrite(body), 0};
+  ConstraintAction action{overwrite(body), at_end ? kinetic_work(body) : 0};
   if (in_middle && !at_end) {
-    walls_.hold_in_middle(body, step_, action);
+    walls_.hold_in_middle(body, in_step_.step(), action);
   } else {
     walls_.settle(body, action);
   }
   return action;
+}
+
+/// What the kinetic energy of the prescribed velocities has grown by in the step, whatever they did
+/// in between  [J]
+template <int Dim>
+double AppliedBoundary::kinetic_work(const Body<Dim>& body) const {
+  if (!has_velocities_) return 0;
+  return parallel::sum_over<double>(
+      body.part(), chunks_of_constrained_, [&](std::int64_t k, double& work) {
+        const ConstrainedNode& c = constrained_[k];
+        work += 0.5 * body.options.rho_R * c.Omega * in_step_.growth_of_square(k);
+      });
 }
 
 template <int Dim>
@@ -258,8 +249,8 @@ ConstraintAction AppliedBoundary::constrain_stage(Body<Dim>& body,
                                                   const StageCombination& next,
                                                   double fraction) {
   for (size_t k = 0; has_velocities_ && k < target_.size(); ++k)
-    target_[k] =
-        stage.alpha * in_step_[0][k] + stage.beta * (target_[k] + stage.dt * rate(k, fraction));
+    target_[k] = stage.alpha * in_step_.at_begin()[k] +
+                 stage.beta * (target_[k] + stage.dt * in_step_.rate(k, fraction));
   ConstraintAction action{overwrite(body), 0};
   walls_.hold(body, stage, next, action);
   return action;
@@ -384,17 +375,15 @@ double AppliedBoundary::power_of_loads(const Body<Dim>& body) const {
 }
 
 template <int Dim>
-double AppliedBoundary::power_of_constraints(const Body<Dim>& body, double fraction) const {
+double AppliedBoundary::power_against_forces(const Body<Dim>& body) const {
   if (!has_velocities_) return 0;
-  return parallel::sum_over<double>(
-      body.part(), chunks_of_constrained_, [&](std::int64_t i, double& power) {
-        const ConstrainedNode& c = constrained_[i];
-        if (!c.velocity) return;
-        const Vec3 v = vector_at<Dim>(body.v, c.node);
-        const Vec3 reaction =
-            body.options.rho_R * c.Omega * rate(i, fraction) - vector_at<Dim>(body.T, c.node);
-        power += reaction.dot(v - c.keep * v);
-      });
+  return parallel::sum_over<double>(body.part(), chunks_of_constrained_,
+                                    [&](std::int64_t i, double& power) {
+                                      const ConstrainedNode& c = constrained_[i];
+                                      if (!c.velocity) return;
+                                      const Vec3 v = vector_at<Dim>(body.v, c.node);
+                                      power -= vector_at<Dim>(body.T, c.node).dot(v - c.keep * v);
+                                    });
 }
 
 template <int Dim>
@@ -405,7 +394,8 @@ Vec3 AppliedBoundary::reaction(const Body<Dim>& body,
         const ConstrainedNode& c = constrained_[k];
         if (!std::binary_search(nodes.begin(), nodes.end(), c.node)) return;
         Vec3 force = -vector_at<Dim>(body.T, c.node);
-        if (c.velocity && step_ > 0) force += body.options.rho_R * c.Omega * rate(k, 1);
+        if (c.velocity && in_step_.step() > 0)
+          force += body.options.rho_R * c.Omega * in_step_.rate(k, 1);
         sum.value += force - c.keep * force;
       });
   return walls_.force(body, nodes) + held.value;
@@ -418,7 +408,7 @@ Vec3 AppliedBoundary::reaction(const Body<Dim>& body,
   template double AppliedBoundary::withheld(const Body<Dim>&, const Projection&) const;           \
   template LoadRates AppliedBoundary::add_loads(Body<Dim>&, double);                              \
   template double AppliedBoundary::power_of_loads(const Body<Dim>&) const;                        \
-  template double AppliedBoundary::power_of_constraints(const Body<Dim>&, double) const;          \
+  template double AppliedBoundary::power_against_forces(const Body<Dim>&) const;                  \
   template Vec3 AppliedBoundary::reaction(const Body<Dim>&, const std::vector<std::int32_t>&) const;
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)

@@ -8,11 +8,11 @@
 #include "common/scheme/boundary/body_loads.hpp"
 #include "common/scheme/boundary/boundary_condition.hpp"
 #include "common/scheme/boundary/rigid_wall.hpp"
+#include "common/scheme/boundary/velocities_in_step.hpp"
 #include "common/scheme/budget/angular_momentum.hpp"
 #include "common/scheme/budget/audit.hpp"
 #include "common/scheme/ranks/untouched.hpp"
 
-#include <array>
 #include <vector>
 
 namespace diptych::scheme {
@@ -25,12 +25,11 @@ struct PlacedCondition {
 
 /// What a boundary knows of a step, apart from the state of the body.
 struct BoundaryState {
-  double step_begin = 0, step = 0;           ///< s
-  std::array<std::vector<Vec3>, 5> in_step;  ///< m/s, prescribed
-  std::vector<Vec3> target;                  ///< m/s, prescribed, as last applied
-  std::vector<Vec3> forces;                  ///< N, loads, as last applied
-  double body_loads = 0;                     ///< s, time of those of a known motion
-  std::vector<char> closed;                  ///< [nodes at walls]
+  VelocitiesInStep in_step;
+  std::vector<Vec3> target;  ///< m/s, prescribed, as last applied
+  std::vector<Vec3> forces;  ///< N, loads, as last applied
+  double body_loads = 0;     ///< s, time of those of a known motion
+  std::vector<char> closed;  ///< [nodes at walls]
 };
 
 class AppliedBoundary {
@@ -72,15 +71,15 @@ class AppliedBoundary {
     give_back(slot_of_node_);
   }
 
-  /// Prescribed velocities of the step from t to t + dt: five instants, a quarter of it apart.
-  /// Rates are those of the polynomial through them.
+  /// Takes the prescribed velocities of the step from t to t + dt.
   void begin_step(double t, double dt);
 
   /// Overwrites the prescribed velocity components by their values at time t: the end or the middle
   /// of the step, or the start of the run.
   /// At the end of a step rigid walls also let go and catch nodes.
-  /// @return impulse of the constraint forces: sum rho Omega (v after - v before), its moment, and
-  ///         the work of impacts
+  /// @return impulse of the constraint forces: sum rho Omega (v after - v before), its moment; the
+  ///         work of impacts and, at the end of a step, what the kinetic energy of the prescribed
+  ///         velocities has grown by: the rest of their work is power_against_forces()
   template <int Dim>
   ConstraintAction constrain(Body<Dim>& body, double t);
 
@@ -107,11 +106,10 @@ class AppliedBoundary {
   template <int Dim>
   double power_of_loads(const Body<Dim>& body) const;
 
-  /// Power of the constraint forces, from the force field (loads included), the velocities as they
-  /// are and the acceleration of the prescribed ones at a fraction of the step: 0, 1/2 or 1  [W].
-  /// Zero where all prescribed velocities are.
+  /// Power with which the prescribed velocities, as they are, move against the force field (loads
+  /// included)  [W]. Zero where all of them are.
   template <int Dim>
-  double power_of_constraints(const Body<Dim>& body, double fraction) const;
+  double power_against_forces(const Body<Dim>& body) const;
 
   /// Force of the constraints on these nodes (ascending), from the force field (loads included):
   /// what keeps their velocities as prescribed, and what walls exert  [N]
@@ -140,10 +138,9 @@ class AppliedBoundary {
   std::vector<ConstrainedNode> constrained_;
   std::vector<PrescribedVelocities> velocities_;
   parallel::ChunksOfList chunks_of_constrained_;
-  bool has_velocities_ = false;               ///< whether any of them is prescribed other than zero
-  double step_begin_ = 0, step_ = 0;          ///< s
-  std::array<std::vector<Vec3>, 5> in_step_;  ///< [constrained_] m/s, at quarters of the step
-  std::vector<Vec3> target_;                  ///< [constrained_] m/s, as last applied
+  bool has_velocities_ = false;  ///< whether any of them is prescribed other than zero
+  VelocitiesInStep in_step_;     ///< of constrained_
+  std::vector<Vec3> target_;     ///< [constrained_] m/s, as last applied
   WallContacts walls_;
   std::vector<PlacedCondition> conditions_;
   std::vector<GivenLoads> given_;                  ///< [conditions_]
@@ -164,7 +161,8 @@ class AppliedBoundary {
   void place_walls(const PairGraph& graph);
   void mark_loaded(const std::vector<char>& loaded);
   std::vector<Vec3> prescribed(double t) const;
-  Vec3 rate(size_t k, double fraction) const;
+  template <int Dim>
+  double kinetic_work(const Body<Dim>& body) const;
   template <int Dim>
   Impulse overwrite(Body<Dim>& body) const;
   template <int Dim>
