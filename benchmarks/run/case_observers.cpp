@@ -22,6 +22,11 @@ double largest_loss(const cases::Case& setup) {
   return limiter == "none" || limiter == "sign-preserving" ? 0.5 : all;
 }
 
+double energy_of_rounding(const cases::Case& setup, const Scene& scene) {
+  return run::energy_of_rounding(setup.material.density, scene.solver->undeformed_speed(),
+                                 scene.graph.Omega);
+}
+
 }  // namespace
 
 CaseObservers::CaseObservers(const cases::Case& setup,
@@ -42,16 +47,16 @@ CaseObservers::CaseObservers(const cases::Case& setup,
       exact_(setup, scene.graph, *scene.solver, probes_),
       fields_(scene.mesh.order, run::probe_columns(setup.probes, false), history_),
       progress_(setup, options, history_),
-      involution_guard_(*scene.solver, setup.guards.involution) {
+      involution_guard_(*scene.solver, setup.guards.involution),
+      momentum_guard_(
+          scene.solver->balance(), setup.guards.angular_drift, energy_of_rounding(setup, scene)) {
   if (options.scales) scales_.emplace(scene.graph);
   if (options.shapes)
     shapes_.emplace(scene.mesh.mesh, static_cast<size_t>(setup.output.frames) + 1);
   if (setup.guards.inverted_cells == "stop") cell_guard_.emplace(cells_);
   if (setup.scheme.energy_budget) {
-    energy_guard_.emplace(
-        scene.solver->balance(), setup.guards.energy_residual, largest_loss(setup),
-        run::energy_of_rounding(setup.material.density, scene.solver->undeformed_speed(),
-                                scene.graph.Omega));
+    energy_guard_.emplace(scene.solver->balance(), setup.guards.energy_residual,
+                          largest_loss(setup), energy_of_rounding(setup, scene));
   }
 }
 
@@ -86,6 +91,7 @@ std::vector<run::Observer*> CaseObservers::all() {
   // last: what they stop at has been written
   if (energy_guard_) all.push_back(&*energy_guard_);
   all.push_back(&involution_guard_);
+  all.push_back(&momentum_guard_);
   if (cell_guard_) all.push_back(&*cell_guard_);
   return all;
 }

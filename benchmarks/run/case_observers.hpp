@@ -14,6 +14,7 @@
 #include "common/run/observers/fields.hpp"
 #include "common/run/observers/history.hpp"
 #include "common/run/observers/involution_guard.hpp"
+#include "common/run/observers/momentum_guard.hpp"
 #include "common/run/observers/step_probes.hpp"
 #include "meshes/deformed_cells.hpp"
 
@@ -64,6 +65,7 @@ class CaseObservers {
   std::optional<run::CellGuard> cell_guard_;
   std::optional<run::EnergyGuard> energy_guard_;
   run::InvolutionGuard involution_guard_;
+  run::MomentumGuard momentum_guard_;
 };
 
 }  // namespace diptych::harness

@@ -30,6 +30,15 @@ SectionEntry guards_section() {
                 "The run is stopped (code 3) where |H - cof F| or |J - det F| of a node is more "
                 "than this, at the same steps.",
                 "0.05"})
+          .key(
+              "angular_drift", &GuardsCase::angular_drift,
+              {"-", above(0),
+               "The run is stopped (code 3) where angular momentum differs by more than this "
+               "from that of the start and of the moments of loads and supports, at the same steps "
+               "but for the first 20 after a state of rest: as a share of the largest sum of "
+               "|x||p| over the nodes so far. At a loss of this share of its angular momentum a "
+               "body that spins has lost nearly twice the share of its energy of rotation.",
+               "0.5"})
           .key("least_step", &GuardsCase::least_step,
                {"-", Range{0, 1, false, true},
                 "The run is stopped (code 3) where the time step has become less than this share "

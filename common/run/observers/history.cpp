@@ -9,8 +9,8 @@ History::History(Solver& solver, const Probes& probes, const Cells& cells)
     : solver_(solver),
       probes_(probes),
       cells_(cells),
-      initial_(solver.balance()),
-      energy_(initial_) {}
+      energy_(solver.balance()),
+      momenta_(solver.balance()) {}
 
 void History::write_to(const std::string& path, const std::vector<std::string>& columns) {
   file_ = std::make_unique<io::RowFile>(path, io::history_header(columns));
@@ -36,7 +36,9 @@ void History::at_output(const Output& output) {
   row.least_cell_J = cells_.now().J;
   if (!probes_.empty()) row.probes = probes_.values(solver_);
   rows_.push_back(std::move(row));
-  update_drifts(balance, output.audit);
+  momenta_.at(balance, output.audit);
+  linear_drift_ = std::max(linear_drift_, momenta_.linear_drift());
+  angular_drift_ = std::max(angular_drift_, momenta_.angular_drift());
   if (!file_) return;
   file_->append(io::history_line(rows_.back()));
   file_->flush();
@@ -72,10 +74,7 @@ void History::archive(algebra::Archive& archive) {
     row.step = steps[static_cast<size_t>(&row - rows_.data())];
   }
   energy_.archive("history", archive);
-  archive.vector("history/initial linear momentum", "N s", initial_.linear_momentum);
-  archive.vector("history/initial angular momentum", "N m s", initial_.angular_momentum);
-  archive.real("history/momentum scale", "N s", momentum_scale_);
-  archive.real("history/angular scale", "N m s", angular_scale_);
+  momenta_.archive("history", archive);
   archive.real("history/linear drift", "-", linear_drift_);
   archive.real("history/angular drift", "-", angular_drift_);
 }
@@ -86,18 +85,6 @@ double History::energy_residual() const {
 }
 
 /// Largest change of momentum beyond the impulse of loads and constraints, relative to sum |p|.
-void History::update_drifts(const scheme::Balance& now, const scheme::Audit& audit) {
-  momentum_scale_ = std::max(momentum_scale_, now.momentum_scale);
-  angular_scale_ = std::max(angular_scale_, now.angular_scale);
-  const auto drift = [](const algebra::Vec3& p, double scale) {
-    return scale > 0 ? p.norm() / scale : 0;
-  };
-  const algebra::Vec3 p = now.linear_momentum - initial_.linear_momentum - audit.impulse.linear;
-  const algebra::Vec3 L = now.angular_momentum - initial_.angular_momentum - audit.impulse.angular;
-  linear_drift_ = std::max(linear_drift_, drift(p, momentum_scale_));
-  angular_drift_ = std::max(angular_drift_, drift(L, angular_scale_));
-}
-
 void History::fill(io::RunSummary& summary) const {
   summary.energy = rows_.back().energy;
   summary.linear_momentum_drift = linear_drift_;

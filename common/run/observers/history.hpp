@@ -6,6 +6,7 @@
 #include "common/io/row_file.hpp"
 #include "common/io/run_record.hpp"
 #include "common/run/energy_record.hpp"
+#include "common/run/momentum_record.hpp"
 #include "common/run/observers/cells.hpp"
 #include "common/run/probes.hpp"
 
@@ -39,16 +40,14 @@ class History : public Observer {
   void fill(io::RunSummary& summary) const;
 
  private:
-  void update_drifts(const scheme::Balance& now, const scheme::Audit& audit);
-
   Solver& solver_;
   const Probes& probes_;
   const Cells& cells_;
-  scheme::Balance initial_;
   EnergyRecord energy_;
+  MomentumRecord momenta_;
   std::vector<io::HistoryRow> rows_;
   std::unique_ptr<io::RowFile> file_;
-  double momentum_scale_ = 0, angular_scale_ = 0, linear_drift_ = 0, angular_drift_ = 0;
+  double linear_drift_ = 0, angular_drift_ = 0;  // largest so far
 };
 
 }  // namespace diptych::run

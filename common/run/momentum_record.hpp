@@ -1,0 +1,48 @@
+#pragma once
+/// The momenta of a run over time: how far they are from what they began with and the impulse of
+/// loads and supports since then, relative to what the nodes have held.
+
+#include "common/algebra/archive.hpp"
+#include "common/scheme/budget/audit.hpp"
+#include "common/scheme/budget/balance.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace diptych::run {
+
+class MomentumRecord {
+ public:
+  explicit MomentumRecord(const scheme::Balance& initial)
+      : linear_(initial.linear_momentum), angular_(initial.angular_momentum) {}
+
+  void at(const scheme::Balance& now, const scheme::Audit& audit) {
+    linear_scale_ = std::max(linear_scale_, now.momentum_scale);
+    angular_scale_ = std::max(angular_scale_, now.angular_scale);
+    const auto share = [](const algebra::Vec3& drift, double scale) {
+      return scale > 0 ? drift.norm() / scale : 0;
+    };
+    linear_drift_ = share(now.linear_momentum - linear_ - audit.impulse.linear, linear_scale_);
+    angular_drift_ = share(now.angular_momentum - angular_ - audit.impulse.angular, angular_scale_);
+  }
+
+  /// Of the last call of at(), as a share of the largest sum over the nodes of |p| so far.
+  double linear_drift() const { return linear_drift_; }
+  /// The same of |x||p|, x from the initial centroid.
+  double angular_drift() const { return angular_drift_; }
+
+  /// @param group  of the archive, without "/" at its end
+  void archive(const std::string& group, algebra::Archive& archive) {
+    archive.vector(group + "/initial linear momentum", "N s", linear_);
+    archive.vector(group + "/initial angular momentum", "N m s", angular_);
+    archive.real(group + "/momentum scale", "N s", linear_scale_);
+    archive.real(group + "/angular scale", "N m s", angular_scale_);
+  }
+
+ private:
+  algebra::Vec3 linear_, angular_;  ///< N s, N m s, of the start
+  double linear_scale_ = 0, angular_scale_ = 0;
+  double linear_drift_ = 0, angular_drift_ = 0;
+};
+
+}  // namespace diptych::run

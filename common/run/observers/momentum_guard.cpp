@@ -1,0 +1,21 @@
+#include "common/run/observers/momentum_guard.hpp"
+
+#include "common/base/error.hpp"
+
+#include <fmt/format.h>
+
+namespace diptych::run {
+
+void MomentumGuard::at_check(const Check& check) {
+  momenta_.at(check.balance, check.audit);
+  if (check.balance.kinetic <= least_energy_) judged_from_ = check.step.step + steps_of_start;
+  if (check.step.step < judged_from_ || momenta_.angular_drift() <= threshold_) return;
+  throw base::BreakdownError(fmt::format(
+      "angular momentum has drifted by {:.3g} of the largest sum of |x||p| so far, bound {:g}, "
+      "step {}, time {:.6g} s, dt {:.4g} s\n"
+      "  numerical dissipation brakes the rotation: use a finer mesh (--level) or, of a free body, "
+      "scheme.angular_momentum_projection = true; guards.angular_drift raises the bound",
+      momenta_.angular_drift(), threshold_, check.step.step, check.step.time, check.step.dt));
+}
+
+}  // namespace diptych::run
