@@ -66,7 +66,8 @@ type = "fixed"
 
 class EnergyBudget : public testing::TestWithParam<std::tuple<const char*, const char*>> {
  protected:
-  /// Relative to the energy at the start, after n equal steps.
+  /// Largest at eight instants of n equal steps, relative to the energy at the start: at a single
+  /// one, errors of second and third order may cancel.
   double residual(int n, const std::string& text, const std::string& integrator, int factor) const {
     parallel::set_threads(1);
     const auto& [method, correction] = GetParam();
@@ -75,12 +76,15 @@ class EnergyBudget : public testing::TestWithParam<std::tuple<const char*, const
                                    "scheme.dissipation=" + std::to_string(factor),
                                    std::string("scheme.face_correction=") + correction});
     const scheme::Balance start = scene.solver->balance();
-    tests::make_steps(*scene.solver, 4e-3, n);
-    const scheme::Balance now = scene.solver->balance();
-    const scheme::Audit& audit = scene.solver->audit();
-    return std::abs(now.kinetic + now.strain - start.kinetic - start.strain - audit.external_work +
-                    audit.numerical_dissipation + audit.viscous_dissipation) /
-           start.kinetic;
+    double largest = 0;
+    for (int k = 1; k <= n; ++k) {
+      scene.solver->step(4e-3 * k / n);
+      if (k % (n / 8) != 0) continue;
+      const scheme::Balance now = scene.solver->balance();
+      largest = std::max(largest, std::abs(now.kinetic + now.strain - start.kinetic - start.strain -
+                                           scene.solver->audit().gain()));
+    }
+    return largest / start.kinetic;
   }
   void expect_order(const std::string& text,
                     const std::string& integrator,
@@ -102,10 +106,10 @@ TEST_P(EnergyBudget, ClosesAtTheOrderOfTheIntegratorUnderAllConditionsAtOnce) {
   // loads act on held nodes as well, and edges are shared
   const std::string all =
       block + body_force + moving + traction + rolling + pressure + skew + fixed;
-  expect_order(all, "ssp-rk2", 1, 1.8);
-  expect_order(all, "ssp-rk3", 1, 2.7);
-  expect_order(all, "ssp-rk43", 1, 2.7);
-  expect_order(all, "leapfrog", 0, 1.9);  // without D_ab, which lags by half a step
+  expect_order(all, "ssp-rk2", 1, 1.9);
+  expect_order(all, "ssp-rk3", 1, 2.9);
+  expect_order(all, "ssp-rk43", 1, 2.9);
+  expect_order(all, "leapfrog", 0, 1.95);  // without D_ab, which lags by half a step
 }
 
 // With H and J as unknowns of their own; dt/tau from 1e-8 to 1e8 on the shear wave.
