@@ -6,12 +6,14 @@
 #include "common/parallel/agreement.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/parallel/ranks.hpp"
+#include "common/parallel/sharing.hpp"
 #include "common/run/ranks/leading_solver.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <new>
+#include <optional>
 
 namespace diptych::harness {
 
@@ -21,61 +23,58 @@ using parallel::Communicator;
 
 /// What a scene is made of; to end where there is no text.
 struct Request {
-  std::string text, file, method, partition;
+  std::string text, file, partition;
   std::vector<std::string> overrides;
-  std::int64_t level = 0, threads = 0;
+  std::int64_t threads = 0;
 };
 
-/// The same on all ranks, of what rank 0 has.
-void share(Communicator& ranks, std::int64_t& value) {
-  parallel::broadcast(ranks, value);
-}
-void share(Communicator& ranks, std::string& text) {
-  auto n = std::ssize(text);
-  parallel::broadcast(ranks, n);
-  text.resize(static_cast<size_t>(n));
-  ranks.broadcast(parallel::bytes_of(text.data()), n);
-}
 void share(Communicator& ranks, Request& request) {
-  share(ranks, request.text);
-  for (std::string* text : {&request.file, &request.method, &request.partition})
-    share(ranks, *text);
+  ranks.meet();
+  for (std::string* text : {&request.text, &request.file, &request.partition})
+    parallel::share(ranks, *text);
   std::int64_t n = std::ssize(request.overrides);
-  share(ranks, n);
+  parallel::share(ranks, n);
   request.overrides.resize(static_cast<size_t>(n));
   for (std::string& override : request.overrides)
-    share(ranks, override);
-  share(ranks, request.level);
-  share(ranks, request.threads);
+    parallel::share(ranks, override);
+  parallel::share(ranks, request.threads);
 }
 
-/// A scene that all ranks have made.
-template <class Make>
-std::unique_ptr<Scene> made_by_all(Communicator& ranks, const Make& make) {
-  const parallel::Phase phase("set-up");
-  std::unique_ptr<Scene> scene;
-  parallel::agree_on(ranks, [&] { scene = make(); });
-  return scene;
-}
+/// At the end of its lifetime all ranks meet: others wait long for what rank 0 does alone, and it
+/// needs the processors.
+struct Meeting {
+  explicit Meeting(Communicator& of) : ranks(of) {}
+  ~Meeting() { ranks.meet(); }
+  Meeting(const Meeting&) = delete;
+  Meeting& operator=(const Meeting&) = delete;
+  Communicator& ranks;
+};
+
+constexpr const char* set_up = "set-up";  ///< what all ranks do or wait for
 
 /// Null where the run has one rank.
 const run::LeadingSolver* leading_of(const Scene& scene) {
   return dynamic_cast<const run::LeadingSolver*>(scene.solver.get());
 }
 
-/// Makes a scene and follows its run.
+/// Is given the solver of a scene that rank 0 has made, and follows its run.
 void follow_run(Communicator& ranks, const Request& request) {
   parallel::set_threads(static_cast<int>(request.threads));
   reset_peak_rss();
-  const auto scene = made_by_all(ranks, [&] {
-    const cases::Case setup =
-        cases::case_from_text(request.text, request.file, request.overrides, menus());
-    return std::make_unique<Scene>(setup, request.method, static_cast<int>(request.level));
-  });
-  release_pairs(scene->graph);
-  release_nodes(scene->graph);
-  scene->mesh = {};
-  run::follow(*scene->solver, ranks, request.partition);
+  scheme::PairGraph nodes;  // whose patches the solver refers to
+  std::unique_ptr<run::Solver> solver;
+  {
+    const parallel::Phase phase(set_up);
+    std::optional<cases::Case> setup;
+    parallel::agree_on(ranks, [&] {
+      const Meeting after(ranks);
+      setup = cases::case_from_text(request.text, request.file, request.overrides, menus());
+    });
+    solver = run::make_given_solver(*setup, nodes, ranks);
+    release_pairs(nodes);
+    release_nodes(nodes);
+  }
+  run::follow(*solver, ranks, request.partition);
 }
 
 }  // namespace
@@ -84,12 +83,16 @@ std::unique_ptr<Scene> scene_of_run(const cases::Case& setup, const RunOptions& 
   const auto make = [&] { return std::make_unique<Scene>(setup, options.method, options.level); };
   Communicator* ranks = parallel::all_ranks();
   if (ranks == nullptr) return make();
-  Request request{setup.text,      setup.file,    options.method, options.partition,
-                  setup.overrides, options.level, options.threads};
+  Request request{setup.text, setup.file, options.partition, setup.overrides, options.threads};
   share(*ranks, request);
-  std::unique_ptr<Scene> scene = made_by_all(*ranks, make);
-  scene->solver =
-      std::make_unique<run::LeadingSolver>(std::move(scene->solver), *ranks, options.partition);
+  const parallel::Phase phase(set_up);
+  std::unique_ptr<Scene> scene;
+  parallel::agree_on(*ranks, [&] {
+    const Meeting after(*ranks);
+    scene = make();
+  });
+  scene->solver = std::make_unique<run::LeadingSolver>(std::move(scene->solver), scene->graph,
+                                                       *ranks, options.partition);
   return scene;
 }
 

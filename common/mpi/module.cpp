@@ -14,6 +14,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <thread>
 
 namespace diptych::parallel {
 
@@ -75,6 +76,15 @@ class MpiCommunicator final : public Communicator {
   void broadcast(std::byte* bytes, std::int64_t n) override {
     const Timing timing(cost_);
     broadcast_from(0, bytes, n);
+  }
+  void meet() override {
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Ibarrier(MPI_COMM_WORLD, &request);
+    for (int is_over = 0;;) {
+      MPI_Test(&request, &is_over, MPI_STATUS_IGNORE);
+      if (is_over != 0) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
   }
   CommunicationCost cost() const override { return cost_; }
   void abort(int exit_code) override {

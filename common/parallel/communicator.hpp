@@ -38,17 +38,15 @@ class Communicator {
   virtual void all_gather(std::byte* all, std::span<const std::int64_t> bytes) = 0;
   /// What rank 0 has there, for all.
   virtual void broadcast(std::byte* bytes, std::int64_t n) = 0;
+  /// Returns once all ranks have come here. Who waits leaves its processor to others, and may be a
+  /// millisecond late.
+  virtual void meet() = 0;
 
   virtual CommunicationCost cost() const = 0;
   /// Ends the processes of all ranks with this exit code.
   [[noreturn]] virtual void abort(int exit_code) = 0;
 };
 
-/// Of a value without pointers.
-template <class T>
-void broadcast(Communicator& ranks, T& value) {
-  ranks.broadcast(reinterpret_cast<std::byte*>(&value), sizeof value);
-}
 template <class T>
 std::byte* bytes_of(T* values) {
   return reinterpret_cast<std::byte*>(values);

@@ -2,11 +2,14 @@
 
 #include "common/base/error.hpp"
 #include "common/run/initial_state.hpp"
+#include "common/run/ranks/rank_set_up.hpp"
+#include "common/run/ranks/sharing_archive.hpp"
 #include "common/run/state_hash.hpp"
 #include "common/scheme/body/health.hpp"
 #include "common/scheme/budget/balance.hpp"
 #include "common/scheme/ranks/division.hpp"
 #include "common/scheme/ranks/exchange.hpp"
+#include "common/scheme/ranks/share_graph.hpp"
 #include "common/time/moving_body_archive.hpp"
 
 #include <fmt/format.h>
@@ -28,24 +31,33 @@ std::string remark_on(int rejected) {
 
 template <int Dim>
 BodySolver<Dim>::BodySolver(time::MovingBody<Dim> moving,
-                            const cases::InitialCase& initial,
-                            double kappa_f,
                             std::shared_ptr<exact::KnownState> known,
                             int max_retries,
                             const BudgetOfStart::Bounds& start)
     : moving_(std::move(moving)),
       known_(std::move(known)),
       begin_(moving_),
-      max_retries_(max_retries) {
+      max_retries_(max_retries),
+      bounds_of_start_(start) {}
+
+template <int Dim>
+void BodySolver<Dim>::begin(const cases::InitialCase& initial, double kappa_f) {
   set_initial_state(initial, kappa_f, moving_.body);
   moving_.boundary.require_in_front_of_walls(moving_.body);
   moving_.boundary.constrain(moving_.body, 0);
   moving_.sweeps.strain_rates(moving_.body, {}, nullptr, 0);
   if (!time::is_sound(moving_)) throw scheme::breakdown_error(moving_.body, 0, 0, 0, "");
   if (moving_.integrator.is_leapfrog()) time::begin_leapfrog(moving_);
+  begin_budget();
+}
+
+/// What the momenta and the budget of the state as it stands are held against.
+template <int Dim>
+void BodySolver<Dim>::begin_budget() {
   const scheme::Balance begun = balance();
   moving_.initial_angular_momentum = begun.angular_momentum;
-  if (max_retries > 0 && !moving_.integrator.is_leapfrog()) start_.emplace(begun, start);
+  if (max_retries_ > 0 && !moving_.integrator.is_leapfrog())
+    start_.emplace(begun, bounds_of_start_);
 }
 
 template <int Dim>
@@ -81,8 +93,23 @@ StepReport BodySolver<Dim>::step(double t_limit) {
 }
 
 template <int Dim>
+void BodySolver<Dim>::give(parallel::Communicator& ranks, scheme::PairGraph& graph) {
+  const scheme::Sweeps<Dim>& sweeps = moving_.sweeps;
+  RankSetUp set_up{moving_.body.options, sweeps.time_step().cfl, sweeps.geometric_rate()};
+  parallel::share(ranks, set_up);
+  scheme::share_nodes(ranks, graph, set_up.body.volumes);
+  scheme::share_indices(ranks, moving_.body.graph);
+}
+
+template <int Dim>
 void BodySolver<Dim>::divide(parallel::Communicator& ranks, const std::string& partition) {
   scheme::divide(moving_.body, ranks, partition);
+  scheme::share_geometry(moving_.body);
+  SharingArchive state(ranks);
+  archive(state);
+  scheme::share_last_block(moving_.body);
+  moving_.boundary.begin_constant_loads(moving_.body, time());
+  begin_budget();
   scheme::release_graph(moving_.body);
   moving_.boundary.release(moving_.body.division->untouched.owned);
   has_fields_of_others_ = true;

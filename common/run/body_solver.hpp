@@ -11,18 +11,20 @@ namespace diptych::run {
 template <int Dim>
 class BodySolver : public Solver {
  public:
+  /// Of an undeformed body: begin() sets its state, or another rank's comes by divide().
   /// @param known        exact state of a manufactured solution, or null
   /// @param max_retries  of one step
   /// @param start        what the first steps are held to. Leapfrog is not: its budget swings and
   ///                     closes again; nor is any where max_retries is 0
   BodySolver(time::MovingBody<Dim> moving,
-             const cases::InitialCase& initial,
-             double kappa_f,
              std::shared_ptr<exact::KnownState> known,
              int max_retries,
              const BudgetOfStart::Bounds& start);
+  /// Puts the body into its initial state.
+  void begin(const cases::InitialCase& initial, double kappa_f);
 
   StepReport step(double t_limit) override;
+  void give(parallel::Communicator& ranks, scheme::PairGraph& graph) override;
   void divide(parallel::Communicator& ranks, const std::string& partition) override;
   void gather() override;
   double imbalance() const override;
@@ -50,6 +52,7 @@ class BodySolver : public Solver {
 
  private:
   void release_fields();
+  void begin_budget();
   EnergyBudget budget() const { return {balance(), moving_.audit}; }
   const scheme::MaterialModel& material() const { return moving_.sweeps.material(); }
 
@@ -58,6 +61,7 @@ class BodySolver : public Solver {
   time::StepBegin<Dim> begin_;
   int max_retries_;
   mutable bool has_fields_of_others_ = false;  ///< gathered or loaded, until the next step
+  BudgetOfStart::Bounds bounds_of_start_;
   std::optional<BudgetOfStart> start_;
   std::optional<EnergyBudget>
       begun_;  ///< budget of the state that the next judged step begins with

@@ -156,11 +156,10 @@ Snapshot ExactErrors::exact_snapshot(double t) {
   return s;
 }
 
-void ExactErrors::measure(const Snapshot& s) {
+Snapshot ExactErrors::measure(const Snapshot& s) {
   std::optional<Snapshot> known = solver_.exact_state(s.time);
-  exact_ = known ? std::move(*known) : exact_snapshot(s.time);
-  exact_.time = s.time;
-  const Snapshot& exact = exact_;
+  Snapshot exact = known ? std::move(*known) : exact_snapshot(s.time);
+  exact.time = s.time;
   const Vec3 zero = Vec3::Zero();
   const Mat3 I = Mat3::Identity();
   measure_field<Vec3>("velocity", {&s.v}, {&exact.v}, zero);
@@ -183,6 +182,7 @@ void ExactErrors::measure(const Snapshot& s) {
   }
   measure_field<Mat3>("viscous_C", A, A_exact, I);
   measure_field<Mat3>("viscous_G", S, S_exact, I);
+  return exact;
 }
 
 void ExactErrors::archive(algebra::Archive& archive) {

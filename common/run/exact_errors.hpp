@@ -27,14 +27,12 @@ class ExactErrors {
     return setup_.motion || setup_.exact.displacement || setup_.exact.velocity;
   }
   /// Compares a snapshot; scales grow with every call.
-  void measure(const Snapshot& snapshot);
+  /// @return the exact fields at its time; those that the case does not give are empty
+  Snapshot measure(const Snapshot& snapshot);
   /// Norms of the last snapshot by field name, relative to the scales seen so far.
   std::map<std::string, io::ErrorNorms> relative() const;
   /// The largest L2 norm of each exact field so far.
   std::map<std::string, double> scales() const;
-  /// The exact fields at the time of the last snapshot; those that the case does not give are
-  /// empty.
-  const Snapshot& exact() const { return exact_; }
   /// Norms and scales so far; not the fields of the last snapshot.
   void archive(algebra::Archive& archive);
   /// Size of the error at each node in the last snapshot by field name, absolute.
@@ -59,7 +57,6 @@ class ExactErrors {
   std::optional<functions::PlacedExpressions> placed_;  ///< of [exact] at the nodes
   std::optional<functions::PlacedValues> gradients_;    ///< of its displacement, where it has any
   bool is_placed_ = false;                              ///< whether gradients_ was looked for
-  Snapshot exact_;
   std::map<std::string, Norms> norms_;
   std::map<std::string, std::vector<double>> nodal_;
 };

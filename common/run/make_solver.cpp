@@ -7,8 +7,10 @@
 #include "common/run/energy_record.hpp"
 #include "common/run/initial_check.hpp"
 #include "common/run/model_menu.hpp"
+#include "common/run/ranks/rank_set_up.hpp"
 #include "common/scheme/dissipation/limiters/limiter_menu.hpp"
 #include "common/scheme/option_menus.hpp"
+#include "common/scheme/ranks/share_graph.hpp"
 
 #include <fmt/format.h>
 
@@ -150,41 +152,74 @@ scheme::BodyOptions body_options_of(const cases::Case& setup,
   return options;
 }
 
+/// The parts of a solver that its case and its nodes give.
+struct Parts {
+  Parts(const cases::Case& setup, const scheme::PairGraph& graph)
+      : boundary(boundary_of(setup, graph)),
+        integrator(time::integrator_menu().at(setup.time.integrator)) {
+    const ModelMaker maker = model_menu().at(setup.material.model);
+    material = maker.model(setup.material);
+    if (!setup.motion) return;
+    known = maker.known(*material, setup, graph);
+    boundary.follow(known);
+  }
+  scheme::AppliedBoundary boundary;
+  const time::Integrator& integrator;
+  std::shared_ptr<const scheme::MaterialModel> material;
+  std::shared_ptr<exact::KnownState> known;
+};
+
+template <int Dim>
+std::unique_ptr<BodySolver<Dim>> assembled(const cases::Case& setup,
+                                           const scheme::PairGraph& graph,
+                                           Parts parts,
+                                           scheme::Body<Dim> body,
+                                           double cfl,
+                                           double geometric_rate) {
+  scheme::SweepOptions options = sweep_options_of(setup);
+  options.time_step = {scheme::speeds_menu().at(setup.time.speeds), cfl,
+                       scheme::frequency_factor(setup.scheme.face_correction)};
+  scheme::Sweeps<Dim> sweeps(body, parts.material, options, geometric_rate);
+  time::MovingBody<Dim> moving{std::move(body), std::move(sweeps), std::move(parts.boundary),
+                               parts.integrator, setup.scheme.angular_momentum_projection};
+  moving.clock.least_share = setup.guards.least_step;
+  const BudgetOfStart::Bounds start{
+      setup.scheme.energy_budget ? setup.guards.energy_residual : 0,
+      energy_of_rounding(setup.material.density, parts.material->undeformed_speed(), graph.Omega)};
+  return std::make_unique<BodySolver<Dim>>(std::move(moving), std::move(parts.known),
+                                           setup.time.max_retries, start);
+}
+
 template <int Dim>
 std::unique_ptr<Solver> solver_in(const cases::Case& setup, const scheme::PairGraph& graph) {
   check_initial_deformation(setup, graph);
-  const ModelMaker maker = model_menu().at(setup.material.model);
-  scheme::AppliedBoundary boundary = boundary_of(setup, graph);
-  if (setup.scheme.angular_momentum_projection && boundary.has_walls()) {
+  Parts parts(setup, graph);
+  if (setup.scheme.angular_momentum_projection && parts.boundary.has_walls()) {
     throw base::InputError(
         "scheme.angular_momentum_projection does not go with rigid walls, whose impulses come and "
         "go within a step: remove one of the two");
   }
-  const auto material = maker.model(setup.material);
-  const time::Integrator& integrator = time::integrator_menu().at(setup.time.integrator);
-  std::shared_ptr<exact::KnownState> known;
-  if (setup.motion) {
-    known = maker.known(*material, setup, graph);
-    boundary.follow(known);
-  }
   const double geometric_rate = scheme::geometric_rate(graph);
   double cfl = setup.time.cfl;
-  if (!(cfl > 0)) cfl = sampled_cfl<Dim>(setup, graph, geometric_rate, integrator);
-  scheme::Body<Dim> body(graph, body_options_of(setup, graph, *material, integrator));
-  if (!(cfl > 0)) cfl = default_cfl(setup, *material, body, geometric_rate, integrator);
-  scheme::SweepOptions options = sweep_options_of(setup);
-  options.time_step = {scheme::speeds_menu().at(setup.time.speeds), cfl,
-                       scheme::frequency_factor(setup.scheme.face_correction)};
-  scheme::Sweeps<Dim> sweeps(body, material, options, geometric_rate);
-  time::MovingBody<Dim> moving{std::move(body), std::move(sweeps), std::move(boundary), integrator,
-                               setup.scheme.angular_momentum_projection};
-  moving.clock.least_share = setup.guards.least_step;
-  const BudgetOfStart::Bounds start{
-      setup.scheme.energy_budget ? setup.guards.energy_residual : 0,
-      energy_of_rounding(setup.material.density, material->undeformed_speed(), graph.Omega)};
-  return std::make_unique<BodySolver<Dim>>(std::move(moving), setup.initial,
-                                           setup.scheme.face_correction, std::move(known),
-                                           setup.time.max_retries, start);
+  if (!(cfl > 0)) cfl = sampled_cfl<Dim>(setup, graph, geometric_rate, parts.integrator);
+  scheme::Body<Dim> body(graph, body_options_of(setup, graph, *parts.material, parts.integrator));
+  if (!(cfl > 0)) cfl = default_cfl(setup, *parts.material, body, geometric_rate, parts.integrator);
+  auto solver =
+      assembled<Dim>(setup, graph, std::move(parts), std::move(body), cfl, geometric_rate);
+  solver->begin(setup.initial, setup.scheme.face_correction);
+  return solver;
+}
+
+template <int Dim>
+std::unique_ptr<Solver> given_solver_in(const cases::Case& setup,
+                                        const scheme::PairGraph& nodes,
+                                        const RankSetUp& set_up,
+                                        parallel::Communicator& ranks) {
+  scheme::SweepGraph<Dim> graph;
+  scheme::share_indices(ranks, graph);
+  return assembled<Dim>(setup, nodes, Parts(setup, nodes),
+                        scheme::Body<Dim>(nodes, set_up.body, std::move(graph)), set_up.cfl,
+                        set_up.geometric_rate);
 }
 
 }  // namespace
@@ -241,6 +276,16 @@ scheme::Volumes volumes_of(const cases::Case& setup, const scheme::PairGraph& gr
 
 std::unique_ptr<Solver> make_solver(const cases::Case& setup, const scheme::PairGraph& graph) {
   return graph.dimension == 2 ? solver_in<2>(setup, graph) : solver_in<3>(setup, graph);
+}
+
+std::unique_ptr<Solver> make_given_solver(const cases::Case& setup,
+                                          scheme::PairGraph& graph,
+                                          parallel::Communicator& ranks) {
+  RankSetUp set_up;
+  parallel::share(ranks, set_up);
+  scheme::share_nodes(ranks, graph, set_up.body.volumes);
+  return graph.dimension == 2 ? given_solver_in<2>(setup, graph, set_up, ranks)
+                              : given_solver_in<3>(setup, graph, set_up, ranks);
 }
 
 }  // namespace diptych::run

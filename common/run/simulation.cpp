@@ -79,7 +79,6 @@ Ending Simulation::advance() {
     checkpoint_where_due();
   }
   checkpoint_at_the_end();
-  if (state_.u.empty()) solver_.take_snapshot(state_);  // there was nothing left to do
   return Ending::done;
 }
 
@@ -172,6 +171,15 @@ void Simulation::output() {
   const Output output{n_outputs_++, last_, balance, solver_.audit(), state_};
   for (Observer* observer : observers_)
     observer->at_output(output);
+  const double time = state_.time;
+  if (time >= setup_.time.end) return;
+  state_ = {};  // as much memory as a quarter of the body's
+  state_.time = time;
+}
+
+Snapshot Simulation::take_state() {
+  if (state_.u.empty() && solver_.is_sound()) solver_.take_snapshot(state_);
+  return std::move(state_);
 }
 
 void Simulation::keep_last_state() {

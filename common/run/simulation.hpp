@@ -66,8 +66,9 @@ class Simulation {
 
   const StepTotals& totals() const { return totals_; }
   const std::optional<base::BreakdownError>& breakdown() const { return breakdown_; }
-  /// Fields of the last output, or of the last good state where a step has broken down.
-  Snapshot take_state() { return std::move(state_); }
+  /// Fields of the last output, or of the last good state where a step has broken down; none where
+  /// the body is no longer sound and is not put back to it (time.max_retries = 0).
+  Snapshot take_state();
 
  private:
   Ending advance();
@@ -93,7 +94,7 @@ class Simulation {
   StepReport last_;
   std::int64_t judged_ = 0;  // step
   std::int64_t n_outputs_ = 0;
-  Snapshot state_;
+  Snapshot state_;  ///< of the last output; its fields are gone once the body has moved on
   std::optional<base::BreakdownError> breakdown_;
   Checkpointing checkpoints_;
   std::int64_t kept_ = -1;  // step

@@ -41,9 +41,12 @@ class Solver {
   /// with no retries as it has ended up
   virtual StepReport step(double t_limit) = 0;
   virtual double time() const = 0;
-  /// Shares the body with other ranks, which have the same solver, at the same state: each works
-  /// its part from now on. All ranks then make the same calls of what is not const, of balance(),
-  /// take_snapshot() and exact_state(); rank 0 alone has their whole results.
+  /// Of rank 0: gives other ranks what their make_given_solver() asks for.
+  /// @param graph  of this solver; it stays as it is
+  virtual void give(parallel::Communicator& ranks, scheme::PairGraph& graph) = 0;
+  /// Shares the body, and the state that it has on rank 0, with other ranks, which have been given
+  /// a solver: each works its part from now on. All ranks then make the same calls of what is not
+  /// const, of balance(), take_snapshot() and exact_state(); rank 0 alone has their whole results.
   /// @param partition  of parallel::partitioners()
   /// @throws base::InputError where there are too many ranks, on all of them
   virtual void divide(parallel::Communicator& ranks, const std::string& partition) = 0;
@@ -108,5 +111,11 @@ scheme::Volumes volumes_of(const cases::Case& setup, const scheme::PairGraph& gr
 /// @param graph  kept by reference: must outlive the solver
 /// @throws base::InputError on a boundary group that the graph lacks, an unknown menu entry
 std::unique_ptr<Solver> make_solver(const cases::Case& setup, const scheme::PairGraph& graph);
+
+/// Of another rank than 0: the solver that rank 0 has made and gives, undeformed until divide().
+/// @param graph  becomes that of rank 0 without its pairs
+std::unique_ptr<Solver> make_given_solver(const cases::Case& setup,
+                                          scheme::PairGraph& graph,
+                                          parallel::Communicator& ranks);
 
 }  // namespace diptych::run

@@ -9,8 +9,7 @@ namespace diptych::run {
 
 void ExactComparison::at_output(const Output& output) {
   if (!errors_.available()) return;
-  errors_.measure(output.state);
-  add_row(errors_.exact());
+  add_row(errors_.measure(output.state));
 }
 
 /// Of the same fields each time.

@@ -3,6 +3,7 @@
 #include "common/base/error.hpp"
 #include "common/parallel/pages.hpp"
 #include "common/parallel/ranks.hpp"
+#include "common/parallel/sharing.hpp"
 #include "common/run/ranks/archive_copy.hpp"
 
 #include <algorithm>
@@ -50,9 +51,9 @@ struct Order {
   std::int64_t n = 0;
 };
 
-void give(parallel::Communicator& ranks, Task task, double time = 0, std::int64_t n = 0) {
-  Order order{task, time, n};
-  parallel::broadcast(ranks, order);
+void ask(parallel::Communicator& ranks, Task task, double time = 0, std::int64_t n = 0) {
+  Order given{task, time, n};
+  parallel::share(ranks, given);
 }
 
 /// Calls work(). What only one rank can meet, such as the end of its memory, ends all: the others
@@ -137,7 +138,7 @@ std::vector<T> received(parallel::Communicator& ranks, std::int64_t n) {
 /// Of nodes, to the others.
 void send_nodes(parallel::Communicator& ranks, Task task, std::span<const std::int32_t> nodes) {
   std::vector<std::int32_t> copy(nodes.begin(), nodes.end());
-  give(ranks, task, 0, std::ssize(copy));
+  ask(ranks, task, 0, std::ssize(copy));
   ranks.broadcast(parallel::bytes_of(copy.data()),
                   std::ssize(copy) * static_cast<std::int64_t>(sizeof(std::int32_t)));
 }
@@ -189,46 +190,50 @@ void carry_out(const Order& order,
 }  // namespace
 
 LeadingSolver::LeadingSolver(std::unique_ptr<Solver> solver,
+                             scheme::PairGraph& graph,
                              parallel::Communicator& ranks,
                              const std::string& partition)
     : solver_(std::move(solver)), ranks_(ranks) {
+  solver_->give(ranks, graph);
   solver_->divide(ranks, partition);
 }
 
 LeadingSolver::~LeadingSolver() {
-  give(ranks_, Task::end);
+  ask(ranks_, Task::end);
 }
 
 RankCosts LeadingSolver::costs() const {
-  give(ranks_, Task::costs);
+  ask(ranks_, Task::costs);
   return sum_costs(*solver_, ranks_, spent_);
 }
 
 RankMemory LeadingSolver::memory() const {
-  give(ranks_, Task::memory);
+  ask(ranks_, Task::memory);
   return largest_memory(ranks_);
 }
 
 StepReport LeadingSolver::step(double t_limit) {
-  give(ranks_, Task::step, t_limit);
+  ask(ranks_, Task::step, t_limit);
   const Spending spending(ranks_, spent_);
   return work_together(ranks_, Task::step, [&] { return solver_->step(t_limit); });
 }
 
+void LeadingSolver::give(parallel::Communicator&, scheme::PairGraph&) {}
+
 void LeadingSolver::divide(parallel::Communicator&, const std::string&) {}
 
 void LeadingSolver::gather() {
-  give(ranks_, Task::gather);
+  ask(ranks_, Task::gather);
   work_together(ranks_, Task::gather, [&] { solver_->gather(); });
 }
 
 scheme::Balance LeadingSolver::balance() const {
-  give(ranks_, Task::balance);
+  ask(ranks_, Task::balance);
   return work_together(ranks_, Task::balance, [&] { return solver_->balance(); });
 }
 
 void LeadingSolver::take_snapshot(Snapshot& snapshot) const {
-  give(ranks_, Task::snapshot);
+  ask(ranks_, Task::snapshot);
   work_together(ranks_, Task::snapshot, [&] { solver_->take_snapshot(snapshot); });
 }
 
@@ -243,7 +248,7 @@ algebra::Vec3 LeadingSolver::reaction(const std::vector<std::int32_t>& nodes) {
 }
 
 std::string LeadingSolver::state_hash(const std::vector<std::int32_t>& order) const {
-  give(ranks_, Task::gather);
+  ask(ranks_, Task::gather);
   work_together(ranks_, Task::gather, [&] { solver_->gather(); });
   return solver_->state_hash(order);
 }
@@ -257,12 +262,12 @@ void LeadingSolver::archive(algebra::Archive& archive) {
   CopyingArchive copying(archive);
   solver_->archive(copying);
   std::vector<std::byte>& copy = copying.copy();
-  give(ranks_, Task::load, 0, std::ssize(copy));
+  ask(ranks_, Task::load, 0, std::ssize(copy));
   ranks_.broadcast(copy.data(), std::ssize(copy));
 }
 
 std::optional<Snapshot> LeadingSolver::exact_state(double t) const {
-  give(ranks_, Task::exact_state, t);
+  ask(ranks_, Task::exact_state, t);
   return work_together(ranks_, Task::exact_state, [&] { return solver_->exact_state(t); });
 }
 
@@ -271,7 +276,7 @@ void follow(Solver& solver, parallel::Communicator& ranks, const std::string& pa
   parallel::CommunicationCost spent;
   for (;;) {
     Order order;
-    parallel::broadcast(ranks, order);
+    parallel::share(ranks, order);
     if (order.task == Task::end) return;
     try {
       work_together(ranks, order.task, [&] { carry_out(order, solver, ranks, spent); });

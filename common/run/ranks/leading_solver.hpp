@@ -23,9 +23,10 @@ struct RankMemory {
 
 class LeadingSolver : public Solver {
  public:
-  /// On rank 0; the others call follow() with the same solver.
-  /// @throws base::InputError where there are more ranks than parts
+  /// On rank 0, whose solver the others are given; they call follow() with theirs.
+  /// @param graph  of the solver; it stays as it is
   LeadingSolver(std::unique_ptr<Solver> solver,
+                scheme::PairGraph& graph,
                 parallel::Communicator& ranks,
                 const std::string& partition);
   /// The others stop following.
@@ -37,6 +38,7 @@ class LeadingSolver : public Solver {
   RankMemory memory() const;
 
   StepReport step(double t_limit) override;
+  void give(parallel::Communicator& ranks, scheme::PairGraph& graph) override;
   void divide(parallel::Communicator& ranks, const std::string& partition) override;
   void gather() override;
   double imbalance() const override { return solver_->imbalance(); }
@@ -65,7 +67,6 @@ class LeadingSolver : public Solver {
 };
 
 /// On the other ranks: does what rank 0 asks its LeadingSolver for, until that is gone.
-/// @throws base::InputError as LeadingSolver does, on all ranks
 void follow(Solver& solver, parallel::Communicator& ranks, const std::string& partition);
 
 }  // namespace diptych::run

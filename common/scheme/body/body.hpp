@@ -165,6 +165,8 @@ struct Body {
   Body(const PairGraph& whole, const BodyOptions& what);
   /// In an arrangement of choice, for tests and measurements.
   Body(const PairGraph& whole, const BodyOptions& what, Arrangement arrangement);
+  /// Of a graph that is ready for sweeps, of which `whole` may have the nodes alone.
+  Body(const PairGraph& whole, const BodyOptions& what, SweepGraph<Dim> sub_graph);
 
   const std::vector<Field<Dim>>& fields() const { return fields_; }
   /// Of all fields, without the graph.
@@ -188,7 +190,6 @@ struct Body {
   }
 
  private:
-  Body(const PairGraph& whole, const BodyOptions& what, SweepGraph<Dim> sub_graph);
   void list_fields();
   void allocate();
   std::vector<Field<Dim>> fields_;

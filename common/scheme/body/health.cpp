@@ -1,5 +1,6 @@
 #include "common/scheme/body/health.hpp"
 
+#include "common/parallel/sharing.hpp"
 #include "common/scheme/body/point_access.hpp"
 #include "common/scheme/boundary/node_vector.hpp"
 
@@ -128,8 +129,8 @@ template <int Dim>
 void share(const Body<Dim>& body, Origin& origin, std::vector<char>& is_bad) {
   if (!body.division) return;
   parallel::Communicator& ranks = body.part().ranks();
-  parallel::broadcast(ranks, origin.fault);
-  parallel::broadcast(ranks, origin.n_bad);
+  parallel::share(ranks, origin.fault);
+  parallel::share(ranks, origin.n_bad);
   is_bad.resize(static_cast<size_t>(body.n_owned));
   ranks.broadcast(parallel::bytes_of(is_bad.data()), body.n_owned);
 }
@@ -247,7 +248,7 @@ base::BreakdownError collapse_error(const Body<Dim>& body,
       worst = a;
     }
   }
-  if (body.division) parallel::broadcast(body.part().ranks(), worst);
+  if (body.division) parallel::share(body.part().ranks(), worst);
   const std::string message = fmt::format(
       "the stable time step collapsed to {:.4g} s (first step {:.4g} s) at step {}, time {:.6g} s; "
       "least J = {:.4g} at node {}, X = {} m\n"

@@ -406,6 +406,7 @@ Vec3 AppliedBoundary::reaction(const Body<Dim>& body,
   template ConstraintAction AppliedBoundary::constrain_stage(Body<Dim>&, const StageCombination&, \
                                                              const StageCombination&, double);    \
   template double AppliedBoundary::withheld(const Body<Dim>&, const Projection&) const;           \
+  template void AppliedBoundary::evaluate_loads(const Body<Dim>&, double);                        \
   template LoadRates AppliedBoundary::add_loads(Body<Dim>&, double);                              \
   template double AppliedBoundary::power_of_loads(const Body<Dim>&) const;                        \
   template double AppliedBoundary::power_against_forces(const Body<Dim>&) const;                  \

@@ -60,6 +60,12 @@ class AppliedBoundary {
   /// Among ranks: takes what the owners of nodes know of them, so that keep() has it all.
   void complete(const parallel::Part& part);
 
+  /// Among ranks: has the loads that never change, which no archive keeps, on the rank's own nodes.
+  template <int Dim>
+  void begin_constant_loads(const Body<Dim>& body, double t) {
+    if (!loads_depend_on_time_) evaluate_loads(body, t);
+  }
+
   /// Among ranks: gives back what it keeps of these blocks, which are of others.
   void release(const Blocks& untouched) {
     const auto give_back = [&](auto& of_nodes) {

@@ -71,6 +71,7 @@ class GeometryArray {
       : full_(single ? 0 : n), single_(single ? n : 0), is_single_(single) {}
   std::int64_t bytes() const { return full_.bytes() + single_.bytes(); }
   std::int64_t size() const { return full_.size() + single_.size(); }
+  bool is_single() const { return is_single_; }
   /// Goes through consecutive chunks.
   class Cursor {
    public:
@@ -145,6 +146,8 @@ struct SweepGraph {
   algebra::AlignedArray<double> Omega;          ///< [n_blocks * 8] m^3, 0 in the padding
   algebra::BlockField C_sum;                    ///< [n_nodes][Dim] sum_b C_ab
 
+  /// Empty, to be given what another rank has built (ranks/share_graph.hpp).
+  SweepGraph() = default;
   /// @param has_slopes  those of the graph are used, between the pairs that they are for
   explicit SweepGraph(const PairGraph& graph, bool has_slopes = false);
   /// In an arrangement of choice, for tests and measurements.

@@ -1,4 +1,5 @@
 #include "common/parallel/partition.hpp"
+#include "common/parallel/sharing.hpp"
 #include "common/scheme/ranks/division.hpp"
 
 #include <algorithm>
@@ -90,17 +91,22 @@ parallel::ChunkGraph chunk_graph(const Body<Dim>& body) {
   return graph;
 }
 
-/// The owners that rank 0 finds, for all: no rank can have found others. Where there are more ranks
-/// than chunks the last ranks have none, and nothing to work.
-std::vector<int> owners_of(const parallel::ChunkGraph& graph,
+/// The owners of chunks and how well they share the work, as rank 0 finds them. Where there are
+/// more ranks than chunks the last ranks have none, and nothing to work.
+template <int Dim>
+std::vector<int> owners_of(const Body<Dim>& body,
                            parallel::Communicator& ranks,
-                           const std::string& partition) {
-  const parallel::Partitioner find = parallel::partitioners().at(partition);
-  std::vector<int> owner(graph.work.size());
-  const int n_parts = static_cast<int>(std::min<std::int64_t>(ranks.size(), std::ssize(owner)));
-  if (ranks.rank() == 0) owner = find(graph, n_parts);
-  ranks.broadcast(parallel::bytes_of(owner.data()),
-                  std::ssize(owner) * static_cast<std::int64_t>(sizeof(int)));
+                           const std::string& partition,
+                           double& imbalance) {
+  std::vector<int> owner;
+  if (ranks.rank() == 0) {
+    const parallel::ChunkGraph graph = chunk_graph(body);
+    const auto n_parts = std::min<std::int64_t>(ranks.size(), std::ssize(graph.work));
+    owner = parallel::partitioners().at(partition)(graph, static_cast<int>(n_parts));
+    imbalance = parallel::imbalance(graph, owner, ranks.size());
+  }
+  parallel::share(ranks, owner);
+  parallel::share(ranks, imbalance);
   return owner;
 }
 
@@ -191,10 +197,8 @@ Untouched untouched_by(const Body<Dim>& body, const Division& division) {
 
 template <int Dim>
 void divide(Body<Dim>& body, parallel::Communicator& ranks, const std::string& partition) {
-  const parallel::ChunkGraph graph = chunk_graph(body);
   auto division = std::make_shared<Division>();
-  const std::vector<int> owner = owners_of(graph, ranks, partition);
-  division->imbalance = parallel::imbalance(graph, owner, ranks.size());
+  const std::vector<int> owner = owners_of(body, ranks, partition, division->imbalance);
   division->part = parallel::Part(ranks, owner);
   const parallel::Part& part = division->part;
   const auto owner_of_node = [&](std::int64_t a) { return owner[chunk_of_node(a)]; };

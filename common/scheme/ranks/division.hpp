@@ -40,7 +40,7 @@ struct Division {
   double imbalance = 1;  ///< largest work of a rank over the mean
 };
 
-/// Gives this rank its part. All ranks have the same body, at the same state.
+/// Gives this rank its part. All ranks have the indices of the same graph; rank 0 decides.
 /// @param partition  of parallel::partitioners()
 /// @throws base::InputError where there are more ranks than chunks, on all ranks
 template <int Dim>

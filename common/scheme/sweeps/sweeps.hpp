@@ -66,6 +66,8 @@ class Sweeps {
   void set_results(const SweepResults& results);
 
   const MaterialModel& material() const { return *material_; }
+  const TimeStepRule& time_step() const { return options_.time_step; }
+  double geometric_rate() const { return geometric_rate_; }  ///< 1/m
 
  private:
   double rate() const;
