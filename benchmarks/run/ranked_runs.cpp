@@ -57,24 +57,19 @@ const run::LeadingSolver* leading_of(const Scene& scene) {
   return dynamic_cast<const run::LeadingSolver*>(scene.solver.get());
 }
 
-/// Is given the solver of a scene that rank 0 has made, and follows its run.
+/// Follows the run of a scene that rank 0 makes.
 void follow_run(Communicator& ranks, const Request& request) {
   parallel::set_threads(static_cast<int>(request.threads));
   reset_peak_rss();
-  scheme::PairGraph nodes;  // whose patches the solver refers to
-  std::unique_ptr<run::Solver> solver;
+  std::optional<cases::Case> setup;
   {
     const parallel::Phase phase(set_up);
-    std::optional<cases::Case> setup;
     parallel::agree_on(ranks, [&] {
       const Meeting after(ranks);
       setup = cases::case_from_text(request.text, request.file, request.overrides, menus());
     });
-    solver = run::make_given_solver(*setup, nodes, ranks);
-    release_pairs(nodes);
-    release_nodes(nodes);
   }
-  run::follow(*solver, ranks, request.partition);
+  run::follow(*setup, ranks, request.partition);
 }
 
 }  // namespace
@@ -85,12 +80,14 @@ std::unique_ptr<Scene> scene_of_run(const cases::Case& setup, const RunOptions& 
   if (ranks == nullptr) return make();
   Request request{setup.text, setup.file, options.partition, setup.overrides, options.threads};
   share(*ranks, request);
-  const parallel::Phase phase(set_up);
   std::unique_ptr<Scene> scene;
-  parallel::agree_on(*ranks, [&] {
-    const Meeting after(*ranks);
-    scene = make();
-  });
+  {
+    const parallel::Phase phase(set_up);
+    parallel::agree_on(*ranks, [&] {
+      const Meeting after(*ranks);
+      scene = make();
+    });
+  }
   scene->solver = std::make_unique<run::LeadingSolver>(std::move(scene->solver), scene->graph,
                                                        *ranks, options.partition);
   return scene;

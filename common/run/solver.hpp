@@ -113,7 +113,7 @@ scheme::Volumes volumes_of(const cases::Case& setup, const scheme::PairGraph& gr
 std::unique_ptr<Solver> make_solver(const cases::Case& setup, const scheme::PairGraph& graph);
 
 /// Of another rank than 0: the solver that rank 0 has made and gives, undeformed until divide().
-/// @param graph  becomes that of rank 0 without its pairs
+/// @param graph  becomes that of rank 0 without its pairs; its patches must outlive the solver
 std::unique_ptr<Solver> make_given_solver(const cases::Case& setup,
                                           scheme::PairGraph& graph,
                                           parallel::Communicator& ranks);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <fmt/format.h>
 
@@ -16,6 +17,7 @@ namespace diptych::run {
 namespace {
 
 enum class Task : std::int32_t {
+  share,
   step,
   balance,
   snapshot,
@@ -30,17 +32,10 @@ enum class Task : std::int32_t {
 };
 
 const char* name_of(Task task) {
-  constexpr const char* names[] = {"a step",
-                                   "a balance",
-                                   "a snapshot",
-                                   "probes",
-                                   "a reaction",
-                                   "a gathering",
-                                   "loading a checkpoint",
-                                   "an exact state",
-                                   "the costs",
-                                   "the memory",
-                                   "the end"};
+  constexpr const char* names[] = {
+      "set-up",         "a step",     "a balance",   "a snapshot",
+      "probes",         "a reaction", "a gathering", "loading a checkpoint",
+      "an exact state", "the costs",  "the memory",  "the end"};
   return names[static_cast<int>(task)];
 }
 
@@ -56,29 +51,44 @@ void ask(parallel::Communicator& ranks, Task task, double time = 0, std::int64_t
   parallel::share(ranks, given);
 }
 
-/// Calls work(). What only one rank can meet, such as the end of its memory, ends all: the others
-/// would wait for it for ever.
+/// Ends all ranks with what this one alone has met: the others would wait for it for ever.
+[[noreturn]] void fail(parallel::Communicator& ranks, Task task, const char* message) {
+  std::fputs(fmt::format("diptych: rank {} of {}, in {}: {}\n", ranks.rank(), ranks.size(),
+                         name_of(task), message)
+                 .c_str(),
+             stderr);
+  ranks.abort(static_cast<int>(base::ExitCode::environment));
+  std::abort();
+}
+
+constexpr const char* out_of_memory = "out of memory; use a smaller --level, or more machines";
+
+/// Calls work(), whose base::Errors are of the state that all ranks have, or agreed on
+/// (common/parallel/agreement.hpp).
 template <class Work>
 auto work_together(parallel::Communicator& ranks, Task task, const Work& work) {
-  const auto fail = [&](const char* message) {
-    std::fputs(fmt::format("diptych: rank {} of {}, in {}: {}\n", ranks.rank(), ranks.size(),
-                           name_of(task), message)
-                   .c_str(),
-               stderr);
-    ranks.abort(static_cast<int>(base::ExitCode::environment));
-  };
   const parallel::Phase phase(name_of(task));
   try {
     return work();
   } catch (const base::Error&) {
-    throw;  // of the state that all ranks have, or agreed on (common/parallel/agreement.hpp)
+    throw;
   } catch (const std::bad_alloc&) {
-    fail("out of memory; use a smaller --level, or more machines");
-    throw;
+    fail(ranks, task, out_of_memory);
   } catch (const std::exception& error) {
-    fail(error.what());
-    throw;
+    fail(ranks, task, error.what());
   }
+}
+
+/// The same of what gives the other ranks their parts, where nothing is agreed on.
+template <class Work>
+void share_together(parallel::Communicator& ranks, const Work& work) {
+  work_together(ranks, Task::share, [&] {
+    try {
+      work();
+    } catch (const base::Error& error) {
+      fail(ranks, Task::share, error.what());
+    }
+  });
 }
 
 /// Adds what is spent in its lifetime: in a step, not in waiting for the next one.
@@ -148,6 +158,8 @@ void carry_out(const Order& order,
                parallel::Communicator& ranks,
                parallel::CommunicationCost& spent) {
   switch (order.task) {
+    case Task::share:
+      break;  // is over
     case Task::step: {
       const Spending spending(ranks, spent);
       solver.step(order.time);
@@ -194,8 +206,10 @@ LeadingSolver::LeadingSolver(std::unique_ptr<Solver> solver,
                              parallel::Communicator& ranks,
                              const std::string& partition)
     : solver_(std::move(solver)), ranks_(ranks) {
-  solver_->give(ranks, graph);
-  solver_->divide(ranks, partition);
+  share_together(ranks, [&] {
+    solver_->give(ranks, graph);
+    solver_->divide(ranks, partition);
+  });
 }
 
 LeadingSolver::~LeadingSolver() {
@@ -271,15 +285,23 @@ std::optional<Snapshot> LeadingSolver::exact_state(double t) const {
   return work_together(ranks_, Task::exact_state, [&] { return solver_->exact_state(t); });
 }
 
-void follow(Solver& solver, parallel::Communicator& ranks, const std::string& partition) {
-  solver.divide(ranks, partition);
+void follow(const cases::Case& setup, parallel::Communicator& ranks, const std::string& partition) {
+  std::vector<scheme::BoundaryPatch> patches;  // which the solver refers to
+  std::unique_ptr<Solver> solver;
+  share_together(ranks, [&] {
+    scheme::PairGraph nodes;
+    solver = make_given_solver(setup, nodes, ranks);
+    patches = std::move(nodes.patches);
+    nodes = {};
+    solver->divide(ranks, partition);
+  });
   parallel::CommunicationCost spent;
   for (;;) {
     Order order;
     parallel::share(ranks, order);
     if (order.task == Task::end) return;
     try {
-      work_together(ranks, order.task, [&] { carry_out(order, solver, ranks, spent); });
+      work_together(ranks, order.task, [&] { carry_out(order, *solver, ranks, spent); });
     } catch (const base::Error&) {
       // of the state, which all ranks have: rank 0 says it, and goes on with what it asks next
     }

@@ -23,7 +23,7 @@ struct RankMemory {
 
 class LeadingSolver : public Solver {
  public:
-  /// On rank 0, whose solver the others are given; they call follow() with theirs.
+  /// On rank 0; the others call follow().
   /// @param graph  of the solver; it stays as it is
   LeadingSolver(std::unique_ptr<Solver> solver,
                 scheme::PairGraph& graph,
@@ -66,7 +66,9 @@ class LeadingSolver : public Solver {
   parallel::CommunicationCost spent_;  ///< in steps
 };
 
-/// On the other ranks: does what rank 0 asks its LeadingSolver for, until that is gone.
-void follow(Solver& solver, parallel::Communicator& ranks, const std::string& partition);
+/// On the other ranks: is given the solver that rank 0 makes a LeadingSolver of, and does what that
+/// is asked for until it is gone. What goes wrong in being given it ends all ranks.
+/// @param setup, partition  those of rank 0
+void follow(const cases::Case& setup, parallel::Communicator& ranks, const std::string& partition);
 
 }  // namespace diptych::run
