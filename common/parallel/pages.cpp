@@ -1,5 +1,6 @@
 #include "common/parallel/pages.hpp"
 
+#include "common/algebra/field.hpp"
 #include "common/base/error.hpp"
 
 #include <cstdlib>
@@ -31,13 +32,19 @@ bool is_poisoned() {
   return poisoned;
 }
 
-/// Tells the system what is wanted with the whole pages inside. It may refuse: that costs memory
-/// only.
-void advise(std::byte* begin, std::int64_t n, int advice) {
-  const auto address = reinterpret_cast<std::uintptr_t>(begin);
-  const std::uintptr_t page = page_bytes(), first = (address + page - 1) / page * page,
-                       last = (address + static_cast<std::uintptr_t>(n)) / page * page;
-  if (first < last) madvise(begin + (first - address), last - first, advice);
+/// Tells the system what is wanted with the pages of this size that lie wholly inside. It may
+/// refuse: that costs memory only.
+void advise_inside(std::uintptr_t begin, std::uintptr_t end, std::uintptr_t page, int advice) {
+  const std::uintptr_t first = (begin + page - 1) / page * page, last = end / page * page;
+  if (first < last) madvise(reinterpret_cast<void*>(first), last - first, advice);
+}
+
+/// The same of the pages that hold an end of it and something else.
+void advise_at_ends(std::uintptr_t begin, std::uintptr_t end, std::uintptr_t page, int advice) {
+  const std::uintptr_t first = begin / page * page, last = end / page * page;
+  if (begin > first) madvise(reinterpret_cast<void*>(first), page, advice);
+  if (end > last && (last != first || begin == first))
+    madvise(reinterpret_cast<void*>(last), page, advice);
 }
 
 }  // namespace
@@ -47,12 +54,11 @@ void give_back(std::byte* begin, std::int64_t n) {
   if (is_poisoned()) {
     std::memset(begin, 0xff, static_cast<size_t>(n));
   } else {
-    advise(begin, n, MADV_DONTNEED);
+    const auto first = reinterpret_cast<std::uintptr_t>(begin),
+               last = first + static_cast<std::uintptr_t>(n);
+    advise_at_ends(first, last, algebra::huge_page, MADV_NOHUGEPAGE);
+    advise_inside(first, last, page_bytes(), MADV_DONTNEED);
   }
-}
-
-void keep_pages_small(std::byte* begin, std::int64_t n) {
-  if (n > 0) advise(begin, n, MADV_NOHUGEPAGE);
 }
 
 std::int64_t status_bytes(const std::string& key) {

@@ -39,7 +39,7 @@ void StepBegin<Dim>::for_both(const Place& place, scheme::Body<Dim>& body, const
 
 template <int Dim>
 StepBegin<Dim>::StepBegin(const MovingBody<Dim>& moving)
-    : is_leapfrog_(moving.integrator.is_leapfrog()), n_blocks_(moving.body.n_blocks) {
+    : is_leapfrog_(moving.integrator.is_leapfrog()) {
   list_places(moving);
 }
 
@@ -154,7 +154,7 @@ std::int64_t StepBegin<Dim>::bytes() const {
 template <int Dim>
 void StepBegin<Dim>::release(const scheme::Blocks& untouched) {
   for (BlockField& field : own_)
-    scheme::give_back_blocks(field, n_blocks_, untouched);
+    scheme::give_back_blocks(field, untouched);
 }
 
 template <int Dim>

@@ -52,7 +52,6 @@ class StepBegin {
   void for_both(const Place& place, scheme::Body<Dim>& body, const Use& use);
 
   bool is_leapfrog_;
-  std::int64_t n_blocks_;
   bool is_kept_ = false;
   std::vector<Place> places_;
   std::vector<algebra::BlockField> own_;

@@ -13,14 +13,8 @@ void give_back(std::byte* bytes, size_t n) {
   parallel::give_back(bytes, static_cast<std::int64_t>(n));
 }
 
-void keep_small(std::byte* bytes, size_t n) {
-  parallel::keep_pages_small(bytes, static_cast<std::int64_t>(n));
-}
-
-/// n components from `first` on of a table, of all its blocks.
-void release_table(
-    NodeTable& table, std::int64_t n_blocks, int first, int n, const Blocks& untouched) {
-  table.for_pieces(0, n_blocks * n_lanes, first, n, keep_small);
+/// n components from `first` on of a table.
+void release_table(NodeTable& table, int first, int n, const Blocks& untouched) {
   for (const NodeRange& blocks : untouched)
     table.for_pieces(blocks.begin * n_lanes, blocks.end * n_lanes, first, n, give_back);
 }
@@ -73,11 +67,11 @@ void release_fields(Body<Dim>& body) {
   const Untouched& untouched = body.division->untouched;
   for (const Field<Dim>& field : body.fields()) {
     if (field.block != nullptr) {
-      give_back_blocks(body.*field.block, body.n_blocks, untouched.owned);
+      give_back_blocks(body.*field.block, untouched.owned);
       continue;
     }
     const bool is_force = field.role == Role::accumulated;
-    release_table(body.*field.table, body.n_blocks, field.first, field.n_components,
+    release_table(body.*field.table, field.first, field.n_components,
                   is_force ? untouched.written : untouched.read);
   }
 }
@@ -87,11 +81,11 @@ void release_graph(Body<Dim>& body) {
   const Untouched& untouched = body.division->untouched;
   SweepGraph<Dim>& graph = body.graph;
   release_pairs(body);
-  release_table(graph.X, body.n_blocks, 0, Dim, untouched.read);
+  release_table(graph.X, 0, Dim, untouched.read);
   give_back_blocks(graph.inverse_Omega.data(), graph.inverse_Omega.size(), n_lanes,
                    untouched.owned);
   give_back_blocks(graph.Omega.data(), graph.Omega.size(), n_lanes, untouched.owned);
-  if (!graph.C_sum.empty()) give_back_blocks(graph.C_sum, body.n_blocks, untouched.owned);
+  if (!graph.C_sum.empty()) give_back_blocks(graph.C_sum, untouched.owned);
   if (!body.bulk) give_back_blocks(body.X.data(), std::ssize(body.X), n_lanes, untouched.owned);
 }
 

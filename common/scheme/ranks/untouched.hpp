@@ -48,8 +48,6 @@ void give_back_blocks(T* values,
                       std::int64_t size,
                       std::int64_t n_per_block,
                       const Blocks& untouched) {
-  parallel::keep_pages_small(parallel::bytes_of(values),
-                             size * static_cast<std::int64_t>(sizeof(T)));
   for (const parallel::NodeRange& blocks : untouched) {
     const std::int64_t begin = blocks.begin * n_per_block,
                        end = std::min(size, blocks.end * n_per_block);
@@ -60,10 +58,7 @@ void give_back_blocks(T* values,
 }
 
 /// Of blocks of a field.
-inline void give_back_blocks(BlockField& field, std::int64_t n_blocks, const Blocks& untouched) {
-  field.for_pieces(0, n_blocks, [](std::byte* bytes, size_t n) {
-    parallel::keep_pages_small(bytes, static_cast<std::int64_t>(n));
-  });
+inline void give_back_blocks(BlockField& field, const Blocks& untouched) {
   for (const parallel::NodeRange& blocks : untouched) {
     field.for_pieces(blocks.begin, blocks.end, [](std::byte* bytes, size_t n) {
       parallel::give_back(bytes, static_cast<std::int64_t>(n));

@@ -17,7 +17,6 @@ TEST(Pages, GoBackWholeAndLeaveWhatIsBesideThem) {
   auto* bytes = static_cast<std::byte*>(memory.get());
   ASSERT_NE(bytes, nullptr);
   std::memset(bytes, 1, static_cast<size_t>(n));
-  keep_pages_small(bytes, n);
   const std::int64_t before = settled_bytes();
   give_back(bytes + 1, n - 2);  // all but the first and the last page
   EXPECT_LT(settled_bytes(), before - n / 2);
