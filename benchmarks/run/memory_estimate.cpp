@@ -32,6 +32,7 @@ constexpr double of_plane = 0.64;        ///< of the nodes of 3-D
 constexpr double of_mixed = 48;          ///< stored pair
 constexpr double exact_impedance = 200;  ///< a node
 constexpr double frames = 128;           ///< a node, of the objective reconstruction
+constexpr double moments = 96;           ///< a node, of the symmetric reconstruction
 constexpr double lines = 420;            ///< a node, of slopes along lines
 constexpr double cell_bytes = 30;
 constexpr double volume_corner = 70;      ///< of a cell that carries pressure
@@ -246,7 +247,9 @@ double bytes_of(const cases::Case& setup,
   const Costs& costs = scheme.precision == "single" ? in_single : in_double;
   double node = costs.node + costs.branch * static_cast<double>(setup.material.branches.size()) +
                 (scheme.impedance == "exact" ? exact_impedance : 0) +
-                (scheme.reconstruction == "objective" ? frames : 0);
+                (scheme.reconstruction == "objective"   ? frames
+                 : scheme.reconstruction == "symmetric" ? moments
+                                                        : 0);
   if (cases::dimension_of(setup.mesh) == 2) node *= of_plane;
   const double stored = scheme.precision == "mixed" ? of_mixed : costs.stored_pair;
   const bool commutes = method != "sph" && !is_simplex(setup.mesh.element) &&

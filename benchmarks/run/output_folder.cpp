@@ -209,8 +209,8 @@ void OutputFolder::remove_everything() const {
   remove_if_empty(directory / "runs");
   for (const char* name :
        {"report.html", "convergence.csv", "convergence.tex", "work_precision.csv",
-        "work_precision.html", "quantities.csv", "quantities.html", "stability.csv", "atlas.csv",
-        "atlas.json", "atlas.html"}) {
+        "work_precision.html", "quantities.csv", "quantities.html", "stability.csv",
+        "local_steps.csv", "atlas.csv", "atlas.json", "atlas.html"}) {
     std::error_code error;
     fs::remove(directory / name, error);
     if (error) fail(directory / name, "removed", error);
@@ -223,6 +223,7 @@ void OutputFolder::remove_pages() const {
   if (kind_ == OutputKind::study)
     names = {"work_precision.csv", "work_precision.html", "quantities.csv", "quantities.html"};
   if (kind_ == OutputKind::stability) names = {"stability.csv"};
+  if (kind_ == OutputKind::local_steps) names = {"local_steps.csv"};
   if (kind_ == OutputKind::atlas) names = {"atlas.csv", "atlas.json", "atlas.html"};
   for (const char* name : names) {
     const fs::path page = fs::path(directory_) / name;

@@ -15,11 +15,12 @@ namespace diptych::harness {
 
 /// What a command is about to put there.
 enum class OutputKind {
-  runs,       ///< of `run` and `compare`: DIR/<column>, report.html
-  levels,     ///< of `converge`: DIR/level_<L>/<column>, convergence.*, report.html
-  study,      ///< of `study`: DIR/runs, work_precision.*
-  stability,  ///< of `study --stability`: stability.csv
-  atlas       ///< of `study --atlas`: DIR/runs, atlas.*
+  runs,         ///< of `run` and `compare`: DIR/<column>, report.html
+  levels,       ///< of `converge`: DIR/level_<L>/<column>, convergence.*, report.html
+  study,        ///< of `study`: DIR/runs, work_precision.*
+  stability,    ///< of `study --stability`: stability.csv
+  local_steps,  ///< of `study --local-steps`: local_steps.csv
+  atlas         ///< of `study --atlas`: DIR/runs, atlas.*
 };
 
 class OutputFolder {

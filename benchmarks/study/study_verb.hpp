@@ -1,7 +1,7 @@
 #pragma once
-/// What `diptych study` does with a case and its variants: stability limits; error against cost;
-/// quantities where there is no exact solution, or where they are asked for.
-/// Test: tests/command_line/study_test.cpp
+/// What `diptych study` does with a case and its variants: stability limits; what local steps would
+/// save; error against cost; quantities where there is no exact solution, or where they are asked
+/// for. Test: tests/command_line/study_test.cpp
 
 #include "benchmarks/cost/stability.hpp"
 #include "benchmarks/run/output_folder.hpp"
@@ -30,6 +30,9 @@ struct StudyRequest {
 /// Prints the table, writes DIR/stability.csv. Rows found before an interrupt are kept.
 void study_stability(const StudyRequest& request);
 
+/// Prints the table of local_steps.hpp of the first level, writes DIR/local_steps.csv.
+void study_local_steps(const StudyRequest& request);
+
 struct StudyRuns {
   std::vector<WorkCurve> curves;              ///< those with a run at least
   std::string field;                          ///< whose error is shown, or empty
@@ -46,6 +49,11 @@ struct StudyRuns {
 StudyRuns study_variants(const StudyRequest& request);
 
 bool has_exact(const cases::Case& setup);
+
+/// All are read, and what they ask of the machine is known, before the first is run.
+/// @throws base::InputError
+std::vector<cases::Case> cases_of_study(const StudyRequest& request,
+                                        const std::vector<Variant>& variants);
 
 /// Every variant, method and level, timed as often as asked. Repetitions go round the curves, so
 /// that a slow minute of the machine hits all of them.

@@ -1,5 +1,5 @@
 /// diptych study: error against cost, or quantities, of a case and its variants; stability limits;
-/// or an atlas.
+/// local steps; or an atlas.
 
 #include "benchmarks/run/breakdowns.hpp"
 #include "benchmarks/run/interruption.hpp"
@@ -19,7 +19,7 @@ namespace {
 struct StudyArguments : CaseArguments {
   harness::StudyRequest request;
   int n_levels = 3;
-  bool stability = false, fresh = false, atlas = false, coarse = false;
+  bool stability = false, local_steps = false, fresh = false, atlas = false, coarse = false;
   std::string before;  ///< of an atlas
 
   /// With the variants of --with; those of the case file too, where nothing else varies.
@@ -28,16 +28,16 @@ struct StudyArguments : CaseArguments {
 
 harness::StudyOptions StudyArguments::compared_options() const {
   CaseArguments arguments = *this;
-  arguments.no_variants = no_variants || stability || !request.variations.empty();
+  arguments.no_variants = no_variants || stability || local_steps || !request.variations.empty();
   return arguments.comparison_options(arguments.read());
 }
 
 /// An atlas says itself what varies and what is judged.
 void check_atlas(const StudyArguments& arguments) {
   const harness::StudyRequest& request = arguments.request;
-  const bool has_others = arguments.stability || !request.variations.empty() ||
-                          !request.quantities.empty() || !request.field.empty() ||
-                          !request.integrators.empty() ||
+  const bool has_others = arguments.stability || arguments.local_steps ||
+                          !request.variations.empty() || !request.quantities.empty() ||
+                          !request.field.empty() || !request.integrators.empty() ||
                           request.repeats != harness::StudyRequest::by_default ||
                           !arguments.with.empty() || arguments.no_variants;
   if (arguments.atlas && has_others) {
@@ -67,6 +67,8 @@ int atlas(const StudyArguments& arguments) {
 }
 
 int study(const StudyArguments& arguments) {
+  if (arguments.stability && arguments.local_steps)
+    throw base::InputError("--stability and --local-steps are commands of their own: give one");
   check_atlas(arguments);
   if (arguments.atlas) return atlas(arguments);
   harness::StudyRequest request = arguments.request;
@@ -78,6 +80,10 @@ int study(const StudyArguments& arguments) {
     harness::study_stability(request);
     return harness::exit_code_of_study(
         "the limits above are in stability.csv; the same command begins again");
+  }
+  if (arguments.local_steps) {
+    harness::study_local_steps(request);
+    return 0;
   }
   request.run.levels = arguments.levels(arguments.n_levels, 1);
   const harness::StudyRuns runs = harness::study_variants(request);
@@ -107,6 +113,8 @@ Action declare_study(CommandLine& line) {
   line.list("--integrators", request.integrators,
             "with --stability: leapfrog,ssp-rk2,ssp-rk3,ssp-rk43 (default all)");
   line.option("--steps", request.stability.n_steps, "with --stability: of a trial (default 1000)");
+  line.flag("--local-steps", arguments->local_steps,
+            "what steps of powers of two, each node's by its own bound, would save");
   line.flag("--atlas", arguments->atlas,
             "a map of what is stable, stopped or wrong: in place of the case the path of an atlas, "
             "or a name of benchmarks/atlas");

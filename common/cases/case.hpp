@@ -129,7 +129,7 @@ struct ReferenceCase {
 /// [scheme]
 struct SchemeCase {
   std::string unknowns = "FHJ";         ///< F, FJ or FHJ
-  std::string reconstruction = "auto";  ///< auto, none, linear, quartic or objective
+  std::string reconstruction = "auto";  ///< of scheme::reconstruction_menu()
   std::string limiter = "none";         ///< entry of the limiter menu
   std::string impedance = "isotropic";  ///< isotropic or exact
   double dissipation = 1;               ///< multiplies D_ab, >= 0

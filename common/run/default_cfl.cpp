@@ -80,7 +80,8 @@ double sampled_cfl(const cases::Case& setup,
                    double geometric_rate,
                    const time::Integrator& integrator) {
   // the rates of a node depend on the nodes of its row alone
-  if (setup.scheme.face_correction != 0 || volumes_of(setup, graph) != scheme::Volumes::nodes)
+  if (setup.scheme.face_correction != 0 || volumes_of(setup, graph) != scheme::Volumes::nodes ||
+      is_symmetric(setup))
     return 0;
   const std::optional<SamplePart> part = sample_part(graph);
   if (!part) return 0;
@@ -116,6 +117,7 @@ double default_cfl(const cases::Case& setup,
   scheme::BodyOptions options;
   options.face_correction = setup.scheme.face_correction != 0;
   options.volumes = volumes_of(setup, graph);
+  options.has_moments = is_symmetric(setup);
   const auto material = model_menu().at(setup.material.model).model(setup.material);
   const double rate = scheme::geometric_rate(graph);
   const double sampled = graph.dimension == 2 ? sampled_cfl<2>(setup, graph, rate, integrator)

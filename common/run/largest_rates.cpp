@@ -17,10 +17,12 @@ LargestRates<Dim>::LargestRates(scheme::Body<Dim>& body, double kappa_f, std::ve
     : body_(body),
       kappa_f_(kappa_f),
       moves_(std::move(moves)),
-      momentum_(scheme::momentum_function<Dim>({.reconstruction = scheme::Reconstruction::none,
-                                                .limiter = scheme::PairLimiter::none,
-                                                .impedance = scheme::Impedance::isotropic},
-                                               true)),
+      momentum_(scheme::momentum_function<Dim>(
+          {.reconstruction = body.options.has_moments ? scheme::Reconstruction::symmetric
+                                                      : scheme::Reconstruction::none,
+           .limiter = scheme::PairLimiter::none,
+           .impedance = scheme::Impedance::isotropic},
+          true)),
       face_(scheme::face_correction_sweeps<Dim>()),
       scratch_(3 * static_cast<size_t>(parallel::n_chunks_of(body.n_blocks))) {}
 
@@ -48,10 +50,25 @@ void LargestRates<Dim>::divide_forces(Vectors& out) const {
 
 template <int Dim>
 void LargestRates<Dim>::sum_forces(double dissipation_factor) {
-  scheme::sum_forces<Dim>(
-      {body_, dissipation_factor, false, scratch_.data(), scratch_.data() + scratch_.size() / 3,
-       scratch_.data() + scratch_.size() / 3 * 2},
-      momentum_);
+  const scheme::MomentumSweep<Dim> sweep{body_,
+                                         dissipation_factor,
+                                         false,
+                                         scratch_.data(),
+                                         scratch_.data() + scratch_.size() / 3,
+                                         scratch_.data() + scratch_.size() / 3 * 2};
+  if (body_.options.has_moments) {
+    scheme::sum_moments(sweep, scheme::moments_function<Dim>(scheme::Impedance::isotropic, true));
+    scheme::take_moments(body_);
+  }
+  scheme::sum_forces(sweep, momentum_);
+}
+
+template <int Dim>
+void LargestRates<Dim>::clear_stresses() {
+  for_nodes(body_.n_owned, [&](std::int64_t a) {
+    for (int k = 0; k < Dim * Dim; ++k)
+      body_.records.set(a, NodeRecord<Dim>::P + k, 0);
+  });
 }
 
 /// Stresses of the velocity gradients in the records, for c_p = 1 and rho_R = 1.
@@ -84,9 +101,8 @@ void LargestRates<Dim>::put_stresses(const ElasticRatios& ratios) {
 
 template <int Dim>
 void LargestRates<Dim>::put_impedances(double shear_ratio) {
+  clear_stresses();
   for_nodes(body_.n_owned, [&](std::int64_t a) {
-    for (int k = 0; k < Dim * Dim; ++k)
-      body_.records.set(a, NodeRecord<Dim>::P + k, 0);
     body_.records.set(a, NodeRecord<Dim>::z_p, 1);
     body_.records.set(a, NodeRecord<Dim>::z_s, shear_ratio);
   });
@@ -111,6 +127,10 @@ double LargestRates<Dim>::dissipation(double shear_ratio) {
   return lanczos::largest_eigenvalue<Four>(body_.graph.Omega, body_.n_owned,
                                            [&](const Vectors& v, Vectors& out) {
                                              put_velocities(v);
+                                             if (body_.options.has_moments) {
+                                               scheme::velocity_gradients(body_, kappa_f_);
+                                               clear_stresses();
+                                             }
                                              sum_forces(1);
                                              divide_forces(out);
                                            });

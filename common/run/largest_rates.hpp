@@ -3,8 +3,8 @@
 /// step. The operators are those of the run itself, by its own sweeps on its own fields: the strain
 /// rates (18b) with the face correction, a linear stress, the forces (18a), and D_ab of plain jumps
 /// with z_p = rho_R c_p. Lanczos iterations from a fixed vector come within a percent or two of the
-/// largest eigenvalue, from below. Reconstruction is left out: the roughest modes have hardly a
-/// gradient. Test: tests/common/run/default_cfl_test.cpp
+/// largest eigenvalue, from below. Reconstruction is left out, but for the symmetric one: the
+/// roughest modes have hardly a gradient. Test: tests/common/run/default_cfl_test.cpp
 
 #include "common/algebra/four.hpp"
 #include "common/run/lanczos.hpp"
@@ -27,7 +27,8 @@ class LargestRates {
   /// @param moves  [n_nodes] 0 for nodes that are held, 1 for the others; empty: none is held
   LargestRates(scheme::Body<Dim>& body, double kappa_f, std::vector<double> moves = {});
 
-  /// d of plain jumps with scheme.dissipation = 1, per unit of c_p  [1/m]
+  /// d of plain jumps, or symmetric ones where the body has their moments, with
+  /// scheme.dissipation = 1, per unit of c_p  [1/m]
   double dissipation(double shear_ratio);
 
   /// omega of u -> G* (lambda tr(e) I + 2 mu e) with e the symmetric part of G u, G the gradient of
@@ -53,6 +54,7 @@ class LargestRates {
   /// out <- (K + strength D) u in one sweep.
   void apply(const Vectors& u, const ElasticRatios& ratios, double strength, Vectors& out);
   void put_stresses(const ElasticRatios& ratios);
+  void clear_stresses();
   void sum_forces(double dissipation_factor);
 
   scheme::Body<Dim>& body_;

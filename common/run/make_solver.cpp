@@ -112,6 +112,7 @@ scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::Pair
 }
 
 scheme::Reconstruction reconstruction_of(const cases::Case& setup) {
+  if (is_symmetric(setup)) return scheme::Reconstruction::symmetric;
   switch (scheme::reconstruction_menu().at(setup.scheme.reconstruction)) {
     case scheme::ReconstructionChoice::none:
       return scheme::Reconstruction::none;
@@ -144,7 +145,9 @@ scheme::BodyOptions body_options_of(const cases::Case& setup,
   options.unknowns = scheme::unknowns_menu().at(setup.scheme.unknowns);
   options.exact_impedance =
       scheme::impedance_menu().at(setup.scheme.impedance) == scheme::Impedance::exact;
-  options.has_frames = reconstruction_of(setup) == scheme::Reconstruction::objective;
+  const scheme::Reconstruction reconstruction = reconstruction_of(setup);
+  options.has_frames = reconstruction == scheme::Reconstruction::objective;
+  options.has_moments = reconstruction == scheme::Reconstruction::symmetric;
   options.has_slopes = has_line_slopes(setup, graph);
   options.keeps_L_0 = integrator.gauss_relaxation && n_branches > 0;
   options.face_correction = setup.scheme.face_correction != 0;
@@ -201,8 +204,14 @@ std::unique_ptr<Solver> solver_in(const cases::Case& setup, const scheme::PairGr
   }
   const double geometric_rate = scheme::geometric_rate(graph);
   double cfl = setup.time.cfl;
-  if (!(cfl > 0)) cfl = sampled_cfl<Dim>(setup, graph, geometric_rate, parts.integrator);
-  scheme::Body<Dim> body(graph, body_options_of(setup, graph, *parts.material, parts.integrator));
+  const scheme::BodyOptions options =
+      body_options_of(setup, graph, *parts.material, parts.integrator);
+  // the records of a body with the exact impedance are not those that the rates read
+  if (!(cfl > 0))
+    cfl = options.exact_impedance
+              ? default_cfl(setup, graph, parts.integrator)
+              : sampled_cfl<Dim>(setup, graph, geometric_rate, parts.integrator);
+  scheme::Body<Dim> body(graph, options);
   if (!(cfl > 0)) cfl = default_cfl(setup, *parts.material, body, geometric_rate, parts.integrator);
   auto solver =
       assembled<Dim>(setup, graph, std::move(parts), std::move(body), cfl, geometric_rate);
@@ -247,6 +256,11 @@ bool has_line_slopes(const cases::Case& setup, const scheme::PairGraph& graph) {
                     setup.file));
   }
   return false;
+}
+
+bool is_symmetric(const cases::Case& setup) {
+  return scheme::reconstruction_menu().at(setup.scheme.reconstruction) ==
+         scheme::ReconstructionChoice::symmetric;
 }
 
 bool wants_safe_volumes(const cases::Case& setup) {

@@ -104,6 +104,9 @@ bool wants_line_slopes(const cases::Case& setup);
 /// @throws base::InputError where they are asked for and it has none
 bool has_line_slopes(const cases::Case& setup, const scheme::PairGraph& graph);
 
+/// Whether jumps are reconstructed with slopes and their adjoint (sweeps/jump_adjoint.hpp).
+bool is_symmetric(const cases::Case& setup);
+
 /// What carries the pressure of this case on this graph (scheme.volumes), never "automatic".
 /// @throws base::InputError where the graph lacks the cells or lines that the case asks for
 scheme::Volumes volumes_of(const cases::Case& setup, const scheme::PairGraph& graph);

@@ -16,7 +16,8 @@ const base::Registry<ReconstructionChoice>& reconstruction_menu() {
                                .add("none", ReconstructionChoice::none)
                                .add("linear", ReconstructionChoice::linear)
                                .add("quartic", ReconstructionChoice::quartic)
-                               .add("objective", ReconstructionChoice::objective);
+                               .add("objective", ReconstructionChoice::objective)
+                               .add("symmetric", ReconstructionChoice::symmetric);
   return menu;
 }
 

@@ -6,7 +6,7 @@
 
 namespace diptych::scheme {
 
-double geometric_rate(const PairGraph& graph) {
+std::vector<double> geometric_rates(const PairGraph& graph) {
   const auto row_sum = [&](std::int64_t a) {
     double sum = 0;
     for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k)
@@ -17,15 +17,19 @@ double geometric_rate(const PairGraph& graph) {
   std::vector<double> of_class;
   for (const std::int32_t a : rows.representative)
     of_class.push_back(row_sum(a));
-  std::vector<double> largest(static_cast<size_t>(parallel::n_chunks_of(graph.n_nodes())), 0.0);
-  parallel::for_chunks(
-      graph.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
-        for (std::int64_t a = begin; a < end; ++a) {
-          const double of_row = of_class.empty() ? row_sum(a) : of_class[rows.of[a]];
-          largest[chunk] = std::max(largest[chunk], 0.5 * of_row / graph.Omega[a]);
-        }
-      });
-  return *std::max_element(largest.begin(), largest.end());
+  std::vector<double> rates(static_cast<size_t>(graph.n_nodes()));
+  parallel::for_chunks(graph.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      const double of_row = of_class.empty() ? row_sum(a) : of_class[rows.of[a]];
+      rates[a] = 0.5 * of_row / graph.Omega[a];
+    }
+  });
+  return rates;
+}
+
+double geometric_rate(const PairGraph& graph) {
+  const std::vector<double> rates = geometric_rates(graph);
+  return *std::max_element(rates.begin(), rates.end());
 }
 
 }  // namespace diptych::scheme

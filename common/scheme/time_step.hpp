@@ -9,6 +9,8 @@
 #include "common/scheme/body/body.hpp"
 #include "common/scheme/graph/pair_graph.hpp"
 
+#include <vector>
+
 namespace diptych::scheme {
 
 /// Which speeds the rate is made of.
@@ -27,7 +29,10 @@ struct TimeStepRule {
   double limit() const { return cfl / frequency_factor; }
 };
 
-/// max_a sum_b |C_ab| / (2 Omega_a)  [1/m]: rate per unit of speed.
+/// [n_nodes] sum_b |C_ab| / (2 Omega_a)  [1/m]: rate per unit of speed.
+std::vector<double> geometric_rates(const PairGraph& graph);
+
+/// The largest of them.
 double geometric_rate(const PairGraph& graph);
 
 /// Largest c_p of the nodes of blocks [begin, end), from their records  [m/s].

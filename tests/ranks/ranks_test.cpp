@@ -139,6 +139,10 @@ value = ["sin(1000*t)", 0]
       {"ObjectiveReconstructionOnMovedNodes", cube + held,
        "--set scheme.reconstruction=objective --set mesh.perturbation=0.2 --set "
        "time.integrator=leapfrog --set scheme.limiter=sign-preserving"},
+      {"SymmetricReconstruction", cube + branches, "--set scheme.reconstruction=symmetric"},
+      {"SymmetricReconstructionOnMovedNodes", cube + held,
+       "--set scheme.reconstruction=symmetric --set mesh.perturbation=0.2 --set "
+       "time.integrator=leapfrog"},
       {"RigidWall", plane + wall, "--set time.integrator=leapfrog"},
       {"RigidWallInStages", plane + wall, ""},
       {"PressureAndVelocity", plane + blown, "--set scheme.volumes=cells"},

@@ -22,7 +22,10 @@ SectionKeys<SchemeCase> scheme_keys() {
               "Reconstruction of the velocities on both sides of a pair. linear: with the slopes "
               "dF/dt; objective: the same in a frame that spins with the pair, in which a deformed "
               "body that spins rigidly dissipates nothing; quartic: with slopes along the lines of "
-              "nodes of a box, whose jumps are of fifth order where those of linear are of third. "
+              "nodes of a box, whose jumps are of fifth order where those of linear are of third; "
+              "symmetric: linear, with the adjoint of the slopes, so that what a body dissipates "
+              "is "
+              "a sum of squares on any nodes. "
               "auto: quartic where operators sum by parts on a box, but for limiters of slopes, "
               "else linear.",
               "\"objective\""))
@@ -80,6 +83,12 @@ void check(const SectionValues& section, const SchemeCase& scheme) {
     section.fail("reconstruction",
                  "= \"objective\" has the isotropic impedance, and the limiters none and "
                  "sign-preserving, alone; use these, or reconstruction = \"linear\"");
+  }
+  if (scheme.reconstruction == "symmetric" &&
+      (scheme.limiter != "none" || scheme.face_correction != 0)) {
+    section.fail("reconstruction",
+                 "= \"symmetric\" has neither limiters nor the face correction; use limiter = "
+                 "\"none\" and face_correction = 0, or reconstruction = \"linear\"");
   }
   if (scheme.precision == "single" && scheme.impedance == "exact") {
     section.fail("precision",

@@ -53,6 +53,7 @@ void Body<Dim>::list_fields() {
   const auto record = in_table(&Body::records, record_stride, true);
   const auto frame = in_table(&Body::frames, NodeFrame<Dim>::stride, true);
   const auto force = in_table(&Body::T, vector_stride<Dim>, false);
+  const auto moment = in_table(&Body::moments, tensor_stride<Dim>, false);
   const auto gradient = in_table(&Body::gradients, tensor_stride<Dim>, true);
   const auto stress = in_table(&Body::stresses, tensor_stride<Dim>, true);
 
@@ -90,6 +91,7 @@ void Body<Dim>::list_fields() {
   }
   force("T", "N", Dim, accumulated, 0);
   force("rate", "kg/s", in_runs() ? 1 : 0, accumulated, Dim);
+  if (options.has_moments) moment("moments", "Pa", Dim * Dim, accumulated, 0);
   if (options.face_correction) {
     gradient("plain L", "1/s", Dim * Dim, derived, 0);
     stress("plain P", "Pa", Dim * Dim, derived, 0);

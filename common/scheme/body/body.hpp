@@ -87,9 +87,10 @@ struct BodyOptions {
   bool has_G = false;  ///< branches keep S = G_v^-1
   Unknowns unknowns = Unknowns::FHJ;
   bool exact_impedance = false;
-  bool has_frames = false;  ///< objective reconstruction
-  bool has_slopes = false;  ///< those of the graph stand in for dF/dt in the reconstruction
-  bool keeps_L_0 = false;   ///< dF/dt at the beginning of the step, for GEXP (notes 5.3)
+  bool has_frames = false;   ///< objective reconstruction
+  bool has_moments = false;  ///< symmetric reconstruction
+  bool has_slopes = false;   ///< those of the graph stand in for dF/dt in the reconstruction
+  bool keeps_L_0 = false;    ///< dF/dt at the beginning of the step, for GEXP (notes 5.3)
   bool face_correction = false;
   Volumes volumes = Volumes::nodes;  ///< what carries the pressure, resolved
 };
@@ -152,6 +153,9 @@ struct Body {
   /// last component with 2 rho_R Omega times the rate [kg/s].
   NodeTable T;
   NodeTable frames;  ///< NodeFrame, objective reconstruction only
+  /// Symmetric reconstruction only: N/Omega of jump_adjoint.hpp [Pa], which P of the records is
+  /// without; runs, during its sweep: 4 N [N m].
+  NodeTable moments;
   // face correction only: what its sweeps read
   NodeTable gradients;  ///< uncorrected dF/dt
   NodeTable stresses;   ///< P

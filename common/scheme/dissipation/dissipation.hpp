@@ -17,13 +17,14 @@ namespace diptych::scheme {
 
 enum class Reconstruction {
   none,
-  linear,    ///< with slopes: velocities linear in X have no jump
-  objective  ///< linear, and in the frame that spins with the pair (notes 3.4): nor have rigid
-             ///< spins
+  linear,     ///< with slopes: velocities linear in X have no jump
+  objective,  ///< linear, and in the frame that spins with the pair (notes 3.4): nor have rigid
+              ///< spins
+  symmetric   ///< linear, with the adjoint of the slopes (sweeps/jump_adjoint.hpp)
 };
 /// What a case asks for: with the slopes of (18b) ("linear"), with those along lines of nodes where
 /// the graph has them ("quartic", meshes/line_slopes.hpp), or what suits graph and limiter.
-enum class ReconstructionChoice { automatic, none, linear, quartic, objective };
+enum class ReconstructionChoice { automatic, none, linear, quartic, objective, symmetric };
 
 enum class PairLimiter {
 #define DIPTYCH_LIMITER(name, id, Type) id,
@@ -75,10 +76,13 @@ struct DissipationKind {
 };
 
 /// Whether it is compiled: the objective reconstruction with the isotropic impedance and without
-/// slope limiters, whose jumps have a known sign in the spinning frame only.
+/// slope limiters, whose jumps have a known sign in the spinning frame only; the symmetric one,
+/// which has a sign, without limiters.
 constexpr bool is_compiled(const DissipationKind& kind) {
   return kind.reconstruction == Reconstruction::linear ||
-         (kind.reconstruction == Reconstruction::none && kind.limiter == PairLimiter::none) ||
+         ((kind.reconstruction == Reconstruction::none ||
+           kind.reconstruction == Reconstruction::symmetric) &&
+          kind.limiter == PairLimiter::none) ||
          (kind.reconstruction == Reconstruction::objective && !limits_slopes(kind.limiter) &&
           kind.impedance == Impedance::isotropic);
 }

@@ -51,9 +51,14 @@ template <int Dim>
 DIPTYCH_INLINE double power_of_old_forces(const Body<Dim>& body,
                                           std::int64_t b,
                                           const Lanes (&L)[Dim * Dim]) {
-  const Tensor<Lanes> P = body.options.face_correction
-                              ? get_tensor<Dim>(body.stresses, b, 0)
-                              : get_tensor<Dim>(body.records, b, NodeRecord<Dim>::P);
+  Tensor<Lanes> P = body.options.face_correction
+                        ? get_tensor<Dim>(body.stresses, b, 0)
+                        : get_tensor<Dim>(body.records, b, NodeRecord<Dim>::P);
+  if (body.options.has_moments) {
+    const Tensor<Lanes> N = get_tensor<Dim>(body.moments, b, 0);
+    for (int k = 0; k < Dim * Dim; ++k)
+      P(k / Dim, k % Dim) += N(k / Dim, k % Dim);
+  }
   Lanes inner{}, outer{};
   for (int k = 0; k < Dim * Dim; ++k)
     inner += P(k / Dim, k % Dim) * L[k];

@@ -21,6 +21,20 @@ extern template MomentumFunction<2> momentum_sweep_of<2, Impedance::exact, false
 extern template MomentumFunction<3> momentum_sweep_of<3, Impedance::exact, false>(
     const DissipationKind&);
 
+extern template MomentumFunction<2> moments_sweep_of<2, Impedance::isotropic, true>();
+extern template MomentumFunction<2> moments_sweep_of<2, Impedance::exact, true>();
+extern template MomentumFunction<2> moments_sweep_of<2, Impedance::exact, false>();
+extern template MomentumFunction<3> moments_sweep_of<3, Impedance::isotropic, true>();
+extern template MomentumFunction<3> moments_sweep_of<3, Impedance::exact, true>();
+extern template MomentumFunction<3> moments_sweep_of<3, Impedance::exact, false>();
+
+template <int Dim>
+MomentumFunction<Dim> moments_function(Impedance impedance, bool has_H) {
+  if (impedance == Impedance::isotropic) return moments_sweep_of<Dim, Impedance::isotropic, true>();
+  return has_H ? moments_sweep_of<Dim, Impedance::exact, true>()
+               : moments_sweep_of<Dim, Impedance::exact, false>();
+}
+
 template <int Dim>
 MomentumFunction<Dim> momentum_function(const DissipationKind& kind, bool has_H) {
   if (kind.impedance == Impedance::isotropic) {
@@ -43,20 +57,29 @@ void work_segment(const MomentumSweep<Dim>& sweep,
   }
 }
 
+/// What a sweep over pairs adds up in runs.
 template <int Dim>
-void clear_sums(Body<Dim>& body, std::int64_t begin, std::int64_t end) {
-  const std::int64_t stride = body.T.component_stride();
-  body.T.visit([&](auto* sums) {
-    for (int c = 0; c <= Dim; ++c)
+struct RunSums {
+  NodeTable& table;
+  int n_components;
+  /// makes what is asked of the sums of blocks [begin, end)
+  void (*use)(const MomentumSweep<Dim>& sweep, std::int64_t begin, std::int64_t end);
+};
+
+template <int Dim>
+void clear(const RunSums<Dim>& of, std::int64_t begin, std::int64_t end) {
+  const std::int64_t stride = of.table.component_stride();
+  of.table.visit([&](auto* sums) {
+    for (int c = 0; c < of.n_components; ++c)
       std::fill(sums + c * stride + begin * n_lanes, sums + c * stride + end * n_lanes, 0);
   });
 }
 
-/// Runs: T from the sums of [begin, end), and the largest rate of each chunk.
+/// T from the sums of [begin, end), and the largest rate of each chunk.
 template <int Dim>
-DIPTYCH_CLONES void use_sums(const MomentumSweep<Dim>& sweep,
-                             std::int64_t begin,
-                             std::int64_t end) {
+DIPTYCH_CLONES void put_forces(const MomentumSweep<Dim>& sweep,
+                               std::int64_t begin,
+                               std::int64_t end) {
   Body<Dim>& body = sweep.body;
   const algebra::FlushToZero flush(body.is_single());
   for (std::int64_t b = begin; b < end; ++b) {
@@ -71,30 +94,46 @@ DIPTYCH_CLONES void use_sums(const MomentumSweep<Dim>& sweep,
   }
 }
 
+/// N/Omega from the sums of [begin, end).
 template <int Dim>
-void sum_forces_of_runs(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> momentum) {
+DIPTYCH_CLONES void put_moments(const MomentumSweep<Dim>& sweep,
+                                std::int64_t begin,
+                                std::int64_t end) {
+  NodeTable& moments = sweep.body.moments;
+  for (std::int64_t b = begin; b < end; ++b) {
+    const Lanes scale = 0.25 * algebra::load(sweep.body.graph.inverse_Omega.data() + b * n_lanes);
+    for (int k = 0; k < Dim * Dim; ++k)
+      moments.put(b, k, scale * moments.get(b, k));
+  }
+}
+
+template <int Dim>
+void sum_runs(const MomentumSweep<Dim>& sweep,
+              MomentumFunction<Dim> work,
+              const RunSums<Dim>& sums) {
   const std::int64_t n = sweep.body.graph.n_blocks, length = sweep.body.graph.mutual.segment;
   const std::int64_t n_segments = (n + length - 1) / length;
   const auto begin = [&](std::int64_t segment) { return std::min(n, segment * length); };
   parallel::for_shares((n_segments + 1) / 2, [&](std::int64_t i) {
     const std::int64_t s = 2 * i;
-    clear_sums(sweep.body, begin(s), begin(s + 2));
-    work_segment(sweep, momentum, begin(s), begin(s + 1));
-    if (s == 0) use_sums(sweep, begin(0), begin(1));
+    clear(sums, begin(s), begin(s + 2));
+    work_segment(sweep, work, begin(s), begin(s + 1));
+    if (s == 0) sums.use(sweep, begin(0), begin(1));
   });
   parallel::for_shares(n_segments / 2, [&](std::int64_t i) {
     const std::int64_t s = 2 * i + 1;
-    work_segment(sweep, momentum, begin(s), begin(s + 1));
-    use_sums(sweep, begin(s), begin(s + 2));
+    work_segment(sweep, work, begin(s), begin(s + 1));
+    sums.use(sweep, begin(s), begin(s + 2));
   });
 }
 
 /// The same of the chunks that write to nodes of this rank. An even segment is of one share, and
 /// whichever is worked first, its sums have the same order.
 template <int Dim>
-void sum_forces_of_part(const MomentumSweep<Dim>& sweep,
-                        MomentumFunction<Dim> momentum,
-                        Share share) {
+void sum_runs_of_part(const MomentumSweep<Dim>& sweep,
+                      MomentumFunction<Dim> work_chunk,
+                      const RunSums<Dim>& sums,
+                      Share share) {
   const RunWork& work = sweep.body.division->runs;
   const auto end_of = [&](std::int64_t chunk) {
     return std::min(sweep.body.n_blocks, (chunk + 1) * parallel::chunk_size);
@@ -102,14 +141,14 @@ void sum_forces_of_part(const MomentumSweep<Dim>& sweep,
   const auto work_segments = [&](std::span<const std::vector<std::int64_t>> segments) {
     parallel::for_shares(std::ssize(segments), [&](std::int64_t s) {
       for (const std::int64_t chunk : segments[s])
-        momentum(sweep, chunk * parallel::chunk_size, end_of(chunk), chunk);
+        work_chunk(sweep, chunk * parallel::chunk_size, end_of(chunk), chunk);
     });
   };
   const std::span even(work.segments[0]);
   if (share != Share::outer) {
     parallel::for_shares(std::ssize(work.written), [&](std::int64_t i) {
       const std::int64_t chunk = work.written[i];
-      clear_sums(sweep.body, chunk * parallel::chunk_size, end_of(chunk));
+      clear(sums, chunk * parallel::chunk_size, end_of(chunk));
     });
     work_segments(even.first(work.n_inner));
   }
@@ -117,29 +156,63 @@ void sum_forces_of_part(const MomentumSweep<Dim>& sweep,
   work_segments(even.subspan(work.n_inner));
   work_segments(work.segments[1]);
   for_chunks_of(sweep.body, Share::whole,
-                [&](auto begin, auto end, auto) { use_sums(sweep, begin, end); });
+                [&](auto begin, auto end, auto) { sums.use(sweep, begin, end); });
+}
+
+template <int Dim>
+void sum_pairs(const MomentumSweep<Dim>& sweep,
+               MomentumFunction<Dim> work,
+               const RunSums<Dim>& sums,
+               Share share) {
+  const bool runs = sweep.body.graph.shape.arrangement == Arrangement::runs;
+  if (runs && sweep.body.division) {
+    sum_runs_of_part(sweep, work, sums, share);
+    return;
+  }
+  if (runs) {
+    sum_runs(sweep, work, sums);
+    return;
+  }
+  for_chunks_of(sweep.body, share,
+                [&](auto begin, auto end, auto chunk) { work(sweep, begin, end, chunk); });
 }
 
 }  // namespace
 
 template <int Dim>
 void sum_forces(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> momentum, Share share) {
-  const bool runs = sweep.body.graph.shape.arrangement == Arrangement::runs;
-  if (runs && sweep.body.division) {
-    sum_forces_of_part(sweep, momentum, share);
-    return;
-  }
-  if (runs) {
-    sum_forces_of_runs(sweep, momentum);
-    return;
-  }
-  for_chunks_of(sweep.body, share,
-                [&](auto begin, auto end, auto chunk) { momentum(sweep, begin, end, chunk); });
+  sum_pairs<Dim>(sweep, momentum, {sweep.body.T, Dim + 1, put_forces<Dim>}, share);
+}
+
+template <int Dim>
+void sum_moments(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> moments, Share share) {
+  sum_pairs<Dim>(sweep, moments, {sweep.body.moments, Dim * Dim, put_moments<Dim>}, share);
+}
+
+template <int Dim>
+void take_moments(Body<Dim>& body) {
+  constexpr int n = Dim * Dim, P = NodeRecord<Dim>::P;
+  for_chunks_of(body, Share::whole, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+    for (std::int64_t b = begin; b < end; ++b) {
+      Lanes stress[n];
+      body.records.template get_each<n>(b, P,
+                                        [&](int k, const Lanes& value) { stress[k] = value; });
+      body.moments.template get_each<n>(b, 0,
+                                        [&](int k, const Lanes& value) { stress[k] -= value; });
+      body.records.template put_each<n>(b, P, [&](int k) { return stress[k]; });
+    }
+  });
 }
 
 template void sum_forces(const MomentumSweep<2>&, MomentumFunction<2>, Share);
 template void sum_forces(const MomentumSweep<3>&, MomentumFunction<3>, Share);
+template void sum_moments(const MomentumSweep<2>&, MomentumFunction<2>, Share);
+template void sum_moments(const MomentumSweep<3>&, MomentumFunction<3>, Share);
+template void take_moments(Body<2>&);
+template void take_moments(Body<3>&);
 template MomentumFunction<2> momentum_function<2>(const DissipationKind& kind, bool has_H);
 template MomentumFunction<3> momentum_function<3>(const DissipationKind& kind, bool has_H);
+template MomentumFunction<2> moments_function<2>(Impedance, bool);
+template MomentumFunction<3> moments_function<3>(Impedance, bool);
 
 }  // namespace diptych::scheme

@@ -48,6 +48,10 @@ using MomentumFunction = void (*)(const MomentumSweep<Dim>& sweep,
 template <int Dim, Impedance impedance, bool has_H>
 MomentumFunction<Dim> momentum_sweep_of(const DissipationKind& kind);
 
+/// The same of jump_adjoint.hpp, whose reconstruction is symmetric.
+template <int Dim, Impedance impedance, bool has_H>
+MomentumFunction<Dim> moments_sweep_of();
+
 /// The compiled sweep of this kind. has_H: the material's pressure wave is polarised along H N.
 template <int Dim>
 MomentumFunction<Dim> momentum_function(const DissipationKind& kind, bool has_H);
@@ -57,5 +61,19 @@ template <int Dim>
 void sum_forces(const MomentumSweep<Dim>& sweep,
                 MomentumFunction<Dim> momentum,
                 Share share = Share::whole);
+
+/// The compiled sweep of jump_adjoint.hpp.
+template <int Dim>
+MomentumFunction<Dim> moments_function(Impedance impedance, bool has_H);
+
+/// That sweep over the blocks of a share: N/Omega into state.moments.
+template <int Dim>
+void sum_moments(const MomentumSweep<Dim>& sweep,
+                 MomentumFunction<Dim> moments,
+                 Share share = Share::whole);
+
+/// After all shares: P of the records becomes P - N/Omega.
+template <int Dim>
+void take_moments(Body<Dim>& body);
 
 }  // namespace diptych::scheme

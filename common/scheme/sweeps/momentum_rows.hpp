@@ -5,9 +5,12 @@
 
 namespace diptych::scheme {
 
-/// Rows: the sums of node a.
-template <InstructionSet isa, class Real, int Dim, DissipationKind kind, bool has_H>
-DIPTYCH_INLINE auto sums_of_node(const MomentumSweep<Dim>& sweep, std::int64_t a) {
+/// Rows: use(geometry, records, positions, frames, v_b - v_a) of eight pairs of node a after the
+/// other.
+template <InstructionSet isa, class Real, int Dim, DissipationKind kind, class Use>
+DIPTYCH_INLINE void for_pairs_of_node(const MomentumSweep<Dim>& sweep,
+                                      std::int64_t a,
+                                      const Use& use) {
   using T = algebra::Pack<Real>;
   using Record = NodeRecord<Dim>;
   constexpr bool exact = kind.impedance == Impedance::exact;
@@ -15,7 +18,6 @@ DIPTYCH_INLINE auto sums_of_node(const MomentumSweep<Dim>& sweep, std::int64_t a
   const SweepGraph<Dim>& graph = sweep.body.graph;
   const PairArea* area = graph.area.data() + graph.first[a];
   FaceCursor<Dim> geometry(graph, graph.first[a]);
-  SumsWith<Dim, kind.limiter, T> sums;
   for (std::int64_t chunk = graph.row[a]; chunk < graph.row[a + 1]; ++chunk, ++area) {
     prefetch(area + chunks_ahead);
     const auto pairs =
@@ -40,20 +42,33 @@ DIPTYCH_INLINE auto sums_of_node(const MomentumSweep<Dim>& sweep, std::int64_t a
         return NoFrames{};
       }
     }();
-    const auto of_pairs = pair_forces<Dim, kind, has_H, Stresses::of_neighbour>(
-        sweep, pair, pairs, positions, frames, plain);
-#pragma GCC unroll 3
-    for (int i = 0; i < Dim; ++i)
-      sums.force[i] += of_pairs.force[i];
-    sums.power += of_pairs.power;
-    if constexpr (kind.limiter != PairLimiter::none) sums.limited += of_pairs.limited;
-    if (sweep.with_bound) {
-      Vector<T> C_ab{};
-      for (int i = 0; i < Dim; ++i)
-        C_ab[i] = 2.0 * pair.S[i] + C_ba[i];
-      sums.rate += rate_of<Dim, T>(C_ab, pairs);
-    }
+    use(pair, pairs, positions, frames, plain);
   }
+}
+
+/// Rows: the sums of node a.
+template <InstructionSet isa, class Real, int Dim, DissipationKind kind, bool has_H>
+DIPTYCH_INLINE auto sums_of_node(const MomentumSweep<Dim>& sweep, std::int64_t a) {
+  using T = algebra::Pack<Real>;
+  SumsWith<Dim, kind.limiter, T> sums;
+  for_pairs_of_node<isa, Real, Dim, kind>(
+      sweep, a,
+      [&](const auto& pair, const auto& pairs, const auto& positions, const auto& frames,
+          const auto& plain) DIPTYCH_INLINE_LAMBDA {
+        const auto of_pairs = pair_forces<Dim, kind, has_H, Stresses::of_neighbour>(
+            sweep, pair, pairs, positions, frames, plain);
+#pragma GCC unroll 3
+        for (int i = 0; i < Dim; ++i)
+          sums.force[i] += of_pairs.force[i];
+        sums.power += of_pairs.power;
+        if constexpr (kind.limiter != PairLimiter::none) sums.limited += of_pairs.limited;
+        if (sweep.with_bound) {
+          Vector<T> C_ab{};
+          for (int i = 0; i < Dim; ++i)
+            C_ab[i] = 2.0 * pair.S[i] + pair.C_ba[i];
+          sums.rate += rate_of<Dim, T>(C_ab, pairs);
+        }
+      });
   return sums;
 }
 

@@ -58,6 +58,30 @@ DIPTYCH_INLINE void next_geometry(
   }
 }
 
+/// Runs: use(geometry, records, positions, frames, v_b - v_a) of the next pairs of block b.
+template <class T, int Dim, DissipationKind kind, class Cursors, class Use>
+DIPTYCH_INLINE void read_pairs(const MomentumSweep<Dim>& sweep,
+                               std::int64_t b,
+                               std::int64_t offset,
+                               Cursors& geometry,
+                               const Use& use) {
+  const RunPairs<T> pairs(sweep.body.records, b, offset);
+  const RunPairs<T> positions(sweep.body.graph.X, b, offset);
+  PairGeometry<Dim, T> pair;
+  next_geometry(geometry, pair);
+  for (int i = 0; i < Dim; ++i)
+    pair.S[i] = pair.C_ab[i] - pair.C_ba[i];
+  const Vector<T> plain = plain_jump<Dim>(RunPairs<T>(sweep.body.v, b, offset), 0);
+  const auto frames = [&]() DIPTYCH_INLINE_LAMBDA {
+    if constexpr (kind.reconstruction == Reconstruction::objective) {
+      return RunPairs<T>(sweep.body.frames, b, offset);
+    } else {
+      return NoFrames{};
+    }
+  }();
+  use(pair, pairs, positions, frames, plain);
+}
+
 /// Forces of the next n chunks of a block, added to its sums and taken from those of the others.
 template <class T, int Dim, DissipationKind kind, bool has_H>
 DIPTYCH_INLINE void work_chunks(const MomentumSweep<Dim>& sweep,
@@ -72,34 +96,26 @@ DIPTYCH_INLINE void work_chunks(const MomentumSweep<Dim>& sweep,
   const std::int64_t end = work.chunk + n;
   for (; work.chunk < end; ++work.chunk) {
     const std::int64_t offset = graph.mutual.offset.data()[work.chunk];
-    const RunPairs<T> pairs(sweep.body.records, work.b, offset);
-    const RunPairs<T> positions(graph.X, work.b, offset);
-    PairGeometry<Dim, T> pair;
-    next_geometry(work.geometry, pair);
-    for (int i = 0; i < Dim; ++i)
-      pair.S[i] = pair.C_ab[i] - pair.C_ba[i];
-    const Vector<T> plain = plain_jump<Dim>(RunPairs<T>(sweep.body.v, work.b, offset), 0);
-    const auto frames = [&]() DIPTYCH_INLINE_LAMBDA {
-      if constexpr (kind.reconstruction == Reconstruction::objective) {
-        return RunPairs<T>(sweep.body.frames, work.b, offset);
-      } else {
-        return NoFrames{};
-      }
-    }();
-    const auto of_pairs =
-        pair_forces<Dim, kind, has_H, Stresses::both>(sweep, pair, pairs, positions, frames, plain);
     Real* const their_sums = own_sums + offset;
+    read_pairs<T, Dim, kind>(sweep, work.b, offset, work.geometry,
+                             [&](const auto& pair, const auto& pairs, const auto& positions,
+                                 const auto& frames, const auto& plain) DIPTYCH_INLINE_LAMBDA {
+                               const auto of_pairs = pair_forces<Dim, kind, has_H, Stresses::both>(
+                                   sweep, pair, pairs, positions, frames, plain);
 #pragma GCC unroll 3
-    for (int i = 0; i < Dim; ++i) {
-      sums.force[i] += of_pairs.force[i];
-      add_to<T>(their_sums + i * stride, -of_pairs.force[i]);
-    }
-    sums.power += of_pairs.power;
-    if constexpr (kind.limiter != PairLimiter::none) sums.limited += of_pairs.limited;
-    if (sweep.with_bound) {
-      sums.rate += rate_of<Dim, T>(pair.C_ab, pairs);
-      add_to<T>(their_sums + Dim * stride, rate_of<Dim, T>(pair.C_ba, pairs));
-    }
+                               for (int i = 0; i < Dim; ++i) {
+                                 sums.force[i] += of_pairs.force[i];
+                                 add_to<T>(their_sums + i * stride, -of_pairs.force[i]);
+                               }
+                               sums.power += of_pairs.power;
+                               if constexpr (kind.limiter != PairLimiter::none)
+                                 sums.limited += of_pairs.limited;
+                               if (sweep.with_bound) {
+                                 sums.rate += rate_of<Dim, T>(pair.C_ab, pairs);
+                                 add_to<T>(their_sums + Dim * stride,
+                                           rate_of<Dim, T>(pair.C_ba, pairs));
+                               }
+                             });
   }
   block = work;
 }

@@ -132,7 +132,14 @@ DIPTYCH_INLINE Vector<Lanes> exact_impedance_times(double rho_R,
   return algebra::product(physics::impedance<has_H>(response, X, rho_R, N), jump);
 }
 
-/// 2 D_ab of eight pairs, and which of them are limited.
+template <int Dim, class T>
+struct PairDissipation {
+  Vector<T> D{};     ///< 2 D_ab  [N]
+  Vector<T> jump{};  ///< of the reconstructions, limited  [m/s]
+  T limited{};       ///< one of pairs that the limiter has changed
+};
+
+/// D_ab of eight pairs.
 /// @param pairs      of the records
 /// @param positions  pairs of X
 /// @param frames     pairs of Body::frames, where the reconstruction is objective
@@ -144,13 +151,12 @@ template <int Dim,
           class Positions,
           class Frames,
           class T>
-DIPTYCH_INLINE Vector<T> dissipation_of(const MomentumSweep<Dim>& sweep,
-                                        const PairGeometry<Dim, T>& pair,
-                                        const Pairs& pairs,
-                                        const Positions& positions,
-                                        const Frames& frames,
-                                        const Vector<T>& plain,
-                                        T& limited) {
+DIPTYCH_INLINE PairDissipation<Dim, T> dissipation_of(const MomentumSweep<Dim>& sweep,
+                                                      const PairGeometry<Dim, T>& pair,
+                                                      const Pairs& pairs,
+                                                      const Positions& positions,
+                                                      const Frames& frames,
+                                                      const Vector<T>& plain) {
   using Record = NodeRecord<Dim>;
   Vector<T> h{}, X_ab{};
   for (int j = 0; j < Dim; ++j)
@@ -181,26 +187,26 @@ DIPTYCH_INLINE Vector<T> dissipation_of(const MomentumSweep<Dim>& sweep,
       slopes.sum[i] -= spinning.slopes[i];
     }
   }
-  const Vector<T> jump = reconstructed_jump<Dim, kind.limiter>(plain, seen, slopes, h, limited);
-  limited = pair.area > 0 ? limited : T{};  // lanes without a pair
-  Vector<T> D{};
+  PairDissipation<Dim, T> of;
+  of.jump = reconstructed_jump<Dim, kind.limiter>(plain, seen, slopes, h, of.limited);
+  of.limited = pair.area > 0 ? of.limited : T{};  // lanes without a pair
   if constexpr (kind.impedance == Impedance::isotropic) {
-    D = isotropic_impedance_times<Dim, T>(
+    of.D = isotropic_impedance_times<Dim, T>(
         0.5 * (pairs.neighbour(Record::z_p) + pairs.own(Record::z_p)),
-        0.5 * (pairs.neighbour(Record::z_s) + pairs.own(Record::z_s)), h, jump);
+        0.5 * (pairs.neighbour(Record::z_s) + pairs.own(Record::z_s)), h, of.jump);
   } else {
-    D = exact_impedance_times<Dim, has_H>(sweep.body.options.rho_R, pair, pairs, jump);
+    of.D = exact_impedance_times<Dim, has_H>(sweep.body.options.rho_R, pair, pairs, of.jump);
   }
   for (int i = 0; i < Dim; ++i)
-    D[i] *= static_cast<algebra::Element<T>>(sweep.factor) * pair.area;
-  return D;
+    of.D[i] *= static_cast<algebra::Element<T>>(sweep.factor) * pair.area;
+  return of;
 }
 
 /// Forces of eight pairs on their nodes a.
 template <int Dim, class T>
 struct PairForces {
   Vector<T> force{};  ///< 2 f_ab  [N]
-  T power{};          ///< 2 (v_b - v_a) . D_ab  [W]
+  T power{};          ///< 2 (v_b - v_a) . D_ab, symmetric: 2 r_ab . D_ab  [W]
   T limited{};        ///< one of limited pairs
 };
 
@@ -231,18 +237,18 @@ DIPTYCH_INLINE PairForces<Dim, T> pair_forces(const MomentumSweep<Dim>& sweep,
                                               const Frames& frames,
                                               const Vector<T>& plain) {
   PairForces<Dim, T> f;
-  const Vector<T> D =
-      dissipation_of<Dim, kind, has_H>(sweep, pair, pairs, positions, frames, plain, f.limited);
+  const auto of = dissipation_of<Dim, kind, has_H>(sweep, pair, pairs, positions, frames, plain);
+  f.limited = of.limited;
 #pragma GCC unroll 3
   for (int i = 0; i < Dim; ++i) {
-    f.force[i] = D[i];
+    f.force[i] = of.D[i];
 #pragma GCC unroll 3
     for (int j = 0; j < Dim; ++j) {
       const int ij = NodeRecord<Dim>::P + i * Dim + j;
       if constexpr (which == Stresses::both) f.force[i] += pairs.own(ij) * pair.C_ab[j];
       f.force[i] -= pairs.neighbour(ij) * pair.C_ba[j];
     }
-    f.power += plain[i] * D[i];
+    f.power += (kind.reconstruction == Reconstruction::symmetric ? of.jump[i] : plain[i]) * of.D[i];
   }
   return f;
 }

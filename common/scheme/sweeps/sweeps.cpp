@@ -40,17 +40,25 @@ Sweeps<Dim>::Sweeps(const Body<Dim>& body,
       least_J_(viscous_dissipation_.size()),
       numerical_power_(viscous_dissipation_.size()),
       largest_rate_(viscous_dissipation_.size()),
-      limited_pairs_(viscous_dissipation_.size()) {}
+      limited_pairs_(viscous_dissipation_.size()) {
+  if (options.dissipation.reconstruction == Reconstruction::symmetric)
+    moments_ = moments_function<Dim>(options.dissipation.impedance, material_->has_H());
+}
+
+template <int Dim>
+MomentumSweep<Dim> Sweeps<Dim>::momentum_sweep(Body<Dim>& body, bool with_bound) {
+  return {body,
+          options_.dissipation_factor,
+          with_bound,
+          numerical_power_.data(),
+          largest_rate_.data(),
+          limited_pairs_.data()};
+}
 
 template <int Dim>
 void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
   const Speeds speeds = options_.time_step.speeds;
-  const MomentumSweep<Dim> sweep{body,
-                                 options_.dissipation_factor,
-                                 with_step && speeds == Speeds::exact,
-                                 numerical_power_.data(),
-                                 largest_rate_.data(),
-                                 limited_pairs_.data()};
+  const auto sweep = momentum_sweep(body, with_step && speeds == Speeds::exact);
   sweep_with(body, {&Body<Dim>::records, &Body<Dim>::frames},
              [&](Share share) { scheme::sum_forces(sweep, momentum_, share); });
   if (body.bulk) body.bulk->add_forces(body, *material_);
@@ -109,6 +117,10 @@ void Sweeps<Dim>::strain_rates(Body<Dim>& body,
   }
   if (body.options.has_frames)
     for_blocks(body, Share::whole, [&](auto begin, auto end) { set_frames(body, begin, end); });
+  if (moments_ == nullptr) return;
+  sweep_with(body, {&Body<Dim>::records},
+             [&](Share share) { sum_moments(momentum_sweep(body, false), moments_, share); });
+  take_moments(body);
 }
 
 template <int Dim>

@@ -71,10 +71,12 @@ class Sweeps {
 
  private:
   double rate() const;
+  MomentumSweep<Dim> momentum_sweep(Body<Dim>& body, bool with_bound);
 
   std::shared_ptr<const MaterialModel> material_;
   SweepOptions options_;
   MomentumFunction<Dim> momentum_;
+  MomentumFunction<Dim> moments_ = nullptr;  // where the reconstruction is symmetric
   FaceCorrectionSweeps<Dim> face_;
   double geometric_rate_;
   double undeformed_speed_;

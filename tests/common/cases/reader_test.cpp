@@ -262,6 +262,11 @@ TEST(CaseReader, RefusesOptionsOfTheSchemeThatDoNotGoTogether) {
   EXPECT_EQ(
       refusal(small_case, {"scheme.reconstruction=objective", "scheme.limiter=sign-preserving"}),
       "accepted");
+  for (const char* other : {"scheme.limiter=sign-preserving", "scheme.face_correction=1/6"})
+    EXPECT_THAT(refusal(small_case, {"scheme.reconstruction=symmetric", other}),
+                HasSubstr("reconstruction = \"linear\""));
+  EXPECT_EQ(refusal(small_case, {"scheme.reconstruction=symmetric", "scheme.impedance=exact"}),
+            "accepted");
   EXPECT_THAT(refusal(small_case, {"sph.gradient=sbp", "sph.closure=false"}),
               HasSubstr("which closes"));
   EXPECT_EQ(refusal(small_case, {"sph.closure=false"}), "accepted");

@@ -78,8 +78,13 @@ class RandomBody {
     parallel::for_chunks(state.n_blocks,
                          [&](auto b, auto e, auto c) { strain_rates(first, b, e, c); });
     if (state.options.has_frames) scheme::set_frames(state, 0, state.n_blocks);
-    scheme::sum_forces<3>({state, factor, true, numerical.data(), rate.data(), limited.data()},
-                          momentum);
+    const scheme::MomentumSweep<3> sweep{state,       factor,        true, numerical.data(),
+                                         rate.data(), limited.data()};
+    if (state.options.has_moments) {
+      scheme::sum_moments(sweep, scheme::moments_function<3>(kind_.impedance, true));
+      scheme::take_moments(state);
+    }
+    scheme::sum_forces(sweep, momentum);
   }
   void evaluate(double factor = 1) {
     evaluate(algebra::version_here<StrainRates>(), scheme::momentum_function<3>(kind_, true),
@@ -94,6 +99,7 @@ class RandomBody {
     options.unknowns = scheme::Unknowns::F;
     options.exact_impedance = kind.impedance == scheme::Impedance::exact;
     options.has_frames = kind.reconstruction == scheme::Reconstruction::objective;
+    options.has_moments = kind.reconstruction == scheme::Reconstruction::symmetric;
     return options;
   }
   const scheme::PairGraph& graph() const { return graph_; }
@@ -102,13 +108,14 @@ class RandomBody {
   Vec3 vector(const algebra::NodeTable& field, std::int64_t a) const {
     return {field.at(a, 0), field.at(a, 1), field.at(a, 2)};
   }
-  /// sum Omega P : L, with P as the sweep left it for the neighbours
+  /// sum Omega P : L, with P as the sweep left it for the neighbours, and what it took from it
   double stress_power() const {
     double power = 0;
     for (std::int64_t a = 0; a < graph_.n_nodes(); ++a) {
       for (int k = 0; k < 9; ++k) {
+        const double N = state.options.has_moments ? state.moments.at(a, k) : 0;
         power += graph_.Omega[a] * state.records.at(a, scheme::NodeRecord<3>::L + k) *
-                 state.records.at(a, scheme::NodeRecord<3>::P + k);
+                 (state.records.at(a, scheme::NodeRecord<3>::P + k) + N);
       }
     }
     return power;
@@ -157,6 +164,11 @@ inline constexpr DissipationKind objective{scheme::Reconstruction::objective,
 inline constexpr DissipationKind limited_objective{scheme::Reconstruction::objective,
                                                    scheme::PairLimiter::sign_preserving,
                                                    scheme::Impedance::isotropic};
+
+inline constexpr DissipationKind symmetric{scheme::Reconstruction::symmetric,
+                                           scheme::PairLimiter::none, scheme::Impedance::isotropic};
+inline constexpr DissipationKind symmetric_exact{
+    scheme::Reconstruction::symmetric, scheme::PairLimiter::none, scheme::Impedance::exact};
 
 // 400 random nodes with entries of order one: sums of about 1e4 products, rounding about 1e-14.
 inline constexpr double rounding = 1e-12;

@@ -51,13 +51,16 @@ INSTANTIATE_TEST_SUITE_P(Both,
                                                           venkatakrishnan,
                                                           plain,
                                                           objective,
-                                                          limited_objective),
+                                                          limited_objective,
+                                                          symmetric,
+                                                          symmetric_exact),
                                           testing::Values(Arrangement::rows, Arrangement::runs)));
 
 class Methods : public testing::TestWithParam<const char*> {};
 
 TEST_P(Methods, ArrangementsAgree) {
-  for (const DissipationKind& kind : {isotropic, exact, venkatakrishnan, plain, objective}) {
+  for (const DissipationKind& kind :
+       {isotropic, exact, venkatakrishnan, plain, objective, symmetric}) {
     RandomBody rows(GetParam(), kind, Arrangement::rows), runs(GetParam(), kind, Arrangement::runs);
     rows.evaluate();
     runs.evaluate();
@@ -74,10 +77,11 @@ TEST_P(Methods, ArrangementsAgree) {
   }
 }
 
-/// A body of many segments: each writes to itself and to the next, whoever works it.
+/// A body of many segments: each writes to itself and to the next, whoever works it. The symmetric
+/// reconstruction has two sweeps of that kind.
 TEST_P(Methods, SegmentsDoNotDependOnThreads) {
   const std::array<int, 3> cells{14, 14, 14};
-  RandomBody rows(GetParam(), isotropic, Arrangement::rows, false, cells);
+  RandomBody rows(GetParam(), symmetric, Arrangement::rows, false, cells);
   rows.evaluate();
   const auto one = results(rows);
   for (const auto precision : {scheme::Precision::full, scheme::Precision::single}) {
@@ -85,7 +89,7 @@ TEST_P(Methods, SegmentsDoNotDependOnThreads) {
     std::vector<double> first;
     for (const int threads : {1, 2}) {
       parallel::set_threads(threads);
-      RandomBody runs(GetParam(), isotropic, Arrangement::runs, false, cells, precision);
+      RandomBody runs(GetParam(), symmetric, Arrangement::runs, false, cells, precision);
       ASSERT_GE(runs.state.n_blocks / runs.state.graph.mutual.segment, 4);
       runs.evaluate();
       const auto other = results(runs);

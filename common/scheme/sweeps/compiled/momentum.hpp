@@ -77,6 +77,8 @@ MomentumFunction<Dim> momentum_sweep_of(const DissipationKind& kind) {
       return limited_sweep<Dim, Reconstruction::none, impedance, has_H>(kind.limiter);
     case Reconstruction::linear:
       return limited_sweep<Dim, Reconstruction::linear, impedance, has_H>(kind.limiter);
+    case Reconstruction::symmetric:
+      return limited_sweep<Dim, Reconstruction::symmetric, impedance, has_H>(kind.limiter);
     case Reconstruction::objective:
       break;
   }

@@ -1,0 +1,114 @@
+/// The steps that a case may take, of which no runs are kept: stability limits, local steps.
+
+#include "benchmarks/cost/local_steps.hpp"
+#include "benchmarks/run/interruption.hpp"
+#include "benchmarks/run/scene.hpp"
+#include "benchmarks/study/study_verb.hpp"
+#include "benchmarks/terminal/output.hpp"
+#include "benchmarks/terminal/status_line.hpp"
+#include "common/base/error.hpp"
+#include "common/io/atomic_file.hpp"
+#include "common/parallel/for_chunks.hpp"
+#include "common/time/integrator.hpp"
+
+#include <fmt/format.h>
+
+namespace diptych::harness {
+
+namespace {
+
+constexpr int most_levels = 8;  // of local steps: 1 to 128 of the smallest
+
+/// Limits of one variant with one method, integrator by integrator.
+void add_limits(const StudyRequest& request,
+                const cases::Case& setup,
+                const std::string& label,
+                const std::string& method,
+                StatusLine& status,
+                std::vector<StabilityLimit>& limits) {
+  const scheme::PairGraph graph = graph_of(setup, method, request.run.levels.front()).graph;
+  for (const std::string& integrator : request.integrators) {
+    const std::string name =
+        fmt::format("{}{}{} {}", label, label.empty() ? "" : " ", method, integrator);
+    int n_trials = 0;
+    status.show(name + ": first trial");
+    StabilityLimit limit = stability_limit(
+        setup, graph, integrator, request.stability, [&](double cfl, const StabilityTrial& trial) {
+          status.show(fmt::format("{}: trial {}, cfl {:.3f} is {}", name, ++n_trials, cfl,
+                                  trial.stable ? "stable" : "unstable"));
+        });
+    if (interrupt_requested()) return;
+    limit.variant = label;
+    limit.method = method;
+    status.keep(limit.limit > 0 ? fmt::format("{}: largest stable cfl {:.3f}", name, limit.limit)
+                                : fmt::format("{}: no stable cfl", name));
+    limits.push_back(limit);
+  }
+}
+
+void refuse_what_is_of_runs(const StudyRequest& request, const std::string& flag) {
+  const auto refuse = [&](const char* other, const char* why) {
+    throw base::InputError(fmt::format("{} has no effect with {}{}", other, flag, why));
+  };
+  if (!request.run.resume) refuse("--fresh", ", which keeps no runs; remove it");
+  if (!request.quantities.empty()) refuse("--quantity", ", which shows steps; remove it");
+  if (!request.run.variants.empty()) refuse("--with", "; --vary gives the steps of variants");
+}
+
+}  // namespace
+
+void study_stability(const StudyRequest& asked) {
+  StudyRequest request = asked;
+  refuse_what_is_of_runs(request, "--stability");
+  if (request.integrators.empty()) request.integrators = time::integrator_menu().names();
+  for (const std::string& integrator : request.integrators)
+    time::integrator_menu().at(integrator);
+  if (request.stability.n_steps < 40) throw base::InputError("--steps must be 40 or more");
+  const auto variants = variants_of(request.variations);
+  const auto cases = cases_of_study(request, variants);
+  OutputFolder output(request.run.directory, cases.front(), OutputKind::stability,
+                      request.run.force);
+  parallel::set_threads(request.run.threads);
+  std::vector<StabilityLimit> limits;
+  StatusLine status(request.run.quiet);
+  for (size_t i = 0; i < variants.size(); ++i) {
+    for (const std::string& method : request.run.methods) {
+      if (interrupt_requested()) break;
+      add_limits(request, cases[i], variants[i].label, method, status, limits);
+    }
+  }
+  print(fmt::format("{}, level {}: largest stable time step, as a factor on the graph bound\n",
+                    cases.front().name, request.run.levels.front()));
+  print(stability_table(limits));
+  output.prepare();
+  write_output(request.run.directory, "stability.csv", stability_csv(limits));
+}
+
+void study_local_steps(const StudyRequest& request) {
+  refuse_what_is_of_runs(request, "--local-steps");
+  if (!request.integrators.empty())
+    throw base::InputError("--integrators has no effect with --local-steps; remove it");
+  const auto variants = variants_of(request.variations);
+  const auto cases = cases_of_study(request, variants);
+  OutputFolder output(request.run.directory, cases.front(), OutputKind::local_steps,
+                      request.run.force);
+  parallel::set_threads(request.run.threads);
+  std::vector<LocalSteps> rows;
+  for (size_t i = 0; i < variants.size(); ++i) {
+    for (const std::string& method : request.run.methods) {
+      rows.push_back(
+          local_steps(graph_of(cases[i], method, request.run.levels.front()).graph, most_levels));
+      rows.back().variant = variants[i].label;
+      rows.back().method = method;
+    }
+  }
+  print(
+      fmt::format("{}, level {}: nodes by the step that they may take, in smallest steps, and "
+                  "the ideal speed-up\nof steps of their own\n",
+                  cases.front().name, request.run.levels.front()));
+  print(local_steps_table(rows));
+  output.prepare();
+  write_output(request.run.directory, "local_steps.csv", local_steps_csv(rows));
+}
+
+}  // namespace diptych::harness
