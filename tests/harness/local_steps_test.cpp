@@ -28,18 +28,19 @@ TEST(LocalSteps, SaveNothingWhereAllNodesAreAlike) {
   EXPECT_EQ(steps.of_nodes, 1);
 }
 
-// Cells of 1 by 1 beside cells of 1/8 by 1: rates 2 and 9, which is two levels (4.5 = 2^2.17). Of
-// 41 columns 20 and that between take the smallest step, the next one is of level 1, 19 of level 2.
+// Cells of 1 by 1 beside cells of 1/8 by 1: rates 2 and 9, which is two levels (4.5 = 2^2.17); the
+// column between them, 9/16 wide, has 2.8, level 1. Of 41 columns 20 take the smallest step, 20
+// four of them.
 TEST(LocalSteps, KnowTheLevelsOfTwoSizes) {
   const LocalSteps steps = local_steps(strip(40, 0.125), 8);
   ASSERT_EQ(steps.shares.size(), 3u);
   EXPECT_NEAR(steps.shares[1], 1.0 / 41, 1e-12);
-  EXPECT_NEAR(steps.shares[2], 19.0 / 41, 1e-12);
-  EXPECT_NEAR(steps.of_nodes, 41 / (21 + 0.5 + 19 * 0.25), 1e-12);
+  EXPECT_NEAR(steps.shares[2], 20.0 / 41, 1e-12);
+  EXPECT_NEAR(steps.of_nodes, 41 / (20 + 0.5 + 20 * 0.25), 1e-12);
   EXPECT_GT(steps.of_pairs, 1.5);
   EXPECT_LT(steps.of_pairs, steps.of_nodes);
   EXPECT_EQ(local_steps(strip(40, 0.125), 1).of_pairs, 1);
-  EXPECT_NEAR(local_steps(strip(40, 0.125), 2).of_nodes, 41 / (21 + 20 * 0.5), 1e-12);
+  EXPECT_NEAR(local_steps(strip(40, 0.125), 2).of_nodes, 41 / (20 + 21 * 0.5), 1e-12);
 }
 
 }  // namespace
