@@ -46,13 +46,45 @@ void add_limits(const StudyRequest& request,
   }
 }
 
+/// What belongs to runs. @param flag  the command that keeps none
 void refuse_what_is_of_runs(const StudyRequest& request, const std::string& flag) {
-  const auto refuse = [&](const char* other, const char* why) {
-    throw base::InputError(fmt::format("{} has no effect with {}{}", other, flag, why));
+  const auto refuse = [&](bool is_given, const char* other, const char* why) {
+    if (is_given)
+      throw base::InputError(fmt::format("{} has no effect with {}{}", other, flag, why));
   };
-  if (!request.run.resume) refuse("--fresh", ", which keeps no runs; remove it");
-  if (!request.quantities.empty()) refuse("--quantity", ", which shows steps; remove it");
-  if (!request.run.variants.empty()) refuse("--with", "; --vary gives the steps of variants");
+  refuse(!request.run.resume, "--fresh", ", which keeps no runs; remove it");
+  refuse(!request.quantities.empty(), "--quantity", ", which shows steps; remove it");
+  refuse(!request.field.empty(), "--field", ", which shows steps; remove it");
+  refuse(request.repeats != StudyRequest::by_default, "--repeats",
+         ", which times nothing; remove it");
+  refuse(!request.run.variants.empty(), "--with", "; --vary gives the steps of variants");
+}
+
+/// Calls use(case, label of the variant, method) for all of them, on the first level.
+/// @param title  of the table, after the name of the case and the level
+/// @param table  of what came of it, with the file of its lines
+template <class Use, class Table, class Lines>
+void study_steps(const StudyRequest& request,
+                 OutputKind kind,
+                 const char* title,
+                 const std::string& file,
+                 const Use& use,
+                 const Table& table,
+                 const Lines& lines) {
+  const auto variants = variants_of(request.variations);
+  const auto cases = cases_of_study(request, variants);
+  OutputFolder output(request.run.directory, cases.front(), kind, request.run.force);
+  parallel::set_threads(request.run.threads);
+  for (size_t i = 0; i < variants.size(); ++i) {
+    for (const std::string& method : request.run.methods) {
+      if (interrupt_requested()) break;
+      use(cases[i], variants[i].label, method);
+    }
+  }
+  print(fmt::format("{}, level {}: {}\n", cases.front().name, request.run.levels.front(), title));
+  print(table());
+  output.prepare();
+  write_output(request.run.directory, file, lines());
 }
 
 }  // namespace
@@ -64,51 +96,36 @@ void study_stability(const StudyRequest& asked) {
   for (const std::string& integrator : request.integrators)
     time::integrator_menu().at(integrator);
   if (request.stability.n_steps < 40) throw base::InputError("--steps must be 40 or more");
-  const auto variants = variants_of(request.variations);
-  const auto cases = cases_of_study(request, variants);
-  OutputFolder output(request.run.directory, cases.front(), OutputKind::stability,
-                      request.run.force);
-  parallel::set_threads(request.run.threads);
   std::vector<StabilityLimit> limits;
   StatusLine status(request.run.quiet);
-  for (size_t i = 0; i < variants.size(); ++i) {
-    for (const std::string& method : request.run.methods) {
-      if (interrupt_requested()) break;
-      add_limits(request, cases[i], variants[i].label, method, status, limits);
-    }
-  }
-  print(fmt::format("{}, level {}: largest stable time step, as a factor on the graph bound\n",
-                    cases.front().name, request.run.levels.front()));
-  print(stability_table(limits));
-  output.prepare();
-  write_output(request.run.directory, "stability.csv", stability_csv(limits));
+  study_steps(
+      request, OutputKind::stability, "largest stable time step, as a factor on the graph bound",
+      "stability.csv",
+      [&](const cases::Case& setup, const std::string& label, const std::string& method) {
+        add_limits(request, setup, label, method, status, limits);
+      },
+      [&] { return stability_table(limits); }, [&] { return stability_csv(limits); });
 }
 
 void study_local_steps(const StudyRequest& request) {
   refuse_what_is_of_runs(request, "--local-steps");
   if (!request.integrators.empty())
     throw base::InputError("--integrators has no effect with --local-steps; remove it");
-  const auto variants = variants_of(request.variations);
-  const auto cases = cases_of_study(request, variants);
-  OutputFolder output(request.run.directory, cases.front(), OutputKind::local_steps,
-                      request.run.force);
-  parallel::set_threads(request.run.threads);
+  if (request.stability.n_steps != StabilityOptions{}.n_steps)
+    throw base::InputError("--steps has no effect with --local-steps; remove it");
   std::vector<LocalSteps> rows;
-  for (size_t i = 0; i < variants.size(); ++i) {
-    for (const std::string& method : request.run.methods) {
-      rows.push_back(
-          local_steps(graph_of(cases[i], method, request.run.levels.front()).graph, most_levels));
-      rows.back().variant = variants[i].label;
-      rows.back().method = method;
-    }
-  }
-  print(
-      fmt::format("{}, level {}: nodes by the step that they may take, in smallest steps, and "
-                  "the ideal speed-up\nof steps of their own\n",
-                  cases.front().name, request.run.levels.front()));
-  print(local_steps_table(rows));
-  output.prepare();
-  write_output(request.run.directory, "local_steps.csv", local_steps_csv(rows));
+  study_steps(
+      request, OutputKind::local_steps,
+      "nodes by the step that they may take, in smallest steps, and the ideal speed-up\n"
+      "of steps of their own",
+      "local_steps.csv",
+      [&](const cases::Case& setup, const std::string& label, const std::string& method) {
+        const auto graph = graph_of(setup, method, request.run.levels.front()).graph;
+        rows.push_back(local_steps(graph, most_levels));
+        rows.back().variant = label;
+        rows.back().method = method;
+      },
+      [&] { return local_steps_table(rows); }, [&] { return local_steps_csv(rows); });
 }
 
 }  // namespace diptych::harness

@@ -18,7 +18,8 @@ namespace {
 
 struct StudyArguments : CaseArguments {
   harness::StudyRequest request;
-  int n_levels = 3;
+  static constexpr int by_default = harness::StudyRequest::by_default;
+  int n_levels = by_default;
   bool stability = false, local_steps = false, fresh = false, atlas = false, coarse = false;
   std::string before;  ///< of an atlas
 
@@ -69,6 +70,13 @@ int atlas(const StudyArguments& arguments) {
 int study(const StudyArguments& arguments) {
   if (arguments.stability && arguments.local_steps)
     throw base::InputError("--stability and --local-steps are commands of their own: give one");
+  const bool has_one_level = arguments.atlas || arguments.stability || arguments.local_steps;
+  if (has_one_level && arguments.n_levels != arguments.by_default) {
+    throw base::InputError(
+        "--levels has no effect with --atlas, --stability and --local-steps, which are of one "
+        "level; "
+        "--level chooses it");
+  }
   check_atlas(arguments);
   if (arguments.atlas) return atlas(arguments);
   harness::StudyRequest request = arguments.request;
@@ -85,7 +93,8 @@ int study(const StudyArguments& arguments) {
     harness::study_local_steps(request);
     return 0;
   }
-  request.run.levels = arguments.levels(arguments.n_levels, 1);
+  request.run.levels =
+      arguments.levels(arguments.n_levels == arguments.by_default ? 3 : arguments.n_levels, 1);
   const harness::StudyRuns runs = harness::study_variants(request);
   return harness::exit_code_of_study(runs.breakdowns, runs.unsound,
                                      harness::go_on_from(request.run.directory));
@@ -101,7 +110,7 @@ Action declare_study(CommandLine& line) {
   arguments->declare_variants(line);
   line.repeated("--vary", request.variations,
                 "KEY=VALUE,VALUE: a run for every value, all combinations; repeatable");
-  line.option("--levels", arguments->n_levels, "number of levels, from --level on");
+  line.option("--levels", arguments->n_levels, "number of levels, from --level on (default 3)");
   line.option("--repeats", request.repeats,
               "timings of every run (default 3; without an exact solution 1)");
   line.flag("--fresh", arguments->fresh, "run finished runs again too");

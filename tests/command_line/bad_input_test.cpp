@@ -177,16 +177,27 @@ TEST(BadMesh, CellsOfAnotherElementAreNamed) {
 TEST(CommandLine, WrongWordsEndWithCodeTwo) {
   const Folder folder;
   for (const char* arguments :
-       {"", "fly", "run", "run no-such-case", "run swinging-cube-elastic-hex --method fem",
-        "run swinging-cube-elastic-hex --level -1", "run swinging-cube-elastic-hex --levle 1",
-        "run swinging-cube-elastic-hex --set mesh.cels=[1,1,1]", "explain mesh.cels",
+       {"",
+        "fly",
+        "run",
+        "run no-such-case",
+        "run swinging-cube-elastic-hex --method fem",
+        "run swinging-cube-elastic-hex --level -1",
+        "run swinging-cube-elastic-hex --levle 1",
+        "run swinging-cube-elastic-hex --set mesh.cels=[1,1,1]",
+        "explain mesh.cels",
         "converge swinging-cube-elastic-hex --levels 1",
         "study swinging-cube-elastic-hex --vary sph.kappa",
         "study swinging-cube-elastic-hex --vary sph.kapa=1,2",
         "study swinging-cube-elastic-hex --levels 0",
         "study swinging-cube-elastic-hex --field stres --levels 1 --repeats 1 --quiet",
         "study swinging-cube-elastic-hex --stability --integrators rk5",
-        "study swinging-cube-elastic-hex --stability --steps 3"}) {
+        "study swinging-cube-elastic-hex --stability --steps 3",
+        "study swinging-cube-elastic-hex --stability --levels 2",
+        "study swinging-cube-elastic-hex --local-steps --levels 2",
+        "study swinging-cube-elastic-hex --local-steps --steps 100",
+        "study swinging-cube-elastic-hex --local-steps --repeats 2",
+        "study swinging-cube-elastic-hex --local-steps --field stress"}) {
     const auto outcome = diptych(folder, arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments << ": " << outcome.text;
     EXPECT_FALSE(outcome.text.empty()) << arguments;

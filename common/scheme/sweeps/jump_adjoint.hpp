@@ -12,29 +12,15 @@
 
 namespace diptych::scheme {
 
-/// 2 D_ab (x) X_ab of eight pairs, which is that of b, too, row-major.
-template <int Dim,
-          DissipationKind kind,
-          bool has_H,
-          class Pairs,
-          class Positions,
-          class Frames,
-          class T>
-DIPTYCH_INLINE void moments_of_pairs(const MomentumSweep<Dim>& sweep,
-                                     const PairGeometry<Dim, T>& pair,
-                                     const Pairs& pairs,
-                                     const Positions& positions,
-                                     const Frames& frames,
-                                     const Vector<T>& plain,
-                                     T (&moments)[Dim * Dim]) {
-  const auto of_pairs =
-      dissipation_of<Dim, kind, has_H>(sweep, pair, pairs, positions, frames, plain);
+/// 2 D_ab (x) X_ab of eight pairs, which is that of b, too: use(k, component), row-major.
+template <int Dim, class T, class Positions, class Use>
+DIPTYCH_INLINE void for_moments(const Vector<T>& D, const Positions& positions, const Use& use) {
 #pragma GCC unroll 3
   for (int j = 0; j < Dim; ++j) {
     const T X_ab = positions.neighbour(j) - positions.own(j);
 #pragma GCC unroll 3
     for (int i = 0; i < Dim; ++i)
-      moments[i * Dim + j] = of_pairs.D[i] * X_ab;
+      use(i * Dim + j, D[i] * X_ab);
   }
 }
 
@@ -49,11 +35,10 @@ DIPTYCH_INLINE void put_moments_of_block(const MomentumSweep<Dim>& sweep, std::i
         sweep, b * n_lanes + lane,
         [&](const auto& pair, const auto& pairs, const auto& positions, const auto& frames,
             const auto& plain) DIPTYCH_INLINE_LAMBDA {
-          T moments[Dim * Dim];
-          moments_of_pairs<Dim, kind, has_H>(sweep, pair, pairs, positions, frames, plain, moments);
-#pragma GCC unroll 9
-          for (int k = 0; k < Dim * Dim; ++k)
-            sum[k] += moments[k];
+          const auto of_pairs =
+              dissipation_of<Dim, kind, has_H>(sweep, pair, pairs, positions, frames, plain);
+          for_moments<Dim>(of_pairs.D, positions,
+                           [&](int k, const T& moment) DIPTYCH_INLINE_LAMBDA { sum[k] += moment; });
         });
     for (int k = 0; k < Dim * Dim; ++k)
       of_block[k][lane] = algebra::lane_sum(sum[k]);
@@ -80,14 +65,13 @@ DIPTYCH_INLINE void add_moments_of_block(const MomentumSweep<Dim>& sweep, std::i
     read_pairs<T, Dim, kind>(sweep, b, offset, geometry,
                              [&](const auto& pair, const auto& pairs, const auto& positions,
                                  const auto& frames, const auto& plain) DIPTYCH_INLINE_LAMBDA {
-                               T moments[Dim * Dim];
-                               moments_of_pairs<Dim, kind, has_H>(sweep, pair, pairs, positions,
-                                                                  frames, plain, moments);
-#pragma GCC unroll 9
-                               for (int k = 0; k < Dim * Dim; ++k) {
-                                 sum[k] += moments[k];
-                                 add_to<T>(own_sums + offset + k * stride, moments[k]);
-                               }
+                               const auto of_pairs = dissipation_of<Dim, kind, has_H>(
+                                   sweep, pair, pairs, positions, frames, plain);
+                               for_moments<Dim>(of_pairs.D, positions,
+                                                [&](int k, const T& moment) DIPTYCH_INLINE_LAMBDA {
+                                                  sum[k] += moment;
+                                                  add_to<T>(own_sums + offset + k * stride, moment);
+                                                });
                              });
   }
   for (int k = 0; k < Dim * Dim; ++k)

@@ -154,7 +154,7 @@ TEST_P(Methods, RigidSpinOfADeformedBodyDissipatesNothingWhereItIsObjective) {
 
 TEST_P(Methods, AffineVelocityDissipatesNothing) {
   for (const DissipationKind& kind :
-       {isotropic, exact, limited, barth_jespersen, venkatakrishnan}) {
+       {isotropic, exact, limited, barth_jespersen, venkatakrishnan, symmetric}) {
     RandomBody affine(GetParam(), kind, Arrangement::runs, true),
         rough(GetParam(), plain, Arrangement::runs, true);
     affine.evaluate();
@@ -165,9 +165,10 @@ TEST_P(Methods, AffineVelocityDissipatesNothing) {
   }
 }
 
-TEST_P(Methods, DissipationOfPlainOrLimitedJumpsIsPositiveForEveryNode) {
+TEST_P(Methods, DissipationOfPlainLimitedOrSymmetricJumpsIsPositiveForEveryNode) {
   for (const DissipationKind& kind :
-       {plain, limited, limited_exact, barth_jespersen, venkatakrishnan, limited_objective}) {
+       {plain, limited, limited_exact, barth_jespersen, venkatakrishnan, limited_objective,
+        symmetric, symmetric_exact}) {
     RandomBody body(GetParam(), kind);
     body.evaluate();
     for (const double power : body.numerical)

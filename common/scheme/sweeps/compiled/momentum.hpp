@@ -2,54 +2,34 @@
 /// The momentum sweeps that are compiled, by instruction set and kind of dissipation: for the files
 /// that compile them (sweeps/momentum_*.cpp) and for tests.
 
-#include "common/algebra/versions.hpp"
+#include "common/scheme/sweeps/compiled/pair_sweep.hpp"
 #include "common/scheme/sweeps/momentum_rows.hpp"
 #include "common/scheme/sweeps/momentum_runs.hpp"
 
 namespace diptych::scheme {
 
-template <InstructionSet isa, class Real, int Dim, DissipationKind kind, bool has_H>
-DIPTYCH_INLINE void forces_in(const MomentumSweep<Dim>& sweep,
-                              std::int64_t begin,
-                              std::int64_t end,
-                              std::int64_t chunk) {
-  const algebra::FlushToZero flush(sweep.body.is_single());
-  ChunkSums total;
-  if (sweep.body.graph.shape.arrangement == Arrangement::runs) {
-    for (std::int64_t b = begin; b < end;)
-      add_forces_of_next<Real, Dim, kind, has_H>(sweep, b, end, total);
-  } else {
-    for (std::int64_t b = begin; b < end; ++b)
-      forces_on_block<isa, Real, Dim, kind, has_H>(sweep, b, total);
-  }
-  sweep.numerical_power[chunk] = total.power;
-  sweep.largest_rate[chunk] = total.rate;
-  sweep.limited_pairs[chunk] = total.limited;
-}
-
 template <int Dim, DissipationKind kind, bool has_H>
-struct MomentumKernel {
-  /// In the precision of the state.
-  template <InstructionSet isa>
+struct ForcesOfBlocks {
+  template <InstructionSet isa, class Real>
   DIPTYCH_INLINE static void run(const MomentumSweep<Dim>& sweep,
                                  std::int64_t begin,
                                  std::int64_t end,
                                  std::int64_t chunk) {
-    if constexpr (has_single_precision(kind)) {
-      if (sweep.body.is_single()) {
-        forces_in<isa, float, Dim, kind, has_H>(sweep, begin, end, chunk);
-        return;
-      }
+    ChunkSums total;
+    if (sweep.body.graph.shape.arrangement == Arrangement::runs) {
+      for (std::int64_t b = begin; b < end;)
+        add_forces_of_next<Real, Dim, kind, has_H>(sweep, b, end, total);
+    } else {
+      for (std::int64_t b = begin; b < end; ++b)
+        forces_on_block<isa, Real, Dim, kind, has_H>(sweep, b, total);
     }
-    forces_in<isa, double, Dim, kind, has_H>(sweep, begin, end, chunk);
+    sweep.numerical_power[chunk] = total.power;
+    sweep.largest_rate[chunk] = total.rate;
+    sweep.limited_pairs[chunk] = total.limited;
   }
 };
 template <int Dim, DissipationKind kind, bool has_H>
-using MomentumVersions = algebra::Versions<MomentumKernel<Dim, kind, has_H>,
-                                           const MomentumSweep<Dim>&,
-                                           std::int64_t,
-                                           std::int64_t,
-                                           std::int64_t>;
+using MomentumVersions = PairSweepVersions<Dim, kind, ForcesOfBlocks<Dim, kind, has_H>>;
 
 /// The sweep of one kind for this processor.
 template <int Dim, DissipationKind kind, bool has_H>

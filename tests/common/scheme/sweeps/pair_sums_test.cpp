@@ -195,7 +195,7 @@ void forces_by_ranges(const scheme::MomentumSweep<3>& sweep,
                       std::int64_t n) {
   for (; begin < end; begin += n) {
     double power = 0, rate = 0, limited = 0;
-    scheme::forces_in<isa, Real, 3, kind, true>(
+    scheme::ForcesOfBlocks<3, kind, true>::template run<isa, Real>(
         {sweep.body, sweep.factor, sweep.with_bound, &power, &rate, &limited}, begin,
         std::min(begin + n, end), 0);
     sweep.numerical_power[chunk] += power;
