@@ -20,6 +20,7 @@ namespace diptych::meshes {
 
 namespace {
 
+using algebra::fill_monomials;
 using algebra::monomial_gradients;
 using algebra::monomials;
 using algebra::n_monomials;
@@ -42,29 +43,68 @@ struct Weights {
   Vector value;
 };
 
-/// Ascending, each once.
-void make_set(std::vector<std::int32_t>& nodes) {
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-}
+/// Nodes that were met since begin(), each once; one for each thread, since it is as long as the
+/// mesh.
+class MetNodes {
+ public:
+  void begin(size_t n_nodes) {
+    if (met_.size() < n_nodes) met_.resize(n_nodes, 0);
+    if (++now_ == 0) {
+      std::fill(met_.begin(), met_.end(), 0U);
+      now_ = 1;
+    }
+  }
+  bool is_new(std::int32_t a) {
+    const bool is_new = met_[a] != now_;
+    met_[a] = now_;
+    return is_new;
+  }
+
+ private:
+  std::vector<std::uint32_t> met_;
+  std::uint32_t now_ = 0;
+};
 
 /// These corners, the nodes that share a cell with one of them, and so on, until there are enough.
-/// @param add_sharing  add_sharing(a, nodes): adds the nodes that share a cell with node a
-template <class AddSharing>
+/// Ascending.
+/// @param visit_sharing  visit_sharing(a, visit): visits the nodes that share a cell with node a
+template <class VisitSharing>
 std::vector<std::int32_t> surrounding(std::span<const std::int32_t> corners,
                                       size_t enough,
-                                      const AddSharing& add_sharing) {
-  std::vector<std::int32_t> nodes(corners.begin(), corners.end());
-  std::sort(nodes.begin(), nodes.end());
-  while (nodes.size() < enough) {
-    std::vector<std::int32_t> wider = nodes;
-    for (const std::int32_t a : nodes)
-      add_sharing(a, wider);
-    make_set(wider);
-    if (wider.size() == nodes.size()) break;
-    nodes = std::move(wider);
+                                      size_t n_nodes,
+                                      const VisitSharing& visit_sharing) {
+  thread_local MetNodes met;
+  met.begin(n_nodes);
+  std::vector<std::int32_t> nodes;
+  const auto add = [&](std::int32_t a) {
+    if (met.is_new(a)) nodes.push_back(a);
+  };
+  for (const std::int32_t a : corners)
+    add(a);
+  size_t begin = 0;  // of those whose neighbours have not been looked at
+  while (nodes.size() < enough && begin < nodes.size()) {
+    const size_t end = nodes.size();
+    for (; begin < end; ++begin)
+      visit_sharing(nodes[begin], add);
   }
+  std::sort(nodes.begin(), nodes.end());
   return nodes;
+}
+
+/// Moments of polynomials of degree 3 at most: matrices on the stack.
+constexpr int most_monomials = 20;
+using Moments =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_monomials, most_monomials>;
+using MomentVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_monomials, 1>;
+/// Reciprocal condition number from which these moments tell the polynomials apart.
+constexpr double least_condition = 1e-10;
+
+/// x of least norm with S x = right, or as nearly as can be. @pre S symmetric, not negative
+MomentVector solution(const Moments& S, const MomentVector& right) {
+  const Eigen::LLT<Moments> triangle(S);
+  if (triangle.info() == Eigen::Success && triangle.rcond() > least_condition)
+    return triangle.solve(right);
+  return Matrix(S).completeOrthogonalDecomposition().solve(Vector(right));
 }
 
 /// Changes weights least, beside what a node has by the vertex rule, so that they integrate the
@@ -77,15 +117,27 @@ void meet(const std::vector<Vec3>& at,
           int degree,
           const Vector& exact,
           Vector& w) {
-  Matrix P(exact.size(), static_cast<int>(at.size()));
+  const auto m = static_cast<int>(exact.size());
+  thread_local Matrix P;  // which keeps its memory
+  P.resize(m, static_cast<int>(at.size()));
   Vector change(static_cast<int>(at.size()));
-  for (size_t i = 0; i < at.size(); ++i) {
-    P.col(static_cast<int>(i)) = monomials(at[i], dimension, degree);
-    change[static_cast<int>(i)] = share[i] * std::exp(-decay * at[i].squaredNorm());
+  Moments S = Moments::Zero(m, m);
+  MomentVector missing = exact;
+  for (int i = 0; i < P.cols(); ++i) {
+    double* const values = P.col(i).data();
+    fill_monomials(at[i], dimension, degree, values);
+    change[i] = share[i] * std::exp(-decay * at[i].squaredNorm());
+    for (int l = 0; l < m; ++l) {
+      missing[l] -= w[i] * values[l];
+      const double scaled = change[i] * values[l];
+      for (int k = l; k < m; ++k)
+        S(k, l) += scaled * values[k];
+    }
   }
-  const Matrix S = P * change.asDiagonal() * P.transpose();
-  w += change.asDiagonal() * P.transpose() *
-       S.completeOrthogonalDecomposition().solve(exact - P * w);
+  S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
+  const MomentVector factor = solution(S, missing);
+  for (int i = 0; i < P.cols(); ++i)
+    w[i] += change[i] * P.col(i).dot(factor);
 }
 
 Weights volume_of(const Mesh& mesh,
@@ -104,19 +156,20 @@ Weights volume_of(const Mesh& mesh,
   h /= static_cast<double>(edges.size());
 
   Weights weights;
-  weights.nodes =
-      surrounding(corners, nodes_of_cell[mesh.dimension - 2], [&](std::int32_t a, auto& nodes) {
-        const auto more = sharing.around(a);
-        nodes.insert(nodes.end(), more.begin(), more.end());
-      });
+  weights.nodes = surrounding(corners, nodes_of_cell[mesh.dimension - 2], mesh.nodes.size(),
+                              [&](std::int32_t a, const auto& visit) {
+                                for (const std::int32_t b : sharing.around(a))
+                                  visit(b);
+                              });
   weights.value = Vector::Zero(static_cast<int>(weights.nodes.size()));
   std::vector<Vec3> at;
   std::vector<double> share;
+  const double unit = std::pow(h, mesh.dimension);
   for (const std::int32_t a : weights.nodes) {
     at.push_back((mesh.nodes[a] - middle) / h);
-    share.push_back(shares[a] / std::pow(h, mesh.dimension));
+    share.push_back(shares[a] / unit);
   }
-  Vector exact = Vector::Zero(n_monomials(mesh.dimension, 2));
+  Vector exact = Vector::Zero(n_monomials(mesh.dimension, 2)), values = exact;
   for (const QuadraturePoint& point : cell.fine) {
     const double dV = point.weight * jacobian(cell, point, corners, mesh.nodes).determinant();
     Vec3 X = Vec3::Zero();
@@ -125,7 +178,8 @@ Weights volume_of(const Mesh& mesh,
       const auto place = std::lower_bound(weights.nodes.begin(), weights.nodes.end(), corners[i]);
       weights.value[place - weights.nodes.begin()] += point.N[i] * dV;
     }
-    exact += dV * monomials(X, mesh.dimension, 2);
+    fill_monomials(X, mesh.dimension, 2, values.data());
+    exact += dV * values;
   }
   meet(at, share, mesh.dimension, 2, exact, weights.value);
   return weights;
@@ -205,11 +259,11 @@ class Sides {
       return faces;
     };
     Weights weights;
-    weights.nodes = surrounding(corners(f), nodes_of_face[mesh_.dimension - 2],
-                                [&](std::int32_t a, auto& nodes) {
+    weights.nodes = surrounding(corners(f), nodes_of_face[mesh_.dimension - 2], mesh_.nodes.size(),
+                                [&](std::int32_t a, const auto& visit) {
                                   for (const std::int32_t i : of_side(a)) {
-                                    const auto more = corners(i);
-                                    nodes.insert(nodes.end(), more.begin(), more.end());
+                                    for (const std::int32_t b : corners(i))
+                                      visit(b);
                                   }
                                 });
     Vec3 middle = Vec3::Zero();

@@ -66,17 +66,18 @@ SizeRow measured(const Graph& kind, int side, const std::vector<std::string>& ov
     start = now;
     return taken;
   };
-  Scene scene(setup, kind.method, 0, [&](ScenePart part) {
+  const auto made = [&](ScenePart part, const CaseGraph& scene) {
     (part == ScenePart::mesh    ? row.mesh_seconds
      : part == ScenePart::graph ? row.graph_seconds
                                 : row.solver_seconds) = lap();
-  });
+    if (part == ScenePart::graph) row.pairs = scene.graph.n_pairs();
+  };
+  Scene scene(setup, kind.method, 0, GraphPairs::released, made);
   run::Solver& solver = *scene.solver;
   row.nodes = scene.graph.n_nodes();
-  row.pairs = scene.graph.n_pairs();
   const auto n = static_cast<double>(row.nodes);
   row.building = static_cast<double>(peak_rss_bytes() - before) / n;
-  release_pairs(scene.graph);
+  scheme::release_volumes(scene.graph);
   scene.mesh.mesh = {};
   row.counted = static_cast<double>(solver.bytes()) / n;
   row.step_seconds = std::numeric_limits<double>::infinity();

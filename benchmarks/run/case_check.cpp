@@ -46,19 +46,22 @@ CaseCheck check_case(const cases::Case& setup, const std::string& method, int le
   const auto start = Clock::now();
   const std::int64_t before = settled_memory();
   reset_peak_rss();
-  Scene scene(setup, method, level);
+  Scene scene(setup, method, level, GraphPairs::released,
+              [&](ScenePart part, const CaseGraph& made) {
+                if (part != ScenePart::graph) return;
+                check.quality = scheme::quality(made.graph);
+                check.pairs = made.graph.n_pairs();
+              });
   run::Solver& solver = *scene.solver;
   check.building_bytes = peak_rss_bytes() - before;
   meshes::Mesh& mesh = scene.mesh.mesh;
   check.estimated_bytes = setup.mesh.file.empty() ? estimate_memory(setup, method, level).bytes
                                                   : estimate_memory(setup, method, mesh).bytes;
-  check.quality = scheme::quality(scene.graph);
   check.operators = scene.operators;
   check.nodes = scene.graph.n_nodes();
   check.cells = mesh.n_cells();
-  check.pairs = scene.graph.n_pairs();
   check.bytes = solver.bytes();
-  release_pairs(scene.graph);
+  scheme::release_volumes(scene.graph);
   mesh = {};
   check.running_bytes = settled_memory() - before;
   check.setup_seconds = seconds_since(start);

@@ -16,11 +16,6 @@ std::int64_t allocated_memory() {
   return parallel::status_bytes("RssAnon:");
 }
 
-template <class Array>
-void free_array(Array& array) {
-  Array().swap(array);
-}
-
 }  // namespace
 
 std::int64_t peak_rss_bytes() {
@@ -39,23 +34,6 @@ void reset_peak_rss() {
 
 std::int64_t settled_memory() {
   return parallel::settled_bytes();
-}
-
-void release_pairs(scheme::PairGraph& graph) {
-  graph.slopes = {};
-  free_array(graph.row);
-  free_array(graph.neighbour);
-  free_array(graph.reverse);
-  free_array(graph.C);
-  graph.classes = {};
-  graph.cells = {};
-  graph.lines = {};
-}
-
-void release_nodes(scheme::PairGraph& graph) {
-  free_array(graph.X);
-  free_array(graph.Omega);
-  free_array(graph.boundary_area);
 }
 
 }  // namespace diptych::harness

@@ -1,8 +1,6 @@
 #pragma once
-/// Memory of the process as the system counts it (Linux), what it can still have, and what a run
-/// gives back. Tests: tests/harness/memory_test.cpp, tests/harness/memory_estimate_test.cpp
-
-#include "common/scheme/graph/pair_graph.hpp"
+/// Memory of the process as the system counts it (Linux) and what it can still have. Tests:
+/// tests/harness/memory_test.cpp, tests/harness/memory_estimate_test.cpp
 
 #include <cstdint>
 #include <string>
@@ -40,13 +38,5 @@ struct AvailableMemory {
 /// control groups of the process (memory.max, as containers and schedulers set it), and what is
 /// left of the limit of its address space (ulimit -v).
 AvailableMemory available_memory();
-
-/// Frees rows, neighbours, reverse pairs, C_ab, cells and lines, which the solver has made its own
-/// of. Nodes, volumes and boundary stay; n_pairs() is 0 from now on.
-void release_pairs(scheme::PairGraph& graph);
-
-/// Frees positions, volumes and boundary areas of the nodes too, where no observer looks at them;
-/// the patches stay, which the solver refers to.
-void release_nodes(scheme::PairGraph& graph);
 
 }  // namespace diptych::harness

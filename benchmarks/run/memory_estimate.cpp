@@ -21,19 +21,21 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double most_nodes = std::numeric_limits<std::int32_t>::max();
 
 /// Bytes of the largest resident set above that of the bare program, fitted to `diptych check` on
-/// cubes of 10^4 to 10^5 nodes with one thread: graph and solver stand side by side while the
-/// solver is built.
+/// cubes of 10^4 to 3 10^5 nodes: the graph, or the state of the solver that comes in its place,
+/// whichever is more, beside the geometry that the solver keeps.
 struct Costs {
   double node, branch, pair, stored_pair;
 };
-/// pair: a row of the graph; stored_pair: geometry besides, where rows are no translates.
-constexpr Costs in_double{1220, 220, 33, 80}, in_single{750, 100, 33, 47};
+/// node, branch: the state; pair: a row of the graph; stored_pair: geometry, where rows are no
+/// translates.
+constexpr Costs in_double{1220, 220, 33, 90}, in_single{750, 100, 33, 57};
+constexpr double graph_node = 900;
 constexpr double of_plane = 0.64;        ///< of the nodes of 3-D
 constexpr double of_mixed = 48;          ///< stored pair
 constexpr double exact_impedance = 200;  ///< a node
 constexpr double frames = 128;           ///< a node, of the objective reconstruction
 constexpr double moments = 96;           ///< a node, of the symmetric reconstruction
-constexpr double lines = 420;            ///< a node, of slopes along lines
+constexpr double lines = 250;            ///< a node of the graph, of slopes along lines
 constexpr double cell_bytes = 30;
 constexpr double volume_corner = 70;      ///< of a cell that carries pressure
 constexpr double volume_node = 60;        ///< of a node of such
@@ -239,10 +241,12 @@ bool sums_on_lattice(const cases::Case& setup) {
 
 /// Bytes of a run on so many nodes, cells and pairs.
 /// @param n_class_pairs  pairs of the rows that stand for all others; 0: every row for itself
+/// @param has_lines      slopes along lines of nodes
 double bytes_of(const cases::Case& setup,
                 const std::string& method,
                 const MemoryEstimate& size,
-                double n_class_pairs) {
+                double n_class_pairs,
+                bool has_lines) {
   const cases::SchemeCase& scheme = setup.scheme;
   const Costs& costs = scheme.precision == "single" ? in_single : in_double;
   double node = costs.node + costs.branch * static_cast<double>(setup.material.branches.size()) +
@@ -250,7 +254,7 @@ double bytes_of(const cases::Case& setup,
                 (scheme.reconstruction == "objective"   ? frames
                  : scheme.reconstruction == "symmetric" ? moments
                                                         : 0);
-  if (cases::dimension_of(setup.mesh) == 2) node *= of_plane;
+  const double plane = cases::dimension_of(setup.mesh) == 2 ? of_plane : 1;
   const double stored = scheme.precision == "mixed" ? of_mixed : costs.stored_pair;
   const bool commutes = method != "sph" && !is_simplex(setup.mesh.element) &&
                         setup.mesh.perturbation == 0 && setup.fvm.stencil != "integral";
@@ -266,8 +270,9 @@ double bytes_of(const cases::Case& setup,
   const double geometry = n_class_pairs > 0 ? class_pair * n_class_pairs : stored * size.pairs;
   const double solve =
       sums_anywhere(setup, method) ? solve_node * size.nodes + solve_pair * size.pairs : 0;
-  return solve + volumes + node * size.nodes + cell_bytes * size.cells + costs.pair * size.pairs +
-         geometry;
+  const double graph =
+      plane * (graph_node + (has_lines ? lines : 0)) * size.nodes + costs.pair * size.pairs + solve;
+  return std::max(graph, plane * node * size.nodes) + volumes + cell_bytes * size.cells + geometry;
 }
 
 /// Directed pairs within a support on a box.
@@ -362,9 +367,8 @@ MemoryEstimate estimate_memory(const cases::Case& setup, const std::string& meth
   const double places = is_sph && sums_on_lattice(setup) ? 7 : 4 * std::floor(radius) + 1;
   const double n_class_pairs =
       is_regular ? classes_of(lattice, places) * size.pairs / size.nodes : 0;
-  size.bytes = bytes_of(setup, method, size, n_class_pairs);
   const bool has_lines = is_sph ? sums_on_lattice(setup) : sums_along_lines(setup);
-  if (has_lines) size.bytes += size.nodes * lines * (lattice.dimension == 2 ? of_plane : 1);
+  size.bytes = bytes_of(setup, method, size, n_class_pairs, has_lines);
   return size;
 }
 
@@ -387,7 +391,7 @@ MemoryEstimate estimate_memory(const cases::Case& setup,
                                                            : of_boxes * reach_of(setup);
     size.pairs = size.nodes * around;
   }
-  size.bytes = bytes_of(setup, method, size, 0);
+  size.bytes = bytes_of(setup, method, size, 0, false);
   return size;
 }
 

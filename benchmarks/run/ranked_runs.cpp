@@ -74,8 +74,13 @@ void follow_run(Communicator& ranks, const Request& request) {
 
 }  // namespace
 
-std::unique_ptr<Scene> scene_of_run(const cases::Case& setup, const RunOptions& options) {
-  const auto make = [&] { return std::make_unique<Scene>(setup, options.method, options.level); };
+std::unique_ptr<Scene> scene_of_run(const cases::Case& setup,
+                                    const RunOptions& options,
+                                    const PartMade& made) {
+  const auto make = [&] {
+    return std::make_unique<Scene>(setup, options.method, options.level, GraphPairs::released,
+                                   made);
+  };
   Communicator* ranks = parallel::all_ranks();
   if (ranks == nullptr) return make();
   Request request{setup.text, setup.file, options.partition, setup.overrides, options.threads};

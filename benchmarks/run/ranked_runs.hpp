@@ -9,8 +9,12 @@
 namespace diptych::harness {
 
 /// The scene of a run; where there are several ranks, on all of them, its solver divided.
+/// Its graph has no pairs any more.
+/// @param made  of this rank; may be empty
 /// @throws as Scene does; base::Error where another rank could not make it
-std::unique_ptr<Scene> scene_of_run(const cases::Case& setup, const RunOptions& options);
+std::unique_ptr<Scene> scene_of_run(const cases::Case& setup,
+                                    const RunOptions& options,
+                                    const PartMade& made = {});
 
 /// Memory of the rank that has most, before the first step; nothing where there is one.
 void note_memory(const Scene& scene, io::RunSummary& summary);

@@ -117,9 +117,10 @@ CaseRun::CaseRun(const cases::Case& setup, const RunOptions& options)
     : setup_(setup), options_(options), folder_(options.directory) {
   check_figures(setup);
   parallel::set_threads(options.threads);
-  scene_ = scene_of_run(setup, options);
+  scene_ = scene_of_run(setup, options, [this](ScenePart part, const CaseGraph& scene) {
+    if (part == ScenePart::graph) describe_graph(scene, result_.summary);
+  });
   identify();
-  describe_graph(*scene_, result_.summary);
   for (const std::string& notice : scene_->notices)
     tell(notice);
   observers_.emplace(setup, options, *scene_);
@@ -207,8 +208,7 @@ void CaseRun::identify() {
 void CaseRun::go() {
   io::RunSummary& s = result_.summary;
   observers_->open();
-  // from here on the solver's arrays are all that is needed, the nodes and the cells
-  release_pairs(scene_->graph);
+  scheme::release_volumes(scene_->graph);
   s.solver_bytes = scene_->solver->bytes();
   s.building_rss_bytes = memory_.peak();
   note_running_memory();

@@ -32,19 +32,25 @@ CaseGraph graph_of(const cases::Case& setup,
   require_memory(setup, {method}, {level});
   scene.mesh = mesh_of(setup, level);
   require_memory(setup, method, level, scene.mesh.mesh);
-  if (made) made(ScenePart::mesh);
+  if (made) made(ScenePart::mesh, scene);
   scheme::Operators operators = method_menu().at(method)(scene.mesh.mesh, setup);
   scene.graph = std::move(operators.graph);
   scene.operators = std::move(operators.text);
   scene.notices = std::move(operators.notices);
   if (!setup.mesh.file.empty()) note_cavities(scene.mesh.mesh, scene.notices);
-  if (made) made(ScenePart::graph);
+  if (made) made(ScenePart::graph, scene);
   return scene;
 }
 
-Scene::Scene(const cases::Case& setup, const std::string& method, int level, const PartMade& made)
-    : CaseGraph(graph_of(setup, method, level, made)), solver(run::make_solver(setup, graph)) {
-  if (made) made(ScenePart::solver);
+Scene::Scene(const cases::Case& setup,
+             const std::string& method,
+             int level,
+             GraphPairs pairs,
+             const PartMade& made)
+    : CaseGraph(graph_of(setup, method, level, made)),
+      solver(pairs == GraphPairs::released ? run::make_solver_of_pairs(setup, graph)
+                                           : run::make_solver(setup, graph)) {
+  if (made) made(ScenePart::solver, *this);
 }
 
 }  // namespace diptych::harness

@@ -17,9 +17,6 @@ namespace diptych::harness {
 /// What a scene is made of, in this order.
 enum class ScenePart { mesh, graph, solver };
 
-/// Told when a part stands: for who counts what each costs.
-using PartMade = std::function<void(ScenePart part)>;
-
 /// A case without a solver.
 struct CaseGraph {
   CaseMesh mesh;
@@ -27,6 +24,9 @@ struct CaseGraph {
   std::string operators;             ///< what the method made of the mesh (scheme::Operators)
   std::vector<std::string> notices;  ///< the same
 };
+
+/// Told when a part stands: for who counts what each costs, or looks at the pairs.
+using PartMade = std::function<void(ScenePart part, const CaseGraph& scene)>;
 
 /// @param made  may be empty
 /// @throws base::InputError on a bad mesh, method or option of one; base::EnvironmentError where
@@ -37,10 +37,17 @@ CaseGraph graph_of(const cases::Case& setup,
                    int level,
                    const PartMade& made = {});
 
+/// What becomes of the pairs of a graph once its solver stands: a run steps without them.
+enum class GraphPairs { kept, released };
+
 /// A case that can be stepped. It stays where it is: the solver refers to the graph.
 struct Scene : CaseGraph {
   /// See graph_of. @throws base::InputError on a boundary group that the mesh lacks too
-  Scene(const cases::Case& setup, const std::string& method, int level, const PartMade& made = {});
+  Scene(const cases::Case& setup,
+        const std::string& method,
+        int level,
+        GraphPairs pairs = GraphPairs::kept,
+        const PartMade& made = {});
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 

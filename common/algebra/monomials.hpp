@@ -42,12 +42,22 @@ inline double power(double x, int n) {
   return product;
 }
 
+/// @param values  [n_monomials]
+inline void fill_monomials(const Vec3& X, int dimension, int degree, double* values) {
+  double of[3][4];  // X_i^n
+  for (int i = 0; i < 3; ++i) {
+    of[i][0] = 1;
+    for (int n = 1; n < 4; ++n)
+      of[i][n] = of[i][n - 1] * X[i];
+  }
+  for (const auto& n : exponents(dimension, degree))
+    *values++ = of[0][n[0]] * of[1][n[1]] * of[2][n[2]];
+}
+
 /// [n_monomials]
 inline Eigen::VectorXd monomials(const Vec3& X, int dimension, int degree) {
   Eigen::VectorXd values(n_monomials(dimension, degree));
-  int m = 0;
-  for (const auto& n : exponents(dimension, degree))
-    values[m++] = power(X[0], n[0]) * power(X[1], n[1]) * power(X[2], n[2]);
+  fill_monomials(X, dimension, degree, values.data());
   return values;
 }
 

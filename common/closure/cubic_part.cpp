@@ -74,8 +74,10 @@ CubicPart::CubicPart(const scheme::PairGraph& graph, const std::vector<double>& 
           eigenvalues[m] > 1e-13 * eigenvalues[n_terms_ - 1] ? 1 / std::sqrt(eigenvalues[m]) : 0;
     }
     const Matrix turn = solver.eigenvectors() * scale.asDiagonal();
-    for (std::int64_t row = 0; row < n_rows; ++row)
-      B.row(row) = (B.row(row) * turn).eval();
+    for_pieces(n_rows, [&](std::int64_t, std::int64_t first, std::int64_t n) {
+      const RowMajor piece = B.middleRows(first, n);
+      B.middleRows(first, n) = piece.lazyProduct(turn);
+    });
   }
 }
 

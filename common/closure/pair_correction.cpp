@@ -72,18 +72,18 @@ void row_moments(const scheme::PairGraph& graph,
                  const Mat3& inverse,
                  std::int64_t a,
                  SplineLevels<quadratic>::Moments& left,
-                 SplineLevels<quadratic>::Moments& whole) {
+                 SplineLevels<quadratic>::Terms& whole) {
   using Levels = SplineLevels<quadratic>;
   Eigen::Matrix<double, 3, Levels::n_terms> mixed =
       Eigen::Matrix<double, 3, Levels::n_terms>::Zero();
-  whole.setZero();
   for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
     const Vec3 X = graph.X[graph.neighbour[p]] - graph.X[a];
     const Levels::Terms m = Levels::monomials(X);
-    whole += (0.25 * k[p]) * m * m.transpose();
+    left += (0.25 * k[p]) * m * m.transpose();
     mixed += (0.5 * k[p]) * X * m.transpose();
   }
-  left = whole - mixed.transpose() * inverse * mixed;
+  whole += left.diagonal();
+  left -= mixed.transpose() * inverse * mixed;
 }
 
 }  // namespace

@@ -173,16 +173,21 @@ DIPTYCH_CLONES void apply_rows(const Rows& rows,
 
 using Matrix = Eigen::MatrixXd;  // of a size known at run time only: quicker to compile by minutes
 
-Matrix invert(const Matrix& moments, const scheme::PairGraph& graph, std::int64_t a) {
+/// Of the first node that has too few neighbours.
+[[noreturn]] void refuse_row(const scheme::PairGraph& graph, std::int64_t a) {
+  const Vec3& X = graph.X[a];
+  throw base::InputError(fmt::format(
+      "node {} at ({:.6g}, {:.6g}, {:.6g}) has {} neighbours that do not determine a quadratic, "
+      "which operators that sum by parts ask for: raise kappa, or refine the mesh there",
+      a, X[0], X[1], X[2], graph.row[a + 1] - graph.row[a]));
+}
+
+/// Zero where the moments cannot be inverted.
+Matrix inverse_of(const Matrix& moments) {
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(moments);
   const Eigen::VectorXd& eigenvalues = solver.eigenvalues();
-  if (!(eigenvalues[0] > least_condition * eigenvalues[eigenvalues.size() - 1])) {
-    const Vec3& X = graph.X[a];
-    throw base::InputError(fmt::format(
-        "node {} at ({:.6g}, {:.6g}, {:.6g}) has {} neighbours that do not determine a quadratic, "
-        "which operators that sum by parts ask for: raise kappa, or refine the mesh there",
-        a, X[0], X[1], X[2], graph.row[a + 1] - graph.row[a]));
-  }
+  if (!(eigenvalues[0] > least_condition * eigenvalues[eigenvalues.size() - 1]))
+    return Matrix::Zero(moments.rows(), moments.cols());
   return solver.eigenvectors() * eigenvalues.cwiseInverse().asDiagonal() *
          solver.eigenvectors().transpose();
 }
@@ -221,10 +226,9 @@ QuadraticCorrection<D>::QuadraticCorrection(const scheme::PairGraph& graph,
       inverse_(graph.X.size()),
       blocks_(graph.X.size()),
       records_(graph.n_nodes()) {
-  std::vector<Square> moments(graph.X.size());
-  for_each_node(moments.size(), [&](std::int64_t begin, std::int64_t end) {
+  for_each_node(inverse_.size(), [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t a = begin; a < end; ++a) {
-      moments[a].setZero();
+      Square moments = Square::Zero();
       double sum = 0, square = 0;
       for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
         sum += k[p];
@@ -234,15 +238,17 @@ QuadraticCorrection<D>::QuadraticCorrection(const scheme::PairGraph& graph,
       for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
         const Terms q = terms((graph.X[graph.neighbour[p]] - graph.X[a]) / reach_[a]);
         for (int m = 0; m < n_terms; ++m)
-          moments[a].col(m) += k[p] * q[m] * q;
+          moments.col(m) += k[p] * q[m] * q;
       }
+      inverse_[a] = inverse_of(moments);
       for (int i = 0; i < 3; ++i)
         records_[a].value[i][3] = graph.X[a][i];
     }
   });
   // outside of parallel loops, so that the first node that is refused is the one that is named
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a)
-    inverse_[a] = invert(moments[a], graph, a);
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+    if (inverse_[a].isZero(0)) refuse_row(graph, a);
+  }
   set_blocks();
   set_smooth();
 }
@@ -267,16 +273,17 @@ void QuadraticCorrection<D>::set_smooth() {
   });
   of_gradient_.resize(h_.size());
   sum_of_gradient_.resize(h_.size());
-  Field all(h_.size() * n_conditions), S_all(all.size());
-  gradients_->scale_to([&](const Field& y, Field& S_y) {  // the mean over directions
-    std::fill(S_y.begin(), S_y.end(), Vec3::Zero());
-    for (int i = 0; i < D; ++i) {
-      std::fill(all.begin(), all.end(), Vec3::Zero());
-      for (size_t a = 0; a < h_.size(); ++a)
-        all[a * n_conditions + 1 + i] = h_[a] * y[a];
-      apply_S(all, S_all);
-      for (size_t a = 0; a < h_.size(); ++a)
-        S_y[a] += h_[a] / D * S_all[a * n_conditions + 1 + i];
+  Field all(h_.size() * n_conditions, Vec3::Zero()), S_all(all.size());
+  // S does the same to each component of a vector: each of them stands for another direction
+  gradients_->scale_to([&](const Field& y, Field& S_y) {
+    for (size_t a = 0; a < h_.size(); ++a) {
+      for (int c = 0; c < 3; ++c)
+        all[a * n_conditions + 1 + c % D][c] = h_[a] * y[a][c];
+    }
+    apply_S(all, S_all);
+    for (size_t a = 0; a < h_.size(); ++a) {
+      for (int c = 0; c < 3; ++c)
+        S_y[a][c] = h_[a] * S_all[a * n_conditions + 1 + c % D][c];
     }
   });
 }
@@ -287,7 +294,7 @@ template <class Levels, class Factor>
 void QuadraticCorrection<D>::add_moments(std::int64_t a,
                                          const Factor& factor,
                                          typename Levels::Moments& left,
-                                         typename Levels::Moments& whole) const {
+                                         typename Levels::Terms& whole) const {
   Eigen::Matrix<double, n_terms, Levels::n_terms> mixed;
   mixed.setZero();
   typename Levels::Moments all = Levels::Moments::Zero();
@@ -297,7 +304,7 @@ void QuadraticCorrection<D>::add_moments(std::int64_t a,
     all += k_[p] * m * m.transpose();
     mixed += k_[p] * terms(X / reach_[a]) * m.transpose();
   }
-  whole += all;
+  whole += all.diagonal();
   left += all - mixed.transpose() * inverse_[a] * mixed;
 }
 

@@ -59,7 +59,7 @@ class QuadraticCorrection {
   void add_moments(std::int64_t a,
                    const Factor& factor,
                    typename Levels::Moments& left,
-                   typename Levels::Moments& whole) const;
+                   typename Levels::Terms& whole) const;
 
   const scheme::PairGraph& graph_;
   const std::vector<double>& k_;

@@ -11,8 +11,10 @@ namespace diptych::closure {
 
 namespace {
 
-constexpr double spacing_of_finest = 2;  ///< in units of the mean spacing of the nodes
-constexpr double felt_energy = 1e-10;    ///< part of its energy that the fit of a row must leave
+/// In units of the mean spacing of the nodes. Beyond 1.6 there are fields that neither the splines
+/// nor the blocks of nodes reach, and the steps double; below one splines only weaken each other.
+constexpr double spacing_of_finest = 1.35;
+constexpr double felt_energy = 1e-10;  ///< part of its energy that the fit of a row must leave
 /// Part of its mass that must lie in the body. A quadratic one that only touches nodes of the
 /// boundary has far more energy there than its derivatives tell.
 template <int P>
@@ -39,20 +41,57 @@ const auto& exponents() {
 template <int P>
 constexpr double square_of_spline = P == quadratic ? 0.55 : 0.4304;
 
-/// The two-scale relation: a spline as a sum of those of half its spacing.
+/// The relation between two scales: a spline as a sum of those of a half or a third of its spacing.
+struct Refinement {
+  int factor = 1, first = 0;        ///< child s of spline j is spline factor * j + first + s
+  std::vector<double> weight{1.0};  ///< of its children
+};
+
+/// Spline j starts at (j - P) H. The weights are the coefficients of
+///   factor ((1 + z + ... + z^(factor - 1)) / factor)^(P + 1).
 template <int P>
-std::array<double, P + 2> children_weights() {
-  std::array<double, P + 2> weight{};
-  weight[0] = std::exp2(-P);
-  for (int s = 1; s < P + 2; ++s)
-    weight[s] = weight[s - 1] * (P + 2 - s) / s;
-  return weight;
+Refinement refinement(int factor) {
+  Refinement made{factor, -(factor - 1) * P, {static_cast<double>(factor)}};
+  for (int power = 0; power <= P && factor > 1; ++power) {
+    std::vector<double> product(made.weight.size() + static_cast<size_t>(factor) - 1, 0.0);
+    for (size_t s = 0; s < made.weight.size(); ++s) {
+      for (int r = 0; r < factor; ++r)
+        product[s + static_cast<size_t>(r)] += made.weight[s] / factor;
+    }
+    made.weight = std::move(product);
+  }
+  return made;
+}
+
+/// Calls visit(child, weight) for those of n that spline j has.
+template <class Visit>
+void for_children(const Refinement& to, int j, int n, const Visit& visit) {
+  const int first = to.factor * j + to.first;
+  for (int s = std::max(0, -first); s < std::min<int>(std::ssize(to.weight), n - first); ++s)
+    visit(first + s, to.weight[static_cast<size_t>(s)]);
+}
+
+/// The number of cells 2^k or 3 * 2^k that is nearest to the one wanted, in their ratio.
+int cells_near(double wanted) {
+  int best = 1;
+  for (int power = 1; power < 2 * wanted; power *= 2) {
+    for (const int n : {power, 3 * power}) {
+      if (std::abs(std::log(n / wanted)) < std::abs(std::log(best / wanted))) best = n;
+    }
+  }
+  return best;
+}
+
+/// Of the next level.
+int coarser(int n_cells) {
+  return n_cells % 2 == 0 ? n_cells / 2 : n_cells == 3 ? 1 : n_cells;
 }
 
 /// Nodes of a cell of the finest grid as one, for the levels above it.
-template <class Moments>
+template <class Moments, class Terms>
 struct Cluster {
-  Moments left = Moments::Zero(), whole = Moments::Zero();
+  Moments left = Moments::Zero();
+  Terms whole = Terms::Zero();
   Vec3 moment = Vec3::Zero();
   double Omega = 0;
 };
@@ -133,11 +172,13 @@ SplineLevels<P>::SplineLevels(const scheme::PairGraph& graph, const RowMoments& 
   place_nodes(graph);
   Level& finest = levels_.front();
   const Index cells{finest.n[0] - P, std::max(1, finest.n[1] - P), std::max(1, finest.n[2] - P)};
-  std::vector<Cluster<Moments>> clusters(static_cast<size_t>(cells[0]) * cells[1] * cells[2]);
+  std::vector<Cluster<Moments, Terms>> clusters(static_cast<size_t>(cells[0]) * cells[1] *
+                                                cells[2]);
   visit_layers([&](const std::int32_t* begin, const std::int32_t* end) {
     for (; begin != end; ++begin) {
       const std::int32_t a = *begin;
-      Moments left = Moments::Zero(), whole = Moments::Zero();
+      Moments left = Moments::Zero();
+      Terms whole = Terms::Zero();
       moments(a, left, whole);
       const Splines s = splines_at(finest, graph.X[a]);
       add_energy(finest, s, graph.Omega[a], left, whole);
@@ -228,19 +269,18 @@ void SplineLevels<P>::set_levels(const scheme::PairGraph& graph) {
   double H = spacing_of_finest * std::pow(volume / n_nodes, 1.0 / dimension_);
   while ((length / H + 3).prod() > n_nodes + 1000)
     H *= 1.25;
-  // Whole cells in every direction, on its coarsest level too: no spline just touches the box.
-  Index cells{1, 1, 1}, halvings{0, 0, 0};
-  for (int i = 0; i < dimension_; ++i) {
-    halvings[i] = std::max(0, static_cast<int>(std::log2(length[i] / H)));
-    cells[i] = std::max(1, static_cast<int>(std::round(length[i] / (H * std::exp2(halvings[i])))));
-  }
-  const int n_levels = 1 + *std::max_element(halvings.begin(), halvings.end());
-  for (int l = 0; l < n_levels; ++l) {
+  // whole cells in every direction, on its coarsest level too: no spline just touches the box
+  Index cells{1, 1, 1};
+  for (int i = 0; i < dimension_; ++i)
+    cells[i] = cells_near(length[i] / H);
+  for (bool is_last = false; !is_last;) {
     Level& level = levels_.emplace_back();
+    is_last = true;
     for (int i = 0; i < dimension_; ++i) {
-      const int n = cells[i] << std::max(0, halvings[i] - l);
-      level.n[i] = n + P;
-      level.H[i] = length[i] / n;
+      level.n[i] = cells[i] + P;
+      level.H[i] = length[i] / cells[i];
+      is_last &= cells[i] == 1;
+      cells[i] = coarser(cells[i]);
     }
     level.diagonal.assign(static_cast<size_t>(level.size()), 0.0);
     level.uncorrected = level.mass = level.diagonal;
@@ -286,7 +326,7 @@ auto SplineLevels<P>::splines_at(const Level& level, const Vec3& X) const -> Spl
 
 template <int P>
 void SplineLevels<P>::add_energy(
-    Level& level, const Splines& s, double Omega, const Moments& left, const Moments& whole) const {
+    Level& level, const Splines& s, double Omega, const Moments& left, const Terms& whole) const {
   for (int z = 0; z < n_z_; ++z) {
     for (int y = 0; y <= P; ++y) {
       for (int x = 0; x <= P; ++x) {
@@ -301,7 +341,7 @@ void SplineLevels<P>::add_energy(
         const double value = s.value[0][0][x] * s.value[0][1][y] * s.value[0][2][z];
         level.mass[i] += Omega * value * value;
         level.diagonal[i] += derivatives.dot(left * derivatives);
-        level.uncorrected[i] += derivatives.dot(whole * derivatives);
+        level.uncorrected[i] += whole.dot(derivatives.cwiseAbs2());
       }
     }
   }
@@ -312,31 +352,24 @@ template <class Visit>
 void SplineLevels<P>::for_each_child(const Level& fine,
                                      const Level& coarse,
                                      const Visit& visit) const {
-  // Spline j of a level starts at (j - P) H, so the children of j start at 2 (j - P) H/2.
-  static const std::array<double, P + 2> halved = children_weights<P>();
-  const auto n_children = [&](int i) { return fine.n[i] == coarse.n[i] ? 1 : P + 2; };
-  const auto child = [&](int i, int j, int s) {
-    return fine.n[i] == coarse.n[i] ? j : 2 * j - P + s;
+  static const std::array<Refinement, 4> refinements{{{}, {}, refinement<P>(2), refinement<P>(3)}};
+  const auto of = [&](int i) -> const Refinement& {
+    return refinements[static_cast<size_t>(i < dimension_ ? (fine.n[i] - P) / (coarse.n[i] - P)
+                                                          : 1)];
   };
-  const auto weight = [&](int i, int s) { return fine.n[i] == coarse.n[i] ? 1.0 : halved[s]; };
+  const Refinement &in_x = of(0), &in_y = of(1), &in_z = of(2);
   std::int64_t c = 0;
   for (int z = 0; z < coarse.n[2]; ++z) {
     for (int y = 0; y < coarse.n[1]; ++y) {
       for (int x = 0; x < coarse.n[0]; ++x, ++c) {
-        for (int sz = 0; sz < n_children(2); ++sz) {
-          const int fz = child(2, z, sz);
-          if (fz < 0 || fz >= fine.n[2]) continue;
-          for (int sy = 0; sy < n_children(1); ++sy) {
-            const int fy = child(1, y, sy);
-            if (fy < 0 || fy >= fine.n[1]) continue;
-            for (int sx = 0; sx < n_children(0); ++sx) {
-              const int fx = child(0, x, sx);
-              if (fx < 0 || fx >= fine.n[0]) continue;
+        for_children(in_z, z, fine.n[2], [&](int fz, double of_z) {
+          for_children(in_y, y, fine.n[1], [&](int fy, double of_y) {
+            for_children(in_x, x, fine.n[0], [&](int fx, double of_x) {
               visit((static_cast<std::int64_t>(fz) * fine.n[1] + fy) * fine.n[0] + fx, c,
-                    weight(0, sx) * weight(1, sy) * weight(2, sz));
-            }
-          }
-        }
+                    of_x * of_y * of_z);
+            });
+          });
+        });
       }
     }
   }

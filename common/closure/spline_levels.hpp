@@ -9,8 +9,9 @@
 ///   y.S y ~ sum_a D^m_a : T_a : D^m_a,
 ///   T_a = c sum_b k_ab r_ab r_ab^T,  r_ab = monomials of degree m less what their row fits to
 ///   them,
-/// so that B-splines of degree m, which are C^(m-1), on grids of spacing H, 2H, 4H, ... carry the
-/// additive preconditioner of Bramble, Pasciak and Xu (1990):
+/// so that B-splines of degree m, which are C^(m-1), on grids of spacing H, 2H, 4H, ... (the last
+/// one of three cells becomes one) carry the additive preconditioner of Bramble, Pasciak and Xu
+/// (1990):
 ///   z = D^-1 r + sum_levels P D_level^-1 P^T r.
 /// Splines of a lower degree have jumps in D^m, which cost S far more than what is smooth.
 ///
@@ -40,8 +41,8 @@ class SplineLevels {
   static constexpr int n_terms = (P + 1) * (P + 2) / 2;  ///< derivatives of order P in space
   using Terms = Eigen::Matrix<double, n_terms, 1>;
   using Moments = Eigen::Matrix<double, n_terms, n_terms>;
-  /// Adds T_a, and the same of the monomials as they are.
-  using RowMoments = std::function<void(std::int64_t a, Moments& left, Moments& whole)>;
+  /// Adds T_a, and the diagonal of the same of the monomials as they are.
+  using RowMoments = std::function<void(std::int64_t a, Moments& left, Terms& whole)>;
 
   SplineLevels(const scheme::PairGraph& graph, const RowMoments& moments);
 
@@ -62,7 +63,7 @@ class SplineLevels {
     Vec3 H = Vec3::Ones();             ///< m, per direction
     Index n{1, 1, 1};                  ///< splines per direction
     std::vector<double> diagonal;      ///< D^P : T : D^P of each spline, 0 where it is left out
-    std::vector<double> uncorrected;   ///< the same without any fit, to judge round-off
+    std::vector<double> uncorrected;   ///< about the same without any fit, to judge round-off
     std::vector<double> mass;          ///< sum_a Omega_a value^2, to judge whether it is felt
     algebra::AlignedArray<Four> grid;  ///< work space: a vector per spline
     std::int64_t size() const { return static_cast<std::int64_t>(n[0]) * n[1] * n[2]; }
@@ -78,14 +79,11 @@ class SplineLevels {
   void visit_layers(
       const std::function<void(const std::int32_t* begin, const std::int32_t* end)>& visit) const;
   Splines splines_at(const Level& level, const Vec3& X) const;
-  void add_energy(Level& level,
-                  const Splines& s,
-                  double Omega,
-                  const Moments& left,
-                  const Moments& whole) const;
+  void add_energy(
+      Level& level, const Splines& s, double Omega, const Moments& left, const Terms& whole) const;
   void leave_out_unfelt(Level& level);
   void prolong(size_t level, std::vector<Vec3>& z);
-  /// Calls visit(fine, coarse, weight) for the two-scale relation in each direction that is halved.
+  /// Calls visit(fine, coarse, weight) for the relation between the scales of two levels.
   template <class Visit>
   void for_each_child(const Level& fine, const Level& coarse, const Visit& visit) const;
 

@@ -26,6 +26,7 @@ SummationByParts solve(scheme::PairGraph& graph,
   correction.correct_rows(graph.C);
   Field r = correction.gap(graph.C), y;
   result.before = greatest(r, unit);
+  cubic_part.remove(r);  // S keeps it out of what is left: directions are free of it
   const SolveLimits left{limits.residual, limits.iterations, limits.iterations};
   result.iterations =
       conjugate_gradients([&](const Field& in, Field& out) { correction.apply_S(in, out); },
@@ -33,7 +34,7 @@ SummationByParts solve(scheme::PairGraph& graph,
                             correction.precondition(in, out);
                             cubic_part.remove(out);
                           },
-                          [&](Field& in) { cubic_part.remove(in); }, unit, left, r, y);
+                          [](Field&) {}, unit, left, r, y);
   correction.change(y, graph.C);
   correction.correct_rows(graph.C);  // of what rounding left: smooth multipliers are large
   result.after = greatest(correction.gap(graph.C), unit);

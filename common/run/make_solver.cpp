@@ -13,6 +13,7 @@
 #include "common/scheme/ranks/share_graph.hpp"
 
 #include <fmt/format.h>
+#include <functional>
 
 namespace diptych::run {
 
@@ -193,8 +194,13 @@ std::unique_ptr<BodySolver<Dim>> assembled(const cases::Case& setup,
                                            setup.time.max_retries, start);
 }
 
+/// Called once the solver needs no pairs of the graph any more.
+using PairsTaken = std::function<void()>;
+
 template <int Dim>
-std::unique_ptr<Solver> solver_in(const cases::Case& setup, const scheme::PairGraph& graph) {
+std::unique_ptr<Solver> solver_in(const cases::Case& setup,
+                                  const scheme::PairGraph& graph,
+                                  const PairsTaken& taken) {
   check_initial_deformation(setup, graph);
   Parts parts(setup, graph);
   if (setup.scheme.angular_momentum_projection && parts.boundary.has_walls()) {
@@ -212,11 +218,19 @@ std::unique_ptr<Solver> solver_in(const cases::Case& setup, const scheme::PairGr
               ? default_cfl(setup, graph, parts.integrator)
               : sampled_cfl<Dim>(setup, graph, geometric_rate, parts.integrator);
   scheme::Body<Dim> body(graph, options);
+  taken();
   if (!(cfl > 0)) cfl = default_cfl(setup, *parts.material, body, geometric_rate, parts.integrator);
   auto solver =
       assembled<Dim>(setup, graph, std::move(parts), std::move(body), cfl, geometric_rate);
   solver->begin(setup.initial, setup.scheme.face_correction);
   return solver;
+}
+
+std::unique_ptr<Solver> solver_taking(const cases::Case& setup,
+                                      const scheme::PairGraph& graph,
+                                      const PairsTaken& taken) {
+  return graph.dimension == 2 ? solver_in<2>(setup, graph, taken)
+                              : solver_in<3>(setup, graph, taken);
 }
 
 template <int Dim>
@@ -289,7 +303,11 @@ scheme::Volumes volumes_of(const cases::Case& setup, const scheme::PairGraph& gr
 }
 
 std::unique_ptr<Solver> make_solver(const cases::Case& setup, const scheme::PairGraph& graph) {
-  return graph.dimension == 2 ? solver_in<2>(setup, graph) : solver_in<3>(setup, graph);
+  return solver_taking(setup, graph, [] {});
+}
+
+std::unique_ptr<Solver> make_solver_of_pairs(const cases::Case& setup, scheme::PairGraph& graph) {
+  return solver_taking(setup, graph, [&] { scheme::release_pairs(graph); });
 }
 
 std::unique_ptr<Solver> make_given_solver(const cases::Case& setup,

@@ -115,6 +115,10 @@ scheme::Volumes volumes_of(const cases::Case& setup, const scheme::PairGraph& gr
 /// @throws base::InputError on a boundary group that the graph lacks, an unknown menu entry
 std::unique_ptr<Solver> make_solver(const cases::Case& setup, const scheme::PairGraph& graph);
 
+/// The same. The graph is left without its pairs once the solver has made its own of them, before
+/// the state takes its memory: both side by side would take up to three times what a run does.
+std::unique_ptr<Solver> make_solver_of_pairs(const cases::Case& setup, scheme::PairGraph& graph);
+
 /// Of another rank than 0: the solver that rank 0 has made and gives, undeformed until divide().
 /// @param graph  becomes that of rank 0 without its pairs; its patches must outlive the solver
 std::unique_ptr<Solver> make_given_solver(const cases::Case& setup,

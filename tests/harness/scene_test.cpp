@@ -114,9 +114,14 @@ TEST(Scene, DescribesOperatorsThatDependOnTheMesh) {
 
 TEST(Scene, TellsOfItsPartsInOrderAndIsOfItsLevel) {
   std::vector<ScenePart> parts;
-  Scene scene(cases::case_from_text(square, "scene", {}), "fvm", 1,
-              [&](ScenePart part) { parts.push_back(part); });
+  std::vector<std::int64_t> pairs;
+  Scene scene(cases::case_from_text(square, "scene", {}), "fvm", 1, GraphPairs::released,
+              [&](ScenePart part, const CaseGraph& made) {
+                parts.push_back(part);
+                pairs.push_back(made.graph.n_pairs());
+              });
   EXPECT_THAT(parts, ElementsAre(ScenePart::mesh, ScenePart::graph, ScenePart::solver));
+  EXPECT_THAT(pairs, ElementsAre(0, testing::Gt(4 * 17 * 15), 0));  // gone once the solver stands
   EXPECT_EQ(scene.graph.n_nodes(), 17 * 17);
   EXPECT_EQ(scene.solver->step(1).step, 1);
 }

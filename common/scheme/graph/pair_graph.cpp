@@ -23,6 +23,11 @@ std::string node_text(const PairGraph& graph, std::int64_t a) {
   throw base::InputError("pair graph: " + what);
 }
 
+template <class Array>
+void free_array(Array& array) {
+  Array().swap(array);
+}
+
 /// The larger of two figures; a figure that is not a number is the worst there is.
 double worst(double a, double b) {
   return b > a || std::isnan(b) ? b : a;
@@ -205,6 +210,21 @@ void set_precision(PairGraph& graph, Precision precision) {
 Mat3 metric_of_lines(const Mat3& edges) {
   constexpr double just_above = 1 + 1e-6;
   return edges.inverse() / just_above;
+}
+
+void release_pairs(PairGraph& graph) {
+  graph.slopes = {};
+  free_array(graph.row);
+  free_array(graph.neighbour);
+  free_array(graph.reverse);
+  free_array(graph.C);
+  free_array(graph.boundary_area);
+  graph.classes = {};
+}
+
+void release_volumes(PairGraph& graph) {
+  graph.cells = {};
+  graph.lines = {};
 }
 
 void link_reverse_pairs(PairGraph& graph) {

@@ -91,6 +91,13 @@ void set_precision(PairGraph& graph, Precision precision);
 /// farther away.  @param edges  as columns  [m]
 Mat3 metric_of_lines(const Mat3& edges);
 
+/// Frees rows, neighbours, reverse pairs, C_ab and slopes, of which a solver makes its own, and the
+/// areas that only factories need. n_pairs() is 0 from now on.
+void release_pairs(PairGraph& graph);
+
+/// Frees cells and lines, of which a solver makes its own too, but for those of other ranks.
+void release_volumes(PairGraph& graph);
+
 /// Fills graph.reverse from rows and neighbours (which must be structurally symmetric).
 void link_reverse_pairs(PairGraph& graph);
 

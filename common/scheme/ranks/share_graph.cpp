@@ -86,7 +86,6 @@ void share_nodes(Communicator& ranks, PairGraph& graph, Volumes volumes) {
   share(ranks, graph.dimension);
   share(ranks, graph.X);
   share(ranks, graph.Omega);
-  share(ranks, graph.boundary_area);
   auto n_patches = std::ssize(graph.patches);
   share(ranks, n_patches);
   graph.patches.resize(static_cast<size_t>(n_patches));
