@@ -6,6 +6,7 @@
 #include "common/parallel/for_each.hpp"
 #include "meshes/cell_topology.hpp"
 #include "meshes/incidence.hpp"
+#include "meshes/least_weights.hpp"
 
 #include <Eigen/Dense>
 
@@ -30,7 +31,6 @@ using Vector = Eigen::VectorXd;
 /// Nodes that take part in the volume of a cell, and in the area of a face, if there are as many.
 constexpr size_t nodes_of_cell[] = {20, 64};
 constexpr size_t nodes_of_face[] = {6, 25};
-constexpr double decay = 0.3;  ///< of the weight of a change with the square of the distance
 /// Cells whose weights are kept at a time.
 constexpr std::int64_t cells_at_once = 8192;
 /// Cosine of the angle between normals of one plane, less one.
@@ -42,103 +42,6 @@ struct Weights {
   std::vector<std::int32_t> nodes;
   Vector value;
 };
-
-/// Nodes that were met since begin(), each once; one for each thread, since it is as long as the
-/// mesh.
-class MetNodes {
- public:
-  void begin(size_t n_nodes) {
-    if (met_.size() < n_nodes) met_.resize(n_nodes, 0);
-    if (++now_ == 0) {
-      std::fill(met_.begin(), met_.end(), 0U);
-      now_ = 1;
-    }
-  }
-  bool is_new(std::int32_t a) {
-    const bool is_new = met_[a] != now_;
-    met_[a] = now_;
-    return is_new;
-  }
-
- private:
-  std::vector<std::uint32_t> met_;
-  std::uint32_t now_ = 0;
-};
-
-/// These corners, the nodes that share a cell with one of them, and so on, until there are enough.
-/// Ascending.
-/// @param visit_sharing  visit_sharing(a, visit): visits the nodes that share a cell with node a
-template <class VisitSharing>
-std::vector<std::int32_t> surrounding(std::span<const std::int32_t> corners,
-                                      size_t enough,
-                                      size_t n_nodes,
-                                      const VisitSharing& visit_sharing) {
-  thread_local MetNodes met;
-  met.begin(n_nodes);
-  std::vector<std::int32_t> nodes;
-  const auto add = [&](std::int32_t a) {
-    if (met.is_new(a)) nodes.push_back(a);
-  };
-  for (const std::int32_t a : corners)
-    add(a);
-  size_t begin = 0;  // of those whose neighbours have not been looked at
-  while (nodes.size() < enough && begin < nodes.size()) {
-    const size_t end = nodes.size();
-    for (; begin < end; ++begin)
-      visit_sharing(nodes[begin], add);
-  }
-  std::sort(nodes.begin(), nodes.end());
-  return nodes;
-}
-
-/// Moments of polynomials of degree 3 at most: matrices on the stack.
-constexpr int most_monomials = 20;
-using Moments =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_monomials, most_monomials>;
-using MomentVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_monomials, 1>;
-/// Reciprocal condition number from which these moments tell the polynomials apart.
-constexpr double least_condition = 1e-10;
-
-/// x of least norm with S x = right, or as nearly as can be. @pre S symmetric, not negative
-MomentVector solution(const Moments& S, const MomentVector& right) {
-  const Eigen::LLT<Moments> triangle(S);
-  if (triangle.info() == Eigen::Success && triangle.rcond() > least_condition)
-    return triangle.solve(right);
-  return Matrix(S).completeOrthogonalDecomposition().solve(Vector(right));
-}
-
-/// Changes weights least, beside what a node has by the vertex rule, so that they integrate the
-/// polynomials as `exact` does; where nodes are too few, as nearly as they can.
-/// @param at     [nodes] places from the middle, over h
-/// @param share  [nodes] volume or area by that rule, in any unit
-void meet(const std::vector<Vec3>& at,
-          const std::vector<double>& share,
-          int dimension,
-          int degree,
-          const Vector& exact,
-          Vector& w) {
-  const auto m = static_cast<int>(exact.size());
-  thread_local Matrix P;  // which keeps its memory
-  P.resize(m, static_cast<int>(at.size()));
-  Vector change(static_cast<int>(at.size()));
-  Moments S = Moments::Zero(m, m);
-  MomentVector missing = exact;
-  for (int i = 0; i < P.cols(); ++i) {
-    double* const values = P.col(i).data();
-    fill_monomials(at[i], dimension, degree, values);
-    change[i] = share[i] * std::exp(-decay * at[i].squaredNorm());
-    for (int l = 0; l < m; ++l) {
-      missing[l] -= w[i] * values[l];
-      const double scaled = change[i] * values[l];
-      for (int k = l; k < m; ++k)
-        S(k, l) += scaled * values[k];
-    }
-  }
-  S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
-  const MomentVector factor = solution(S, missing);
-  for (int i = 0; i < P.cols(); ++i)
-    w[i] += change[i] * P.col(i).dot(factor);
-}
 
 Weights volume_of(const Mesh& mesh,
                   const NodalGraph& sharing,

@@ -1,8 +1,8 @@
 #include "common/closure/quadratic_correction.hpp"
 
-#include "common/algebra/four.hpp"
 #include "common/base/error.hpp"
 #include "common/closure/pair_correction.hpp"
+#include "common/closure/quadratic_passes.hpp"
 
 #include <Eigen/Dense>
 
@@ -13,163 +13,9 @@ namespace diptych::closure {
 
 namespace {
 
-using algebra::Four;
-using algebra::load_four;
-using algebra::load_three;
-using algebra::store_three;
-
 /// Reciprocal condition number of a row's moments below which its neighbours do not span the
 /// quadratics.
 constexpr double least_condition = 1e-9;
-
-/// What the passes stream.
-struct Rows {
-  const std::int64_t* row;
-  const std::int32_t* neighbour;
-  const double* k;
-};
-
-template <int D>
-DIPTYCH_INLINE void fill_terms(const double* X, double* q) {
-  for (int i = 0; i < D; ++i)
-    q[i] = X[i];
-  int m = D;
-  for (int i = 0; i < D; ++i) {
-    for (int j = i; j < D; ++j)
-      q[m++] = X[i] * X[j];
-  }
-}
-
-/// Sum over the terms of q(X) rho; turned: q(-X) rho.
-template <int D, bool turned>
-DIPTYCH_INLINE Four fitted(const double* q, const double (*rho)[4]) {
-  constexpr int n = QuadraticCorrection<D>::n_terms;
-  Four odd = q[0] * load_four(rho[0]), even = q[D] * load_four(rho[D]);
-  for (int m = 1; m < D; ++m)
-    odd += q[m] * load_four(rho[m]);
-  for (int m = D + 1; m < n; ++m)
-    even += q[m] * load_four(rho[m]);
-  return turned ? even - odd : even + odd;
-}
-
-/// 1/2 (y_a - y_b + Y_b (X_b - X_a))
-template <int D, class Record>
-DIPTYCH_INLINE Four jump(const Record& a, const Record& b, const double* X) {
-  Four sum = load_four(a.value[0]) - load_four(b.value[0]);
-  for (int i = 0; i < D; ++i)
-    sum += X[i] * load_four(b.value[1 + i]);
-  return 0.5 * sum;
-}
-
-template <class Record>
-DIPTYCH_INLINE void difference(const Record& a, const Record& b, double* X) {
-  for (int i = 0; i < 3; ++i)
-    X[i] = b.value[i][3] - a.value[i][3];
-}
-
-/// rho of nodes [begin, end).
-template <int D, class Record, class Square>
-DIPTYCH_INLINE void fit_nodes(const Rows& rows,
-                              const Square* inverse,
-                              const double* reach,
-                              Record* nodes,
-                              std::int64_t begin,
-                              std::int64_t end) {
-  constexpr int n = QuadraticCorrection<D>::n_terms;
-  double X[3], q[n];
-  for (std::int64_t a = begin; a < end; ++a) {
-    Record& node = nodes[a];
-    Four moment[n]{};
-    for (std::int64_t p = rows.row[a]; p < rows.row[a + 1]; ++p) {
-      const Record& b = nodes[rows.neighbour[p]];
-      difference(node, b, X);
-      fill_terms<D>(X, q);
-      const Four t = rows.k[p] * jump<D>(node, b, X);
-      for (int m = 0; m < n; ++m)
-        moment[m] += q[m] * t;
-    }
-    // the inverse is that of X/reach
-    const auto unit = [&](int m) { return m < D ? 1 / reach[a] : 1 / (reach[a] * reach[a]); };
-    for (int m = 0; m < n; ++m)
-      moment[m] *= unit(m);
-#pragma GCC unroll 1
-    for (int m = 0; m < n; ++m) {
-      Four sum{};
-      for (int l = 0; l < n; ++l)
-        sum += inverse[a](l, m) * moment[l];
-      store_three(node.rho[m], unit(m) * sum);
-    }
-  }
-}
-
-template <int D, class Record>
-DIPTYCH_INLINE void apply_nodes(const Rows& rows,
-                                const Record* nodes,
-                                const double* h,
-                                Vec3* out,
-                                std::int64_t begin,
-                                std::int64_t end) {
-  constexpr int n = QuadraticCorrection<D>::n_terms;
-  double X[3], q[n];
-  for (std::int64_t a = begin; a < end; ++a) {
-    const Record& node = nodes[a];
-    Four closure{}, linear[D]{};
-    for (std::int64_t p = rows.row[a]; p < rows.row[a + 1]; ++p) {
-      const Record& b = nodes[rows.neighbour[p]];
-      difference(node, b, X);
-      fill_terms<D>(X, q);
-      const Four forth = rows.k[p] * (jump<D>(node, b, X) - fitted<D, false>(q, node.rho));
-      for (int i = 0; i < D; ++i)
-        X[i] = -X[i];
-      const Four back = rows.k[p] * (jump<D>(b, node, X) - fitted<D, true>(q, b.rho));
-      closure += forth - back;
-      for (int i = 0; i < D; ++i)
-        linear[i] += X[i] * back;
-    }
-    Vec3* of_node = out + a * (1 + D);
-    store_three(of_node[0].data(), 0.5 * closure);
-    for (int i = 0; i < D; ++i)
-      store_three(of_node[1 + i].data(), 0.5 / h[a] * linear[i]);
-  }
-}
-
-using Record2 = QuadraticCorrection<2>::Record;
-using Record3 = QuadraticCorrection<3>::Record;
-using Square2 = QuadraticCorrection<2>::Square;
-using Square3 = QuadraticCorrection<3>::Square;
-
-DIPTYCH_CLONES void fit_rows(const Rows& rows,
-                             const Square2* inverse,
-                             const double* reach,
-                             Record2* nodes,
-                             std::int64_t begin,
-                             std::int64_t end) {
-  fit_nodes<2>(rows, inverse, reach, nodes, begin, end);
-}
-DIPTYCH_CLONES void fit_rows(const Rows& rows,
-                             const Square3* inverse,
-                             const double* reach,
-                             Record3* nodes,
-                             std::int64_t begin,
-                             std::int64_t end) {
-  fit_nodes<3>(rows, inverse, reach, nodes, begin, end);
-}
-DIPTYCH_CLONES void apply_rows(const Rows& rows,
-                               const Record2* nodes,
-                               const double* h,
-                               Vec3* out,
-                               std::int64_t begin,
-                               std::int64_t end) {
-  apply_nodes<2>(rows, nodes, h, out, begin, end);
-}
-DIPTYCH_CLONES void apply_rows(const Rows& rows,
-                               const Record3* nodes,
-                               const double* h,
-                               Vec3* out,
-                               std::int64_t begin,
-                               std::int64_t end) {
-  apply_nodes<3>(rows, nodes, h, out, begin, end);
-}
 
 using Matrix = Eigen::MatrixXd;  // of a size known at run time only: quicker to compile by minutes
 
@@ -390,7 +236,7 @@ void QuadraticCorrection<D>::fit(const Field& y) {
         store_three(records_[a].value[1 + i], load_three(of_node[1 + i]) / h_[a]);
     }
   });
-  const Rows rows{graph_.row.data(), graph_.neighbour.data(), k_.data()};
+  const WeightedRows rows{graph_.row.data(), graph_.neighbour.data(), k_.data()};
   for_each_node(h_.size(), [&](std::int64_t begin, std::int64_t end) {
     fit_rows(rows, inverse_.data(), reach_.data(), records_.data(), begin, end);
   });
@@ -399,7 +245,7 @@ void QuadraticCorrection<D>::fit(const Field& y) {
 template <int D>
 void QuadraticCorrection<D>::apply_S(const Field& y, Field& S_y) {
   fit(y);
-  const Rows rows{graph_.row.data(), graph_.neighbour.data(), k_.data()};
+  const WeightedRows rows{graph_.row.data(), graph_.neighbour.data(), k_.data()};
   for_each_node(h_.size(), [&](std::int64_t begin, std::int64_t end) {
     apply_rows(rows, records_.data(), h_.data(), S_y.data(), begin, end);
   });
