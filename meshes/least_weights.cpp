@@ -32,12 +32,12 @@ MomentVector solution(const Moments& S, const MomentVector& right) {
 
 }  // namespace
 
-void meet(const std::vector<Vec3>& at,
-          const std::vector<double>& share,
-          int dimension,
-          int degree,
-          const Vector& exact,
-          Vector& w) {
+void meet_moments(const std::vector<Vec3>& at,
+                  const std::vector<double>& share,
+                  int dimension,
+                  int degree,
+                  const Vector& exact,
+                  Vector& w) {
   const auto m = static_cast<int>(exact.size());
   thread_local Matrix P;  // which keeps its memory
   P.resize(m, static_cast<int>(at.size()));

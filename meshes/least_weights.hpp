@@ -64,11 +64,11 @@ std::vector<std::int32_t> surrounding(std::span<const std::int32_t> corners,
 /// polynomials as `exact` does; where nodes are too few, as nearly as they can.
 /// @param at     [nodes] places from the middle, over h
 /// @param share  [nodes] volume or area by that rule, in any unit
-void meet(const std::vector<Vec3>& at,
-          const std::vector<double>& share,
-          int dimension,
-          int degree,
-          const Eigen::VectorXd& exact,
-          Eigen::VectorXd& w);
+void meet_moments(const std::vector<Vec3>& at,
+                  const std::vector<double>& share,
+                  int dimension,
+                  int degree,
+                  const Eigen::VectorXd& exact,
+                  Eigen::VectorXd& w);
 
 }  // namespace diptych::meshes

@@ -84,7 +84,7 @@ Weights volume_of(const Mesh& mesh,
     fill_monomials(X, mesh.dimension, 2, values.data());
     exact += dV * values;
   }
-  meet(at, share, mesh.dimension, 2, exact, weights.value);
+  meet_moments(at, share, mesh.dimension, 2, exact, weights.value);
   return weights;
 }
 
@@ -201,7 +201,7 @@ class Sides {
       }
       exact += dA * monomials(place_of(X), dimension, 3);
     });
-    meet(at, share, dimension, 3, exact, weights.value);
+    meet_moments(at, share, dimension, 3, exact, weights.value);
     return weights;
   }
 

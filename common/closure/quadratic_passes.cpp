@@ -72,37 +72,20 @@ DIPTYCH_INLINE void apply_nodes(const WeightedRows& rows,
 
 }  // namespace
 
-DIPTYCH_CLONES void fit_rows(const WeightedRows& rows,
-                             const Square2* inverse,
-                             const double* reach,
-                             Record2* nodes,
-                             std::int64_t begin,
-                             std::int64_t end) {
-  fit_nodes<2>(rows, inverse, reach, nodes, begin, end);
-}
-DIPTYCH_CLONES void fit_rows(const WeightedRows& rows,
-                             const Square3* inverse,
-                             const double* reach,
-                             Record3* nodes,
-                             std::int64_t begin,
-                             std::int64_t end) {
-  fit_nodes<3>(rows, inverse, reach, nodes, begin, end);
-}
-DIPTYCH_CLONES void apply_rows(const WeightedRows& rows,
-                               const Record2* nodes,
-                               const double* h,
-                               Vec3* out,
-                               std::int64_t begin,
-                               std::int64_t end) {
-  apply_nodes<2>(rows, nodes, h, out, begin, end);
-}
-DIPTYCH_CLONES void apply_rows(const WeightedRows& rows,
-                               const Record3* nodes,
-                               const double* h,
-                               Vec3* out,
-                               std::int64_t begin,
-                               std::int64_t end) {
-  apply_nodes<3>(rows, nodes, h, out, begin, end);
-}
+#define DIPTYCH_INSTANTIATE(D)                                                                     \
+  DIPTYCH_CLONES void fit_rows(const WeightedRows& rows,                                           \
+                               const QuadraticCorrection<D>::Square* inverse, const double* reach, \
+                               QuadraticCorrection<D>::Record* nodes, std::int64_t begin,          \
+                               std::int64_t end) {                                                 \
+    fit_nodes<D>(rows, inverse, reach, nodes, begin, end);                                         \
+  }                                                                                                \
+  DIPTYCH_CLONES void apply_rows(const WeightedRows& rows,                                         \
+                                 const QuadraticCorrection<D>::Record* nodes, const double* h,     \
+                                 Vec3* out, std::int64_t begin, std::int64_t end) {                \
+    apply_nodes<D>(rows, nodes, h, out, begin, end);                                               \
+  }
+DIPTYCH_INSTANTIATE(2)
+DIPTYCH_INSTANTIATE(3)
+#undef DIPTYCH_INSTANTIATE
 
 }  // namespace diptych::closure

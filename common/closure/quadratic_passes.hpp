@@ -60,39 +60,23 @@ DIPTYCH_INLINE void difference(const Record& a, const Record& b, double* X) {
     X[i] = b.value[i][3] - a.value[i][3];
 }
 
-using Record2 = QuadraticCorrection<2>::Record;
-using Record3 = QuadraticCorrection<3>::Record;
-using Square2 = QuadraticCorrection<2>::Square;
-using Square3 = QuadraticCorrection<3>::Square;
-
 /// rho of nodes [begin, end).  @param inverse, reach  [n_nodes] of QuadraticCorrection
-void fit_rows(const WeightedRows& rows,
-              const Square2* inverse,
-              const double* reach,
-              Record2* nodes,
-              std::int64_t begin,
-              std::int64_t end);
-void fit_rows(const WeightedRows& rows,
-              const Square3* inverse,
-              const double* reach,
-              Record3* nodes,
-              std::int64_t begin,
-              std::int64_t end);
+#define DIPTYCH_DECLARE(D)                                                                      \
+  void fit_rows(const WeightedRows& rows, const QuadraticCorrection<D>::Square* inverse,        \
+                const double* reach, QuadraticCorrection<D>::Record* nodes, std::int64_t begin, \
+                std::int64_t end);
+DIPTYCH_DECLARE(2)
+DIPTYCH_DECLARE(3)
+#undef DIPTYCH_DECLARE
 
 /// What they add to the conditions of nodes [begin, end).
 /// @param h    [n_nodes] m
 /// @param out  [n_nodes * (1 + dimension)]
-void apply_rows(const WeightedRows& rows,
-                const Record2* nodes,
-                const double* h,
-                Vec3* out,
-                std::int64_t begin,
-                std::int64_t end);
-void apply_rows(const WeightedRows& rows,
-                const Record3* nodes,
-                const double* h,
-                Vec3* out,
-                std::int64_t begin,
-                std::int64_t end);
+#define DIPTYCH_DECLARE(D)                                                               \
+  void apply_rows(const WeightedRows& rows, const QuadraticCorrection<D>::Record* nodes, \
+                  const double* h, Vec3* out, std::int64_t begin, std::int64_t end);
+DIPTYCH_DECLARE(2)
+DIPTYCH_DECLARE(3)
+#undef DIPTYCH_DECLARE
 
 }  // namespace diptych::closure
