@@ -3,9 +3,12 @@
 #include "common/run/quantities.hpp"
 #include "common/run/references.hpp"
 #include "meshes/cell_checks.hpp"
+#include "meshes/incidence.hpp"
 
 #include <filesystem>
 #include <limits>
+#include <memory>
+#include <optional>
 
 namespace diptych::harness {
 
@@ -22,6 +25,16 @@ double largest_loss(const cases::Case& setup) {
   return limiter == "none" || limiter == "sign-preserving" ? 0.5 : all;
 }
 
+/// Nothing is made before something asks.
+run::NodesAround nodes_around(const meshes::Mesh& mesh) {
+  auto graph = std::make_shared<std::optional<meshes::NodalGraph>>();
+  return [&mesh, graph](std::int32_t a, std::vector<std::int32_t>& nodes) {
+    if (!*graph) *graph = meshes::nodal_graph(mesh);
+    const auto around = (*graph)->around(a);
+    nodes.insert(nodes.end(), around.begin(), around.end());
+  };
+}
+
 double energy_of_rounding(const cases::Case& setup, const Scene& scene) {
   return run::energy_of_rounding(setup.material.density, scene.solver->undeformed_speed(),
                                  scene.graph.Omega);
@@ -35,7 +48,7 @@ CaseObservers::CaseObservers(const cases::Case& setup,
     : setup_(setup),
       options_(options),
       scene_(scene),
-      probes_(setup.probes, scene.graph),
+      probes_(setup.probes, scene.graph, nodes_around(scene.mesh.mesh)),
       deformed_(scene.mesh.mesh),
       cells_([this](std::span<const algebra::Vec3> u) {
         const auto least = deformed_.least(u);
@@ -53,7 +66,10 @@ CaseObservers::CaseObservers(const cases::Case& setup,
   if (options.scales) scales_.emplace(scene.graph);
   if (options.shapes)
     shapes_.emplace(scene.mesh.mesh, static_cast<size_t>(setup.output.frames) + 1);
-  if (setup.guards.inverted_cells == "stop") cell_guard_.emplace(cells_);
+  if (setup.guards.inverted_cells == "stop") {
+    cell_watch_.emplace(*scene.solver, cells_);
+    cell_guard_.emplace(cells_);
+  }
   if (setup.scheme.energy_budget) {
     energy_guard_.emplace(scene.solver->balance(), setup.guards.energy_residual,
                           largest_loss(setup), energy_of_rounding(setup, scene));
@@ -81,7 +97,9 @@ void CaseObservers::open() {
 }
 
 std::vector<run::Observer*> CaseObservers::all() {
-  std::vector<run::Observer*> all{&cells_, &history_};
+  std::vector<run::Observer*> all{&cells_};
+  if (cell_watch_) all.push_back(&*cell_watch_);
+  all.push_back(&history_);
   if (scales_) all.push_back(&*scales_);
   all.push_back(&exact_);
   all.push_back(&fields_);

@@ -7,6 +7,7 @@
 #include "benchmarks/run/scene.hpp"
 #include "benchmarks/run/shape_recorder.hpp"
 #include "common/run/observers/cell_guard.hpp"
+#include "common/run/observers/cell_watch.hpp"
 #include "common/run/observers/cells.hpp"
 #include "common/run/observers/energy_guard.hpp"
 #include "common/run/observers/exact_comparison.hpp"
@@ -62,6 +63,7 @@ class CaseObservers {
   ProgressObserver progress_;
   std::optional<run::FieldScales> scales_;
   std::optional<ShapeRecorder> shapes_;
+  std::optional<run::CellWatch> cell_watch_;
   std::optional<run::CellGuard> cell_guard_;
   std::optional<run::EnergyGuard> energy_guard_;
   run::InvolutionGuard involution_guard_;

@@ -105,12 +105,14 @@ struct OutputCase {
 /// [[probe]]
 struct ProbeCase {
   std::string name, unit;
-  std::string kind = "point";           ///< point, mean, integral, least, greatest, reaction
+  std::string kind = "point";           ///< see probe.kind
   functions::Expression quantity;       ///< of the fields of `fields` and of place and time
   std::shared_ptr<ProbeFields> fields;  ///< what the expression reads
   Vec3 at = Vec3::Zero();               ///< m
   std::vector<std::string> groups;      ///< empty: the body
-  Vec3 direction = Vec3::Zero();        ///< of a reaction
+  /// Of place alone; it looks at nodes where this is not 0.
+  std::optional<functions::Expression> region;
+  Vec3 direction = Vec3::Zero();  ///< of a reaction
   bool every_step = false;
   bool oscillation = false;  ///< read period and decrement
   functions::SourcePlace where;

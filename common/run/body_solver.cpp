@@ -1,6 +1,7 @@
 #include "common/run/body_solver.hpp"
 
 #include "common/base/error.hpp"
+#include "common/parallel/for_chunks.hpp"
 #include "common/run/initial_state.hpp"
 #include "common/run/ranks/rank_set_up.hpp"
 #include "common/run/ranks/sharing_archive.hpp"
@@ -93,6 +94,13 @@ StepReport BodySolver<Dim>::step(double t_limit) {
 }
 
 template <int Dim>
+bool BodySolver<Dim>::take_back() {
+  if (max_retries_ == 0) return false;
+  begin_.restore(moving_);
+  return true;
+}
+
+template <int Dim>
 void BodySolver<Dim>::give(parallel::Communicator& ranks, scheme::PairGraph& graph) {
   const scheme::Sweeps<Dim>& sweeps = moving_.sweeps;
   RankSetUp set_up{moving_.body.options, sweeps.time_step().cfl, sweeps.geometric_rate()};
@@ -155,6 +163,23 @@ template <int Dim>
 Snapshot BodySolver<Dim>::snapshot(std::span<const std::int32_t> nodes) const {
   scheme::gather_unknowns(moving_.body, nodes);
   return scheme::snapshot_of(material(), moving_.body, time(), nodes);
+}
+
+template <int Dim>
+std::vector<algebra::Vec3> BodySolver<Dim>::displacements() const {
+  has_fields_of_others_ = true;
+  const scheme::Body<Dim>& body = moving_.body;
+  scheme::gather_displacements(moving_.body);
+  if (body.part().rank() != 0) return {};
+  const scheme::Undivided<Dim> gathered(moving_.body);
+  std::vector<algebra::Vec3> u(static_cast<size_t>(body.n_owned), algebra::Vec3::Zero());
+  parallel::for_chunks(body.n_owned, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      for (int i = 0; i < Dim; ++i)
+        u[a][i] = body.u.at(a, i);
+    }
+  });
+  return u;
 }
 
 template <int Dim>

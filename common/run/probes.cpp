@@ -79,28 +79,54 @@ Probes::PlacedProbe Probes::placed(const cases::ProbeCase& probe, const scheme::
     result.nodes.resize(graph.X.size());
     std::iota(result.nodes.begin(), result.nodes.end(), 0);
     result.weights = graph.Omega;
-    return result;
+  } else {
+    std::map<std::int32_t, double> area;
+    for (const std::string& group : probe.groups) {
+      const scheme::BoundaryPatch& patch = boundary_group(graph, group, probe.where);
+      for (size_t k = 0; k < patch.nodes.size(); ++k)
+        area[patch.nodes[k]] += patch.area[k].norm();
+    }
+    for (const auto& [node, weight] : area) {
+      result.nodes.push_back(node);
+      result.weights.push_back(weight);
+    }
   }
-  std::map<std::int32_t, double> area;
-  for (const std::string& group : probe.groups) {
-    const scheme::BoundaryPatch& patch = boundary_group(graph, group, probe.where);
-    for (size_t k = 0; k < patch.nodes.size(); ++k)
-      area[patch.nodes[k]] += patch.area[k].norm();
-  }
-  for (const auto& [node, weight] : area) {
-    result.nodes.push_back(node);
-    result.weights.push_back(weight);
-  }
+  if (probe.region) keep_region(graph, result);
   return result;
 }
 
-Probes::Probes(const std::vector<cases::ProbeCase>& probes, const scheme::PairGraph& graph) {
+void Probes::keep_region(const scheme::PairGraph& graph, PlacedProbe& placed) {
+  const cases::ProbeCase& probe = placed.probe;
+  PlacedProbe kept{probe, {}, {}};
+  bool any = false;
+  for (size_t k = 0; k < placed.nodes.size(); ++k) {
+    const bool in_region = (*probe.region)(graph.X[placed.nodes[k]], 0) != 0;
+    any = any || in_region;
+    // a checkerboard is seen against neighbours, which may be outside
+    if (!in_region && probe.kind != "checkerboard") continue;
+    kept.nodes.push_back(placed.nodes[k]);
+    kept.weights.push_back(in_region ? placed.weights[k] : 0);
+  }
+  if (!any) {
+    throw base::InputError(
+        fmt::format("{}no node of probe '{}' is in its region, '{}'; give it one "
+                    "in reference coordinates [m]",
+                    functions::prefix(probe.where), probe.name, probe.region->text()));
+  }
+  placed = std::move(kept);
+}
+
+Probes::Probes(const std::vector<cases::ProbeCase>& probes,
+               const scheme::PairGraph& graph,
+               const NodesAround& around) {
   if (probes.empty()) return;
   X_ = graph.X;
   for (const cases::ProbeCase& probe : probes) {
     const PlacedProbe where = placed(probe, graph);
     all_.add(where);
     if (probe.every_step) stepped_.add(where);
+    if (probe.kind == "checkerboard" && !checkerboard_)
+      checkerboard_.emplace(graph.X, graph.Omega, graph.dimension, around);
   }
 }
 
@@ -159,7 +185,8 @@ std::vector<std::optional<double>> Probes::exact_values(const Snapshot& exact) c
 
 double Probes::reduced(const std::string& kind,
                        const std::vector<double>& values,
-                       const std::vector<double>& weights) {
+                       const std::vector<double>& weights) const {
+  if (kind == "checkerboard") return checkerboard_->part_of(values, weights);
   if (kind == "least") return *std::min_element(values.begin(), values.end());
   if (kind == "greatest") return *std::max_element(values.begin(), values.end());
   const double integral = std::inner_product(values.begin(), values.end(), weights.begin(), 0.0);

@@ -4,6 +4,7 @@
 /// Test: tests/common/run/probes_test.cpp
 
 #include "common/cases/case.hpp"
+#include "common/run/checkerboard.hpp"
 #include "common/run/solver.hpp"
 
 #include <optional>
@@ -19,8 +20,11 @@ std::vector<std::string> probe_columns(const std::vector<cases::ProbeCase>& prob
 
 class Probes {
  public:
+  /// @param around  only called where a probe is of kind checkerboard, and not kept
   /// @throws base::InputError on a group that the graph lacks, a point outside
-  Probes(const std::vector<cases::ProbeCase>& probes, const scheme::PairGraph& graph);
+  Probes(const std::vector<cases::ProbeCase>& probes,
+         const scheme::PairGraph& graph,
+         const NodesAround& around);
 
   bool empty() const { return all_.probes.empty(); }
   size_t size() const { return all_.probes.size(); }
@@ -39,7 +43,7 @@ class Probes {
   struct PlacedProbe {
     cases::ProbeCase probe;
     std::vector<std::int32_t> nodes;  ///< ascending
-    std::vector<double> weights;      ///< [nodes] m^2 or m^3
+    std::vector<double> weights;      ///< [nodes] m^2 or m^3; 0 where only neighbours read it
   };
   struct Selection {
     std::vector<PlacedProbe> probes;
@@ -48,13 +52,16 @@ class Probes {
   };
   Selection all_, stepped_;
   std::vector<Vec3> X_;  ///< [n_nodes] m
+  std::optional<Checkerboard> checkerboard_;
 
   std::vector<double> evaluate(const Selection& selection, Solver& solver) const;
-  /// point, mean, integral, least or greatest of values with weights.
-  static double reduced(const std::string& kind,
-                        const std::vector<double>& values,
-                        const std::vector<double>& weights);
+  /// What a probe of any kind but reaction makes of the values at its nodes.
+  double reduced(const std::string& kind,
+                 const std::vector<double>& values,
+                 const std::vector<double>& weights) const;
   static PlacedProbe placed(const cases::ProbeCase& probe, const scheme::PairGraph& graph);
+  /// @throws base::InputError where no node is left
+  static void keep_region(const scheme::PairGraph& graph, PlacedProbe& placed);
 };
 
 }  // namespace diptych::run

@@ -35,6 +35,10 @@ Ending Simulation::run() {
   Ending ending = Ending::breakdown;
   try {
     ending = advance();
+  } catch (const RefusedStep& error) {
+    breakdown_ = error;
+    take_back();
+    keep_last_state();
   } catch (const base::BreakdownError& error) {
     breakdown_ = error;
     keep_last_state();
@@ -141,6 +145,8 @@ void Simulation::archive(algebra::Archive& archive) {
 void Simulation::advance_to(double limit) {
   while (solver_.time() < limit && !is_interrupted() && !is_at_step_limit()) {
     const auto start = Clock::now();
+    totals_before_ = totals_;
+    before_ = last_;
     totals_.begun = totals_.steps + 1;
     last_ = solver_.step(limit);
     totals_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
@@ -180,6 +186,15 @@ void Simulation::output() {
 Snapshot Simulation::take_state() {
   if (state_.u.empty() && solver_.is_sound()) solver_.take_snapshot(state_);
   return std::move(state_);
+}
+
+/// The last step, as if it had broken down.
+void Simulation::take_back() {
+  if (!solver_.take_back()) return;
+  const std::int64_t begun = totals_.begun;
+  totals_ = totals_before_;
+  totals_.begun = begun;
+  last_ = before_;
 }
 
 void Simulation::keep_last_state() {

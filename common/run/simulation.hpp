@@ -80,6 +80,7 @@ class Simulation {
   void advance_to(double limit);
   void output();
   void check();
+  void take_back();
   void keep_last_state();
   bool is_interrupted() const { return interrupted_ && interrupted_(); }
   bool is_at_step_limit() const;
@@ -92,6 +93,8 @@ class Simulation {
   std::function<bool()> interrupted_;
   StepTotals totals_;
   StepReport last_;
+  StepTotals totals_before_;  ///< the last step; its report, too
+  StepReport before_;
   std::int64_t judged_ = 0;  // step
   std::int64_t n_outputs_ = 0;
   Snapshot state_;  ///< of the last output; its fields are gone once the body has moved on

@@ -40,13 +40,18 @@ class Solver {
   /// time.max_retries times, or dt has collapsed. The body then is as it was before the step, but
   /// with no retries as it has ended up
   virtual StepReport step(double t_limit) = 0;
+  /// Puts the body back to where it was before the last step, to its last bits; nothing else may
+  /// have changed it since. @return false, with nothing done, where it keeps no such state
+  /// (time.max_retries = 0)
+  virtual bool take_back() = 0;
   virtual double time() const = 0;
   /// Of rank 0: gives other ranks what their make_given_solver() asks for.
   /// @param graph  of this solver; it stays as it is
   virtual void give(parallel::Communicator& ranks, scheme::PairGraph& graph) = 0;
   /// Shares the body, and the state that it has on rank 0, with other ranks, which have been given
   /// a solver: each works its part from now on. All ranks then make the same calls of what is not
-  /// const, of balance(), take_snapshot() and exact_state(); rank 0 alone has their whole results.
+  /// const, of balance(), take_snapshot(), displacements() and exact_state(); rank 0 alone has
+  /// their whole results.
   /// @param partition  of parallel::partitioners()
   /// @throws base::InputError where there are too many ranks, on all of them
   virtual void divide(parallel::Communicator& ranks, const std::string& partition) = 0;
@@ -68,6 +73,8 @@ class Solver {
   }
   /// Fields of these nodes only, in this order.
   virtual Snapshot snapshot(std::span<const std::int32_t> nodes) const = 0;
+  /// Of all nodes  [m]
+  virtual std::vector<algebra::Vec3> displacements() const = 0;
   /// Force of supports and walls on these nodes (ascending) at the time of the state  [N]
   virtual algebra::Vec3 reaction(const std::vector<std::int32_t>& nodes) = 0;
   /// XXH3 (128 bits) of the unknowns and the time; `order[a]` is the user's number of node a.

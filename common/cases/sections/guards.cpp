@@ -46,9 +46,11 @@ SectionEntry guards_section() {
                 "1e-4"})
           .key("inverted_cells", &GuardsCase::inverted_cells,
                one_of({"stop", "warn"},
-                      "What happens where, at an output instant, cells of the deformed mesh are "
-                      "inside out: the run is stopped (code 3), or goes on, warns, and "
-                      "has the status \"unsound\" at its end (code 3 too).",
+                      "What happens where cells of the deformed mesh turn inside out: the run is "
+                      "stopped (code 3) with the body as it was before that step (they are looked "
+                      "at every 16 steps, the more often the faster the least of them nears zero), "
+                      "or goes on, warns, and has the status \"unsound\" at its end (code 3 too) "
+                      "if cells are inside out at an output instant.",
                       "\"warn\""));
   return plain_section({"guards", false, "What stops a run that is no solution any more."}, keys,
                        &Case::guards);

@@ -25,10 +25,13 @@ SectionKeys<ProbeCase> probe_keys() {
       .key("unit", KeyType::text,
            {"-", any, "Unit of the quantity; \"-\" for none.", "\"m\"", "required"})
       .key("kind", &ProbeCase::kind,
-           one_of({"point", "mean", "integral", "least", "greatest", "reaction"},
+           one_of({"point", "mean", "integral", "least", "greatest", "checkerboard", "reaction"},
                   "point (value at the node nearest to `at`), mean (over the area of the groups, "
                   "or over the volume of the body), integral (the same, not divided), least, "
-                  "greatest (over the nodes of the groups or of the body), reaction (force that "
+                  "greatest (over the nodes of the groups or of the body), checkerboard (what "
+                  "linear fits to the neighbours of each node leave of it, over what it differs "
+                  "from its mean, both as norms over the body: 1 where it alternates from node to "
+                  "node, a few hundredths where it is smooth and resolved), reaction (force that "
                   "supports and walls exert on the nodes of the groups).",
                   "\"mean\""))
       .key("quantity", KeyType::scalar_field,
@@ -44,6 +47,11 @@ SectionKeys<ProbeCase> probe_keys() {
       .key("group", KeyType::groups,
            {"-", any, "Mesh group, or a list of them.", "\"x_max\"",
             "with reaction; optional with mean ... greatest"})
+      .key("region", KeyType::scalar_field,
+           {"-", any,
+            "Only the nodes in whose reference position this expression of x, y, z and parameters "
+            "is not 0.",
+            "\"z >= 1 && x < 0.5\"", "optional with mean ... checkerboard"})
       .key("direction", KeyType::vector,
            {"-", any, "The component of the reaction along this vector; any length but 0.",
             "[0, 0, 1]", "with reaction"})
@@ -65,6 +73,15 @@ void read_quantity(const SectionValues& section,
   const auto refuse = [&](const char* name) {
     section.refuse(name, fmt::format("has no effect on kind = \"{}\"; remove it", probe.kind));
   };
+  if (probe.kind == "reaction" || probe.kind == "point") {
+    refuse("region");
+  } else if (section.has("region")) {
+    probe.region = section.scalar_field("region", vocabulary);  // which has no fields yet
+    if (probe.region->depends_on_time())
+      section.fail("region", fmt::format("= '{}' depends on the time; write it in x, y, z and "
+                                         "parameters",
+                                         probe.region->text()));
+  }
   if (probe.kind == "reaction") {
     refuse("quantity");
     probe.direction = section.direction("direction");
@@ -80,6 +97,7 @@ void read_quantity(const SectionValues& section,
     probe.at = section.vector("at");
   } else {
     refuse("at");
+    if (probe.kind == "checkerboard") refuse("group");
     if (probe.kind == "reaction" || section.has("group")) probe.groups = section.groups("group");
   }
 }

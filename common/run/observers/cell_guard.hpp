@@ -1,6 +1,7 @@
 #pragma once
-/// Stops a run whose cells have turned inside out: the body has passed through itself between its
-/// nodes, and what comes after is no solution. Test: tests/common/run/guards_test.cpp
+/// Stops a run whose cells have turned inside out by an output, unseen by cell_watch.hpp or where
+/// no step can be taken back: the body has passed through itself between its nodes, and what comes
+/// after is no solution. Test: tests/common/run/guards_test.cpp
 
 #include "common/run/observers/cells.hpp"
 

@@ -1,9 +1,20 @@
 #include "common/run/observers/cells.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <utility>
 
 namespace diptych::run {
+
+std::string LeastCell::message(std::int64_t step, double time) const {
+  return fmt::format(
+      "{} of {} cells are inside out, step {}, time {:.6g} s\n"
+      "  the worst (deformed over undeformed volume {:.3g}) had its centre at X = ({:.6g}, {:.6g}, "
+      "{:.6g}) m\n"
+      "  the body has passed through itself between nodes: refine, load more slowly, or use the "
+      "sign-preserving limiter; guards.inverted_cells = \"warn\" lets the run go on",
+      n_inverted, n_cells, step, time, J, centre[0], centre[1], centre[2]);
+}
 
 Cells::Cells(std::function<LeastCell(std::span<const algebra::Vec3> u)> least)
     : least_(std::move(least)) {}

@@ -4,6 +4,7 @@
 /// of every output time. Test: tests/common/run/simulation_test.cpp
 
 #include "common/algebra/archive.hpp"
+#include "common/base/error.hpp"
 #include "common/run/solver.hpp"
 
 #include <cstdint>
@@ -27,6 +28,13 @@ struct Check {
   const StepReport& step;
   const scheme::Balance& balance;
   const scheme::Audit& audit;
+};
+
+/// Thrown by after_step(): a breakdown, of which the last good state is that before the step. It is
+/// put back to it, where it can be.
+class RefusedStep : public base::BreakdownError {
+ public:
+  using BreakdownError::BreakdownError;
 };
 
 /// What an observer throws ends the simulation, a base::BreakdownError as a breakdown.

@@ -19,9 +19,11 @@ namespace {
 enum class Task : std::int32_t {
   share,
   step,
+  take_back,
   balance,
   snapshot,
   snapshot_of_nodes,
+  displacements,
   reaction,
   gather,
   load,
@@ -32,10 +34,20 @@ enum class Task : std::int32_t {
 };
 
 const char* name_of(Task task) {
-  constexpr const char* names[] = {
-      "set-up",         "a step",     "a balance",   "a snapshot",
-      "probes",         "a reaction", "a gathering", "loading a checkpoint",
-      "an exact state", "the costs",  "the memory",  "the end"};
+  constexpr const char* names[] = {"set-up",
+                                   "a step",
+                                   "taking a step back",
+                                   "a balance",
+                                   "a snapshot",
+                                   "probes",
+                                   "displacements",
+                                   "a reaction",
+                                   "a gathering",
+                                   "loading a checkpoint",
+                                   "an exact state",
+                                   "the costs",
+                                   "the memory",
+                                   "the end"};
   return names[static_cast<int>(task)];
 }
 
@@ -165,6 +177,9 @@ void carry_out(const Order& order,
       solver.step(order.time);
       break;
     }
+    case Task::take_back:
+      (void)solver.take_back();
+      break;
     case Task::balance:
       (void)solver.balance();
       break;
@@ -173,6 +188,9 @@ void carry_out(const Order& order,
       break;
     case Task::snapshot_of_nodes:
       (void)solver.snapshot(received<std::int32_t>(ranks, order.n));
+      break;
+    case Task::displacements:
+      (void)solver.displacements();
       break;
     case Task::reaction:
       solver.reaction(received<std::int32_t>(ranks, order.n));
@@ -232,6 +250,11 @@ StepReport LeadingSolver::step(double t_limit) {
   return work_together(ranks_, Task::step, [&] { return solver_->step(t_limit); });
 }
 
+bool LeadingSolver::take_back() {
+  ask(ranks_, Task::take_back);
+  return work_together(ranks_, Task::take_back, [&] { return solver_->take_back(); });
+}
+
 void LeadingSolver::give(parallel::Communicator&, scheme::PairGraph&) {}
 
 void LeadingSolver::divide(parallel::Communicator&, const std::string&) {}
@@ -254,6 +277,11 @@ void LeadingSolver::take_snapshot(Snapshot& snapshot) const {
 Snapshot LeadingSolver::snapshot(std::span<const std::int32_t> nodes) const {
   send_nodes(ranks_, Task::snapshot_of_nodes, nodes);
   return work_together(ranks_, Task::snapshot_of_nodes, [&] { return solver_->snapshot(nodes); });
+}
+
+std::vector<algebra::Vec3> LeadingSolver::displacements() const {
+  ask(ranks_, Task::displacements);
+  return work_together(ranks_, Task::displacements, [&] { return solver_->displacements(); });
 }
 
 algebra::Vec3 LeadingSolver::reaction(const std::vector<std::int32_t>& nodes) {

@@ -38,6 +38,7 @@ class LeadingSolver : public Solver {
   RankMemory memory() const;
 
   StepReport step(double t_limit) override;
+  bool take_back() override;
   void give(parallel::Communicator& ranks, scheme::PairGraph& graph) override;
   void divide(parallel::Communicator& ranks, const std::string& partition) override;
   void gather() override;
@@ -49,6 +50,7 @@ class LeadingSolver : public Solver {
   const scheme::Interventions& interventions() const override { return solver_->interventions(); }
   void take_snapshot(Snapshot& snapshot) const override;
   Snapshot snapshot(std::span<const std::int32_t> nodes) const override;
+  std::vector<algebra::Vec3> displacements() const override;
   algebra::Vec3 reaction(const std::vector<std::int32_t>& nodes) override;
   std::string state_hash(const std::vector<std::int32_t>& order) const override;
   void archive(algebra::Archive& archive) override;

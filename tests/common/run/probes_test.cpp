@@ -3,6 +3,7 @@
 #include "common/run/probes.hpp"
 
 #include "common/base/error.hpp"
+#include "meshes/incidence.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -40,9 +41,17 @@ std::string probe(const std::string& lines) {
   return "[[probe]]\nname = \"q\"\nunit = \"-\"\n" + lines + "\n";
 }
 
+run::Probes probes_of(const Scene& s) {
+  const meshes::NodalGraph graph = meshes::nodal_graph(s.mesh.mesh);
+  return {s.setup.probes, s.graph, [&](std::int32_t a, std::vector<std::int32_t>& nodes) {
+            const auto around = graph.around(a);
+            nodes.insert(nodes.end(), around.begin(), around.end());
+          }};
+}
+
 double value(const std::string& lines, const std::string& more = "") {
   Scene s = scene_of("fvm", stretched + more + probe(lines));
-  return run::Probes(s.setup.probes, s.graph).values(*s.solver).at(0);
+  return probes_of(s).values(*s.solver).at(0);
 }
 
 TEST(Probes, ReadEachKindFromKnownFields) {
@@ -55,6 +64,15 @@ TEST(Probes, ReadEachKindFromKnownFields) {
               1e-14);
   EXPECT_DOUBLE_EQ(value("kind = \"least\"\nquantity = \"vy - 1\""), -1);
   EXPECT_DOUBLE_EQ(value("kind = \"greatest\"\ngroup = \"x_max\"\nquantity = \"k*vy\""), 0.6);
+  EXPECT_NEAR(value("kind = \"mean\"\nregion = \"x >= 1 + k/2\"\nquantity = \"x\""),
+              value("kind = \"integral\"\nquantity = \"x > 1 ? x : 0\"") /
+                  value("kind = \"integral\"\nquantity = \"x > 1 ? 1 : 0\""),
+              1e-14);
+  EXPECT_DOUBLE_EQ(
+      value("kind = \"least\"\ngroup = \"y_max\"\nregion = \"x > 1\"\nquantity = \"x\""), 1.5);
+  // a linear field leaves nothing, a uniform one has nothing
+  EXPECT_NEAR(value("kind = \"checkerboard\"\nquantity = \"vy - z\""), 0, 1e-14);
+  EXPECT_EQ(value("kind = \"checkerboard\"\nquantity = \"Fxx\""), 0);
 }
 
 TEST(Probes, StressesAreThoseOfTheState) {
@@ -80,8 +98,7 @@ TEST(Probes, ReactionHoldsTheBodyThatIsPulled) {
             probe("kind = \"reaction\"\ngroup = \"x_min\"\ndirection = [-2, 0, 0]"),
         {std::string("time.integrator=\"") + integrator + "\"", "initial.velocity=[0, 0, 0]"});
     // pulled outwards, the force on the body points to -x
-    EXPECT_NEAR(run::Probes(s.setup.probes, s.graph).values(*s.solver).at(0), P, 1e-9 * P)
-        << integrator;
+    EXPECT_NEAR(probes_of(s).values(*s.solver).at(0), P, 1e-9 * P) << integrator;
   }
 }
 
@@ -89,17 +106,17 @@ TEST(Probes, OfEveryStepAreASubset) {
   Scene s = scene_of("fvm", stretched + probe("at = [2, 1, 1]\nquantity = \"ux\"") +
                                 "[[probe]]\nname = \"w\"\nunit = \"m\"\nevery_step = true\n"
                                 "kind = \"mean\"\nquantity = \"2*t + Fxx\"\n");
-  const run::Probes probes(s.setup.probes, s.graph);
+  const run::Probes probes = probes_of(s);
   ASSERT_TRUE(probes.has_stepped());
   ASSERT_EQ(probes.stepped_values(*s.solver).size(), 1u);
   EXPECT_DOUBLE_EQ(probes.stepped_values(*s.solver)[0], 1.1);
-  EXPECT_TRUE(run::Probes({}, s.graph).empty());
+  EXPECT_TRUE(run::Probes({}, s.graph, {}).empty());
 }
 
 std::string refusal(const std::string& text) {
   try {
     Scene s = scene_of("fvm", stretched + text);
-    run::Probes(s.setup.probes, s.graph);
+    probes_of(s);
   } catch (const base::InputError& error) {
     return error.what();
   }
@@ -113,6 +130,16 @@ TEST(Probes, BadOnesAreRefusedWithAPlaceAndAWayOut) {
   EXPECT_THAT(refusal(probe("kind = \"mean\"\ngroup = \"x_mx\"\nquantity = \"ux\"")),
               HasSubstr("'x_max'"));
   EXPECT_THAT(refusal(probe("kind = \"least\"\nat = [0, 0, 0]\nquantity = \"ux\"")),
+              HasSubstr("no effect on kind"));
+  EXPECT_THAT(refusal(probe("kind = \"mean\"\nregion = \"x > 2\"\nquantity = \"ux\"")),
+              HasSubstr("no node of probe 'q' is in its region"));
+  EXPECT_THAT(refusal(probe("kind = \"mean\"\nregion = \"x > t\"\nquantity = \"ux\"")),
+              HasSubstr("depends on the time"));
+  EXPECT_THAT(refusal(probe("kind = \"mean\"\nregion = \"ux > 2\"\nquantity = \"ux\"")),
+              HasSubstr("ux"));
+  EXPECT_THAT(refusal(probe("at = [0, 0, 0]\nregion = \"x > 2\"\nquantity = \"ux\"")),
+              HasSubstr("no effect on kind"));
+  EXPECT_THAT(refusal(probe("kind = \"checkerboard\"\ngroup = \"x_max\"\nquantity = \"ux\"")),
               HasSubstr("no effect on kind"));
   EXPECT_THAT(refusal(probe("kind = \"reaction\"\ngroup = \"x_min\"\ndirection = [0, 0, 0]")),
               HasSubstr("no direction"));

@@ -6,6 +6,7 @@
 #include "common/base/error.hpp"
 #include "common/io/checkpoint_file.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/run/observers/cell_watch.hpp"
 #include "common/run/observers/energy_guard.hpp"
 #include "common/run/observers/exact_comparison.hpp"
 #include "common/run/observers/field_scales.hpp"
@@ -47,10 +48,11 @@ class Route {
         const std::vector<std::string>& overrides,
         std::int64_t last_step = 0)
       : scene_(tests::scene_of(method, text, all(overrides, last_step))),
-        probes_(scene_.setup.probes, scene_.graph),
+        probes_(scene_.setup.probes, scene_.graph, {}),
         cells_([](auto u) {
           return LeastCell{1 + u[0][0], 0, 1, u[0]};
         }),
+        watch_(*scene_.solver, cells_),
         history_(*scene_.solver, probes_, cells_),
         steps_(*scene_.solver, probes_),
         exact_(scene_.setup, scene_.graph, *scene_.solver, probes_),
@@ -58,7 +60,7 @@ class Route {
         guard_(scene_.solver->balance(), 1e9, 1e9, 1e-9),
         simulation_(scene_.setup,
                     *scene_.solver,
-                    {&cells_, &history_, &steps_, &exact_, &scales_, &guard_}) {}
+                    {&cells_, &watch_, &history_, &steps_, &exact_, &scales_, &guard_}) {}
 
   /// Goes on from the file.
   void load(const std::string& path) {
@@ -118,6 +120,7 @@ class Route {
   Scene scene_;
   Probes probes_;
   Cells cells_;
+  CellWatch watch_;
   History history_;
   StepProbes steps_;
   ExactComparison exact_;
