@@ -40,10 +40,12 @@ double step_of(const cases::Case& setup,
                const ElasticRatios& ratios,
                LargestRates<Dim> largest,
                const time::Integrator& integrator) {
-  const double strength = setup.scheme.dissipation *
-                          scheme::strength_of(scheme::limiter_menu().at(setup.scheme.limiter));
+  const double limiter = scheme::strength_of(scheme::limiter_menu().at(setup.scheme.limiter));
+  const double strength = setup.scheme.dissipation * limiter;
   const double omega = largest.frequency(ratios);
-  const double d = strength * largest.dissipation(ratios.shear);
+  // a limiter of shocks, which compress
+  const double d = strength * (limiter > 1 ? largest.dissipation_turned(ratios.shear)
+                                           : largest.dissipation(ratios.shear));
   double dt = std::min(integrator.default_dt_omega / omega,
                        dissipation_share * real_extent(integrator) / d);
   if (integrator.is_leapfrog()) {

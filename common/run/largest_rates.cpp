@@ -137,6 +137,26 @@ double LargestRates<Dim>::dissipation(double shear_ratio) {
 }
 
 template <int Dim>
+void LargestRates<Dim>::put_cofactors(int axis, double across) {
+  for_nodes(body_.n_owned, [&](std::int64_t a) {
+    for (int i = 0; i < Dim; ++i)
+      body_.records.set(a, NodeRecord<Dim>::H + i * (Dim + 1), i == axis ? 0 : across - 1);
+  });
+}
+
+template <int Dim>
+double LargestRates<Dim>::dissipation_turned(double shear_ratio) {
+  constexpr double across = 0.1;
+  double largest = 0;
+  for (int axis = 0; axis < Dim; ++axis) {
+    put_cofactors(axis, across);
+    largest = std::max(largest, dissipation(shear_ratio));
+  }
+  put_cofactors(0, 1);
+  return largest;
+}
+
+template <int Dim>
 double LargestRates<Dim>::frequency(const ElasticRatios& ratios) {
   put_impedances(ratios.shear);
   return std::sqrt(lanczos::largest_eigenvalue<Four>(

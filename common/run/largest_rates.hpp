@@ -31,6 +31,11 @@ class LargestRates {
   /// scheme.dissipation = 1, per unit of c_p  [1/m]
   double dissipation(double shear_ratio);
 
+  /// The largest d of the states in which the cofactor of F turns all deformed areas towards one
+  /// direction of the axes, as a strong compression along it does: D_ab then acts along it with z_p
+  /// over all pairs that are not square to it. On lattices of edges the same as at rest.  [1/m]
+  double dissipation_turned(double shear_ratio);
+
   /// omega of u -> G* (lambda tr(e) I + 2 mu e) with e the symmetric part of G u, G the gradient of
   /// (18b) and G* its adjoint; what cells carry of lambda acts on their volumes. On a lattice the
   /// fastest is a pressure wave, at free boundaries up to sqrt(2) times as fast as inside, where
@@ -49,6 +54,8 @@ class LargestRates {
   void put_velocities(const Vectors& v);
   /// Impedances of the dissipation; no stresses.
   void put_impedances(double shear_ratio);
+  /// H of all nodes: the identity, but for this part of it across an axis; none: all of it.
+  void put_cofactors(int axis, double across);
   /// out <- -T / Omega for the stresses and impedances in the records.
   void divide_forces(Vectors& out) const;
   /// out <- (K + strength D) u in one sweep.

@@ -83,6 +83,22 @@ TEST(LargestRates, KnowTheDissipationOfALattice) {
 // A pressure wave: inside 1 along a line, at its free end sqrt(2): of the first two nodes u_0 alone
 // moves, strains u_0 in Omega = 1/2 and u_0/2 in Omega = 1 give omega^2 = (1/2 + 1/4)/(1/2) and
 // more. Both directions together are up to sqrt(2) times as fast, at the corners.
+// Areas of edges stay on their lines; particles have neighbours in all directions, whose areas
+// turn.
+TEST(LargestRates, KnowTheDissipationOfTurnedAreas) {
+  constexpr double r = 0.3;
+  RatesOf<2> edges(squares(24, 24));
+  EXPECT_NEAR(edges->dissipation_turned(r), edges->dissipation(r), 1e-6);
+  const auto mesh =
+      meshes::box(meshes::CellType::quadrilateral, {0, 0, 0}, {24, 24, 0}, {24, 24, 1});
+  const scheme::PairGraph graph = sph::build_graph(mesh, {.kappa = 1.2});
+  RatesOf<2> particles(graph);
+  const double at_rest = particles->dissipation(r), turned = particles->dissipation_turned(r);
+  EXPECT_GT(turned, 1.05 * at_rest);
+  EXPECT_LT(turned, particles->dissipation(1)) << "z_p in all directions";
+  EXPECT_EQ(particles->dissipation(r), at_rest) << "H is the identity again";
+}
+
 TEST(LargestRates, KnowTheFrequencyOfALatticeWithItsBoundary) {
   const auto graph = squares(24, 24);
   const double plain = RatesOf<2>(graph)->frequency({0.535});
