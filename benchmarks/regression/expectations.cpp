@@ -16,11 +16,14 @@ namespace {
 
 using cases::UnmetCase;
 
-const UnmetCase* unmet_of(const cases::ExpectCase& expect, const ExpectedRun& asked) {
-  const auto found = std::find_if(expect.unmet.begin(), expect.unmet.end(), [&](const auto& entry) {
-    return entry.method == asked.method && entry.variant == asked.variant;
-  });
-  return found == expect.unmet.end() ? nullptr : &*found;
+/// In the order of the case.
+std::vector<UnmetCase> unmet_of(const cases::ExpectCase& expect, const ExpectedRun& asked) {
+  std::vector<UnmetCase> entries;
+  std::copy_if(expect.unmet.begin(), expect.unmet.end(), std::back_inserter(entries),
+               [&](const UnmetCase& entry) {
+                 return entry.method == asked.method && entry.variant == asked.variant;
+               });
+  return entries;
 }
 
 std::string first_line(const std::string& text) {
@@ -100,9 +103,11 @@ std::vector<RegressCheck> judged_by(const UnmetCase& unmet,
     return checks;
   }
   if (all_met(concerned)) {
-    return {failure(expect_check, prefix + "unmet",
-                    fmt::format("{}the pass numbers are met now: remove this entry ({})",
-                                functions::prefix(unmet.where), unmet.because))};
+    std::erase_if(checks, is_of_entry);
+    checks.push_back(failure(expect_check, prefix + "unmet",
+                             fmt::format("{}the pass numbers are met now: remove this entry ({})",
+                                         functions::prefix(unmet.where), unmet.because)));
+    return checks;
   }
   const auto endings = ending_checks(prefix, run, unmet.stops, unmet.by_step);
   if (!all_met(endings)) return endings;
@@ -139,8 +144,9 @@ std::vector<RegressCheck> expectation_checks(const cases::ExpectCase& expect,
                                              const std::vector<io::HistoryRow>& history) {
   const std::string prefix = asked.variant.empty() ? "" : asked.variant + ", ";
   std::vector<RegressCheck> checks = wished(expect, prefix, run, history);
-  const UnmetCase* unmet = unmet_of(expect, asked);
-  return unmet == nullptr ? checks : judged_by(*unmet, prefix, run, std::move(checks));
+  for (const UnmetCase& unmet : unmet_of(expect, asked))
+    checks = judged_by(unmet, prefix, run, std::move(checks));
+  return checks;
 }
 
 std::map<std::string, ExpectationMeasurement> measure_expectations(const cases::Case& setup,

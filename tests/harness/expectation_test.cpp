@@ -103,6 +103,20 @@ TEST_F(Expectation, OfOneFigureLeavesTheOthersAsked) {
   EXPECT_THAT(regress_table({row()}), HasSubstr("'least K' was not judged"));
 }
 
+TEST_F(Expectation, EachOfSeveralEntriesIsOfItsFigure) {
+  knows("", 0);
+  expect.unmet.push_back(expect.unmet[0]);
+  expect.unmet[0].figure = "least J";
+  expect.unmet[1].figure = "energy residual";
+  run.min_jacobian = 0.4;
+  run.energy.relative_residual = 0.5;
+  EXPECT_EQ(count(Verdict::known), 2U);
+  EXPECT_EQ(code(), base::ExitCode::done);
+  run.min_jacobian = 0.6;
+  EXPECT_EQ(count(Verdict::known), 1U);
+  EXPECT_THAT(regress_table({row()}), HasSubstr("met now: remove this entry"));
+}
+
 TEST_F(Expectation, ThatIsMetInSpiteOfAnEntryAsksToRemoveIt) {
   knows("inside out", 10);
   EXPECT_EQ(code(), base::ExitCode::bound_not_met);
