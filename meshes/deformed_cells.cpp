@@ -6,6 +6,7 @@
 #include "meshes/face_flux.hpp"
 #include "meshes/shape_integrals.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -117,21 +118,39 @@ DeformedCells::DeformedCells(const Mesh& mesh)
 }
 
 DeformedCells::Least DeformedCells::least(std::span<const Vec3> u) const {
-  std::vector<Least> parts(static_cast<size_t>(parallel::n_chunks_of(mesh_.n_cells())), none);
-  parallel::for_chunks(mesh_.n_cells(), [&](std::int64_t begin, std::int64_t end,
-                                            std::int64_t chunk) {
-    double volumes[parallel::chunk_size];
-    put_volumes(
-        mesh_, begin, end, [&](std::int32_t a) -> Vec3 { return mesh_.nodes[a] + u[a]; }, volumes);
-    for (std::int64_t c = begin; c < end; ++c) {
-      const double J = volumes[c - begin] / volume_[c];
-      add({J, J > 0 ? 0 : 1, c}, parts[chunk]);
-    }
-  });
-  Least least = none;
-  for (const Least& part : parts)
-    add(part, least);
-  return least;
+  return outlook(u, {}, 0).now;
+}
+
+DeformedCells::Outlook DeformedCells::outlook(std::span<const Vec3> u,
+                                              std::span<const Vec3> v,
+                                              double dt) const {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const auto n_chunks = static_cast<size_t>(parallel::n_chunks_of(mesh_.n_cells()));
+  std::vector<Outlook> parts(n_chunks, {none, never});
+  parallel::for_chunks(
+      mesh_.n_cells(), [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
+        double now[parallel::chunk_size], next[parallel::chunk_size];
+        put_volumes(
+            mesh_, begin, end, [&](std::int32_t a) -> Vec3 { return mesh_.nodes[a] + u[a]; }, now);
+        if (!v.empty()) {
+          put_volumes(
+              mesh_, begin, end,
+              [&](std::int32_t a) -> Vec3 { return mesh_.nodes[a] + u[a] + dt * v[a]; }, next);
+        }
+        Outlook& part = parts[chunk];
+        for (std::int64_t c = begin; c < end; ++c) {
+          const double volume = now[c - begin], J = volume / volume_[c];
+          add({J, J > 0 ? 0 : 1, c}, part.now);
+          if (v.empty() || !(next[c - begin] < volume)) continue;
+          part.steps_left = std::min(part.steps_left, volume / (volume - next[c - begin]));
+        }
+      });
+  Outlook all{none, never};
+  for (const Outlook& part : parts) {
+    add(part.now, all.now);
+    all.steps_left = std::min(all.steps_left, part.steps_left);
+  }
+  return all;
 }
 
 }  // namespace diptych::meshes

@@ -31,6 +31,15 @@ class DeformedCells {
   /// @param u  [n_nodes] displacements, m
   Least least(std::span<const Vec3> u) const;
 
+  struct Outlook {
+    Least now;
+    double steps_left = 0;  ///< least J/(J - J of the next step); infinite where none gets smaller
+  };
+  /// And in how many steps the first cell would come to nothing if each lost in all of them what it
+  /// loses in the next one.
+  /// @param v  [n_nodes] velocities, m/s  @param dt  s
+  Outlook outlook(std::span<const Vec3> u, std::span<const Vec3> v, double dt) const;
+
  private:
   const Mesh& mesh_;
   std::vector<double> volume_;  // [n_cells] m^3 (m^2 in 2-D)

@@ -5,6 +5,7 @@
 #include "benchmarks/run/memory_estimate.hpp"
 #include "benchmarks/run/scene.hpp"
 #include "common/base/error.hpp"
+#include "common/run/probes.hpp"
 #include "common/run/solver.hpp"
 
 #include <algorithm>
@@ -53,6 +54,8 @@ CaseCheck check_case(const cases::Case& setup, const std::string& method, int le
                 check.pairs = made.graph.n_pairs();
               });
   run::Solver& solver = *scene.solver;
+  const auto nowhere = [](std::int32_t, std::vector<std::int32_t>&) {};
+  const run::Probes have_places(setup.probes, scene.graph, nowhere);
   check.building_bytes = peak_rss_bytes() - before;
   meshes::Mesh& mesh = scene.mesh.mesh;
   check.estimated_bytes = setup.mesh.file.empty() ? estimate_memory(setup, method, level).bytes

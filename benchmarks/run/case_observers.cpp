@@ -35,6 +35,11 @@ run::NodesAround nodes_around(const meshes::Mesh& mesh) {
   };
 }
 
+run::LeastCell least_cell(const meshes::Mesh& mesh, const meshes::DeformedCells::Least& least) {
+  return {least.J, least.n_inverted, mesh.n_cells(), meshes::centre_of(mesh, least.cell),
+          mesh.cell(least.cell)[0]};
+}
+
 double energy_of_rounding(const cases::Case& setup, const Scene& scene) {
   return run::energy_of_rounding(setup.material.density, scene.solver->undeformed_speed(),
                                  scene.graph.Omega);
@@ -51,9 +56,7 @@ CaseObservers::CaseObservers(const cases::Case& setup,
       probes_(setup.probes, scene.graph, nodes_around(scene.mesh.mesh)),
       deformed_(scene.mesh.mesh),
       cells_([this](std::span<const algebra::Vec3> u) {
-        const auto least = deformed_.least(u);
-        return run::LeastCell{least.J, least.n_inverted, scene_.mesh.mesh.n_cells(),
-                              meshes::centre_of(scene_.mesh.mesh, least.cell)};
+        return least_cell(scene_.mesh.mesh, deformed_.least(u));
       }),
       history_(*scene.solver, probes_, cells_),
       steps_(*scene.solver, probes_),
@@ -67,7 +70,10 @@ CaseObservers::CaseObservers(const cases::Case& setup,
   if (options.shapes)
     shapes_.emplace(scene.mesh.mesh, static_cast<size_t>(setup.output.frames) + 1);
   if (setup.guards.inverted_cells == "stop") {
-    cell_watch_.emplace(*scene.solver, cells_);
+    cell_watch_.emplace(*scene.solver, [this](const run::Motion& motion, double dt) {
+      const auto outlook = deformed_.outlook(motion.u, motion.v, dt);
+      return run::CellOutlook{least_cell(scene_.mesh.mesh, outlook.now), outlook.steps_left};
+    });
     cell_guard_.emplace(cells_);
   }
   if (setup.scheme.energy_budget) {

@@ -71,7 +71,8 @@ StepReport BodySolver<Dim>::step(double t_limit) {
   for (int rejected = 0;; ++rejected) {
     const double dt = time::attempt_step(moving_, t_limit);
     if (time::is_sound(moving_)) {
-      const StepReport report{clock.step, clock.time, dt, moving_.sweeps.least_J(), rejected};
+      const StepReport report{clock.step, clock.time,           dt, moving_.sweeps.least_J(),
+                              rejected,   clock.time >= t_limit};
       if (!is_judged) return report;
       const bool is_last = rejected == max_retries_ || dt / 2 < clock.least_share * clock.first_dt;
       const EnergyBudget ended = budget();
@@ -166,20 +167,24 @@ Snapshot BodySolver<Dim>::snapshot(std::span<const std::int32_t> nodes) const {
 }
 
 template <int Dim>
-std::vector<algebra::Vec3> BodySolver<Dim>::displacements() const {
+Motion BodySolver<Dim>::motion() const {
   has_fields_of_others_ = true;
   const scheme::Body<Dim>& body = moving_.body;
-  scheme::gather_displacements(moving_.body);
+  scheme::gather_motion(moving_.body);
   if (body.part().rank() != 0) return {};
   const scheme::Undivided<Dim> gathered(moving_.body);
-  std::vector<algebra::Vec3> u(static_cast<size_t>(body.n_owned), algebra::Vec3::Zero());
+  const auto n = static_cast<size_t>(body.n_owned);
+  Motion motion{std::vector<algebra::Vec3>(n, algebra::Vec3::Zero()),
+                std::vector<algebra::Vec3>(n, algebra::Vec3::Zero())};
   parallel::for_chunks(body.n_owned, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
     for (std::int64_t a = begin; a < end; ++a) {
-      for (int i = 0; i < Dim; ++i)
-        u[a][i] = body.u.at(a, i);
+      for (int i = 0; i < Dim; ++i) {
+        motion.u[a][i] = body.u.at(a, i);
+        motion.v[a][i] = body.v.at(a, i);
+      }
     }
   });
-  return u;
+  return motion;
 }
 
 template <int Dim>

@@ -36,7 +36,7 @@ class BodySolver : public Solver {
   const scheme::Interventions& interventions() const override { return moving_.interventions; }
   void take_snapshot(Snapshot& snapshot) const override;
   Snapshot snapshot(std::span<const std::int32_t> nodes) const override;
-  std::vector<algebra::Vec3> displacements() const override;
+  Motion motion() const override;
   algebra::Vec3 reaction(const std::vector<std::int32_t>& nodes) override;
   std::string state_hash(const std::vector<std::int32_t>& order) const override;
   void archive(algebra::Archive& archive) override;

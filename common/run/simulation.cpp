@@ -191,6 +191,9 @@ Snapshot Simulation::take_state() {
 /// The last step, as if it had broken down.
 void Simulation::take_back() {
   if (!solver_.take_back()) return;
+  breakdown_ = base::BreakdownError(
+      std::string(breakdown_->what()) + "\n  the body is left as it was before that step",
+      breakdown_->node().value_or(0));
   const std::int64_t begun = totals_.begun;
   totals_ = totals_before_;
   totals_.begun = begun;

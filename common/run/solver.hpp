@@ -28,7 +28,13 @@ struct StepReport {
   double time = 0;        ///< s, at its end
   double dt = 0;          ///< s
   double least_J = 1;
-  int rejected = 0;  ///< attempts at it before, with larger steps
+  int rejected = 0;          ///< attempts at it before, with larger steps
+  bool is_at_limit = false;  ///< it ends at an instant of output
+};
+
+/// Of all nodes.
+struct Motion {
+  std::vector<algebra::Vec3> u, v;  ///< m, m/s
 };
 
 class Solver {
@@ -50,7 +56,7 @@ class Solver {
   virtual void give(parallel::Communicator& ranks, scheme::PairGraph& graph) = 0;
   /// Shares the body, and the state that it has on rank 0, with other ranks, which have been given
   /// a solver: each works its part from now on. All ranks then make the same calls of what is not
-  /// const, of balance(), take_snapshot(), displacements() and exact_state(); rank 0 alone has
+  /// const, of balance(), take_snapshot(), motion() and exact_state(); rank 0 alone has
   /// their whole results.
   /// @param partition  of parallel::partitioners()
   /// @throws base::InputError where there are too many ranks, on all of them
@@ -73,8 +79,7 @@ class Solver {
   }
   /// Fields of these nodes only, in this order.
   virtual Snapshot snapshot(std::span<const std::int32_t> nodes) const = 0;
-  /// Of all nodes  [m]
-  virtual std::vector<algebra::Vec3> displacements() const = 0;
+  virtual Motion motion() const = 0;
   /// Force of supports and walls on these nodes (ascending) at the time of the state  [N]
   virtual algebra::Vec3 reaction(const std::vector<std::int32_t>& nodes) = 0;
   /// XXH3 (128 bits) of the unknowns and the time; `order[a]` is the user's number of node a.

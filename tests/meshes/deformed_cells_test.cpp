@@ -69,6 +69,23 @@ TEST(DeformedCells, AnAffineMotionGivesEveryCellItsDeterminant) {
   }
 }
 
+TEST(DeformedCells, TheOutlookCountsTheStepsThatTheFirstCellHasLeft) {
+  for (const CellType type : all_types) {
+    SCOPED_TRACE(name_of(type));
+    const Mesh mesh = moved_box(type);
+    const std::vector<Vec3> u(mesh.nodes.size(), Vec3::Zero());
+    std::vector<Vec3> v;
+    for (const Vec3& X : mesh.nodes)
+      v.emplace_back(-2 * X[0], 0, 0);
+    const auto outlook = DeformedCells(mesh).outlook(u, v, 0.01);
+    EXPECT_NEAR(outlook.steps_left, 50, 1e-6) << "a fiftieth of each is lost in a step";
+    EXPECT_EQ(outlook.now.J, DeformedCells(mesh).least(u).J);
+    for (Vec3& of_node : v)
+      of_node[0] *= -1;
+    EXPECT_GT(DeformedCells(mesh).outlook(u, v, 0.01).steps_left, 1e300) << "all grow";
+  }
+}
+
 TEST(DeformedCells, EightTogetherHaveTheBitsOfOne) {
   for (const CellType type : all_types) {
     SCOPED_TRACE(name_of(type));

@@ -48,7 +48,8 @@ SectionEntry guards_section() {
                one_of({"stop", "warn"},
                       "What happens where cells of the deformed mesh turn inside out: the run is "
                       "stopped (code 3) with the body as it was before that step (they are looked "
-                      "at every 16 steps, the more often the faster the least of them nears zero), "
+                      "at every 48 steps, and the more often the sooner one would have no volume "
+                      "left; with time.max_retries = 0 the step stays), "
                       "or goes on, warns, and has the status \"unsound\" at its end (code 3 too) "
                       "if cells are inside out at an output instant.",
                       "\"warn\""));

@@ -24,16 +24,18 @@ SectionKeys<ProbeCase> probe_keys() {
             "\"tip deflection\"", "required"})
       .key("unit", KeyType::text,
            {"-", any, "Unit of the quantity; \"-\" for none.", "\"m\"", "required"})
-      .key("kind", &ProbeCase::kind,
-           one_of({"point", "mean", "integral", "least", "greatest", "checkerboard", "reaction"},
-                  "point (value at the node nearest to `at`), mean (over the area of the groups, "
-                  "or over the volume of the body), integral (the same, not divided), least, "
-                  "greatest (over the nodes of the groups or of the body), checkerboard (what "
-                  "linear fits to the neighbours of each node leave of it, over what it differs "
-                  "from its mean, both as norms over the body: 1 where it alternates from node to "
-                  "node, a few hundredths where it is smooth and resolved), reaction (force that "
-                  "supports and walls exert on the nodes of the groups).",
-                  "\"mean\""))
+      .key(
+          "kind", &ProbeCase::kind,
+          one_of({"point", "mean", "integral", "least", "greatest", "checkerboard", "reaction"},
+                 "point (value at the node nearest to `at`), mean (over the area of the groups, "
+                 "or over the volume of the body), integral (the same, not divided), least, "
+                 "greatest (over the nodes of the groups or of the body), checkerboard (what "
+                 "linear fits to the neighbours of each node leave of it, over what it differs "
+                 "from its mean, both as norms over the body or region: 1 to 1.5 where it "
+                 "alternates from node to node, falling with the square of the spacing where it is "
+                 "smooth), reaction (force that "
+                 "supports and walls exert on the nodes of the groups).",
+                 "\"mean\""))
       .key("quantity", KeyType::scalar_field,
            {"that of probe.unit", any,
             "Expression of the fields at a node: displacement ux, uy, uz, velocity vx, vy, vz, "
@@ -50,7 +52,7 @@ SectionKeys<ProbeCase> probe_keys() {
       .key("region", KeyType::scalar_field,
            {"-", any,
             "Only the nodes in whose reference position this expression of x, y, z and parameters "
-            "is not 0.",
+            "is not 0, each with its whole volume or area.",
             "\"z >= 1 && x < 0.5\"", "optional with mean ... checkerboard"})
       .key("direction", KeyType::vector,
            {"-", any, "The component of the reaction along this vector; any length but 0.",

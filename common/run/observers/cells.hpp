@@ -18,6 +18,7 @@ struct LeastCell {
   std::int64_t n_inverted = 0;
   std::int64_t n_cells = 0;
   algebra::Vec3 centre = algebra::Vec3::Zero();  ///< m, undeformed, of the cell with that J
+  std::int32_t node = 0;                         ///< a corner of it
 
   /// Of a breakdown: how many are inside out, where the worst of them is, what to do.
   std::string message(std::int64_t step, double time) const;
@@ -33,8 +34,6 @@ class Cells : public Observer {
   void archive(algebra::Archive& archive) override;
   /// At the last output time.
   const LeastCell& now() const { return now_; }
-  /// At any other.  @param u  [n_nodes] m
-  LeastCell of(std::span<const algebra::Vec3> u) const { return least_(u); }
   /// Least of all output times, most inverted ones, the first time with such.
   void fill(io::RunSummary& summary) const;
 

@@ -20,8 +20,9 @@ void EnergyGuard::refuse_gain(const Check& check, double gained) const {
   throw base::BreakdownError(fmt::format(
       "numerical dissipation has given the body {:.3g} of the largest energy so far, bound {:g}, "
       "{}\n"
-      "  what is left of linear reconstructions has the wrong sign here: use scheme.limiter = "
-      "\"sign-preserving\" or scheme.reconstruction = \"none\"; guards.energy_residual raises the "
+      "  what is left of linear reconstructions has the wrong sign here: use scheme.reconstruction "
+      "= "
+      "\"symmetric\" or scheme.limiter = \"sign-preserving\"; guards.energy_residual raises the "
       "bound",
       gained / energy_.scale(), threshold_, instant_of(check.step)));
 }
@@ -49,6 +50,12 @@ void EnergyGuard::refuse_residual(const Check& check, double residual, double bo
       residual, bound, instant_of(check.step)));
 }
 
+void EnergyGuard::after_step(const StepReport& step) {
+  constexpr double rounding = 1e-12;
+  is_at_rest_ = is_at_rest_ && std::abs(step.least_J - 1) <= rounding;
+  if (is_at_rest_) judged_from_ = step.step + steps_of_start;
+}
+
 void EnergyGuard::at_check(const Check& check) {
   const io::EnergySummary energy = energy_.at(check.balance, check.audit);
   const double residual = energy.relative_residual;
@@ -57,7 +64,8 @@ void EnergyGuard::at_check(const Check& check) {
   const double lost = energy.numerical_dissipation, scale = energy_.scale();
   if (-lost > threshold_ * scale + least_energy_) refuse_gain(check, -lost);
   if (!std::isfinite(residual)) refuse_residual(check, residual, threshold_);
-  if (held <= least_energy_) judged_from_ = check.step.step + steps_of_start;
+  is_at_rest_ = held <= least_energy_;
+  if (is_at_rest_) judged_from_ = check.step.step + steps_of_start;
   const bool is_start = check.step.step < judged_from_;
   const double bound =
       is_start ? std::max(threshold_, bound_of_start(check.step.step)) : threshold_;

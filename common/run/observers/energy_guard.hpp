@@ -34,6 +34,9 @@ class EnergyGuard : public Observer {
   /// of its own, the latter none: see steps_of_start.
   /// @throws base::BreakdownError
   void at_check(const Check& check) override;
+  /// A body at rest stays so for as long as no J of a node moves: between two checks a load may set
+  /// in.
+  void after_step(const StepReport& step) override;
   void at_output(const Output& output) override {
     at_check({output.step, output.balance, output.audit});
   }
@@ -41,6 +44,9 @@ class EnergyGuard : public Observer {
   void archive(algebra::Archive& archive) override {
     energy_.archive("energy guard", archive);
     archive.integer("energy guard/judged from step", judged_from_);
+    std::int64_t at_rest = is_at_rest_ ? 1 : 0;
+    archive.integer("energy guard/at rest", at_rest);
+    is_at_rest_ = at_rest != 0;
   }
 
   /// A load on a body at rest brings, in its first steps, less energy than a step errs by. Beyond
@@ -59,6 +65,7 @@ class EnergyGuard : public Observer {
   EnergyRecord energy_;
   double threshold_, largest_loss_, least_energy_;
   std::int64_t judged_from_ = 0;  // step
+  bool is_at_rest_ = false;       // since the last check
 };
 
 }  // namespace diptych::run

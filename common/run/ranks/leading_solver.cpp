@@ -23,7 +23,7 @@ enum class Task : std::int32_t {
   balance,
   snapshot,
   snapshot_of_nodes,
-  displacements,
+  motion,
   reaction,
   gather,
   load,
@@ -34,20 +34,10 @@ enum class Task : std::int32_t {
 };
 
 const char* name_of(Task task) {
-  constexpr const char* names[] = {"set-up",
-                                   "a step",
-                                   "taking a step back",
-                                   "a balance",
-                                   "a snapshot",
-                                   "probes",
-                                   "displacements",
-                                   "a reaction",
-                                   "a gathering",
-                                   "loading a checkpoint",
-                                   "an exact state",
-                                   "the costs",
-                                   "the memory",
-                                   "the end"};
+  constexpr const char* names[] = {
+      "set-up",         "a step",     "taking a step back", "a balance",   "a snapshot",
+      "probes",         "the motion", "a reaction",         "a gathering", "loading a checkpoint",
+      "an exact state", "the costs",  "the memory",         "the end"};
   return names[static_cast<int>(task)];
 }
 
@@ -189,8 +179,8 @@ void carry_out(const Order& order,
     case Task::snapshot_of_nodes:
       (void)solver.snapshot(received<std::int32_t>(ranks, order.n));
       break;
-    case Task::displacements:
-      (void)solver.displacements();
+    case Task::motion:
+      (void)solver.motion();
       break;
     case Task::reaction:
       solver.reaction(received<std::int32_t>(ranks, order.n));
@@ -279,9 +269,9 @@ Snapshot LeadingSolver::snapshot(std::span<const std::int32_t> nodes) const {
   return work_together(ranks_, Task::snapshot_of_nodes, [&] { return solver_->snapshot(nodes); });
 }
 
-std::vector<algebra::Vec3> LeadingSolver::displacements() const {
-  ask(ranks_, Task::displacements);
-  return work_together(ranks_, Task::displacements, [&] { return solver_->displacements(); });
+Motion LeadingSolver::motion() const {
+  ask(ranks_, Task::motion);
+  return work_together(ranks_, Task::motion, [&] { return solver_->motion(); });
 }
 
 algebra::Vec3 LeadingSolver::reaction(const std::vector<std::int32_t>& nodes) {

@@ -123,10 +123,11 @@ void gather(Body<Dim>& body, Role role) {
 }
 
 template <int Dim>
-void gather_displacements(Body<Dim>& body) {
+void gather_motion(Body<Dim>& body) {
   if (!body.division) return;
-  for (const Field<Dim>* place :
-       places_of(body, [&](const Field<Dim>& field) { return field.block == &Body<Dim>::u; }))
+  for (const Field<Dim>* place : places_of(body, [&](const Field<Dim>& field) {
+         return field.block == &Body<Dim>::u || field.table == &Body<Dim>::v;
+       }))
     gather_field(body, *place);
 }
 
@@ -158,7 +159,7 @@ void gather_unknowns(Body<Dim>& body, std::span<const std::int32_t> nodes) {
   template void begin_exchange(Body<Dim>&, Tables<Dim>);  \
   template void finish_exchange(Body<Dim>&, Tables<Dim>); \
   template void gather(Body<Dim>&, Role);                 \
-  template void gather_displacements(Body<Dim>&);         \
+  template void gather_motion(Body<Dim>&);                \
   template void gather_state(Body<Dim>&);                 \
   template void gather_unknowns(Body<Dim>&, std::span<const std::int32_t>);
 DIPTYCH_INSTANTIATE(2)

@@ -43,9 +43,9 @@ void sweep_with(Body<Dim>& body,
 template <int Dim>
 void gather(Body<Dim>& body, Role role);
 
-/// Brings the displacements to rank 0.
+/// Brings displacements and velocities to rank 0.
 template <int Dim>
-void gather_displacements(Body<Dim>& body);
+void gather_motion(Body<Dim>& body);
 
 /// All that is of the state as it stands, of every role but step_begin.
 template <int Dim>

@@ -52,7 +52,10 @@ class Route {
         cells_([](auto u) {
           return LeastCell{1 + u[0][0], 0, 1, u[0]};
         }),
-        watch_(*scene_.solver, cells_),
+        watch_(*scene_.solver,
+               [](const Motion& motion, double) {
+                 return CellOutlook{{1 + motion.u[0][0], 0, 1}, 40};
+               }),
         history_(*scene_.solver, probes_, cells_),
         steps_(*scene_.solver, probes_),
         exact_(scene_.setup, scene_.graph, *scene_.solver, probes_),
