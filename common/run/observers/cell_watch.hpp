@@ -6,6 +6,7 @@
 #include "common/run/observers/cells.hpp"
 
 #include <functional>
+#include <limits>
 
 namespace diptych::run {
 
@@ -28,15 +29,16 @@ class CellWatch : public Observer {
 
   /// Steps between looks at most: one costs 0.6 of the cheapest step.
   static constexpr std::int64_t period = 48;
-  /// The next look is due when this part of the steps has passed that the first cell has left, for
+  /// The next look is due when this part of the time has passed that the first cell has left, for
   /// it may become faster; at an output; or when the least J of nodes, which is known of every
   /// step, has fallen by this part of that of the least cell.
-  static constexpr double of_steps = 0.25, of_J = 0.1;
+  static constexpr double of_time = 0.25, of_J = 0.1;
 
  private:
   const Solver& solver_;
   Look look_;
-  std::int64_t next_ = 1;  // step
+  std::int64_t next_step_ = 1;
+  double next_time_ = std::numeric_limits<double>::max();  // s
   // of the last look
   double J_ = 1, nodal_J_ = 1;
 };
