@@ -54,8 +54,6 @@ CaseCheck check_case(const cases::Case& setup, const std::string& method, int le
                 check.pairs = made.graph.n_pairs();
               });
   run::Solver& solver = *scene.solver;
-  const auto nowhere = [](std::int32_t, std::vector<std::int32_t>&) {};
-  const run::Probes have_places(setup.probes, scene.graph, nowhere);
   check.building_bytes = peak_rss_bytes() - before;
   meshes::Mesh& mesh = scene.mesh.mesh;
   check.estimated_bytes = setup.mesh.file.empty() ? estimate_memory(setup, method, level).bytes
@@ -68,6 +66,8 @@ CaseCheck check_case(const cases::Case& setup, const std::string& method, int le
   mesh = {};
   check.running_bytes = settled_memory() - before;
   check.setup_seconds = seconds_since(start);
+  const auto nowhere = [](std::int32_t, std::vector<std::int32_t>&) {};
+  (void)run::Probes(setup.probes, scene.graph, nowhere);  // has their places
   const run::StepReport report = solver.step(setup.time.end);
   check.dt = report.dt;
   check.steps =

@@ -1,8 +1,8 @@
 #include "common/run/body_solver.hpp"
 
 #include "common/base/error.hpp"
-#include "common/parallel/for_chunks.hpp"
 #include "common/run/initial_state.hpp"
+#include "common/run/lanczos.hpp"
 #include "common/run/ranks/rank_set_up.hpp"
 #include "common/run/ranks/sharing_archive.hpp"
 #include "common/run/state_hash.hpp"
@@ -176,12 +176,10 @@ Motion BodySolver<Dim>::motion() const {
   const auto n = static_cast<size_t>(body.n_owned);
   Motion motion{std::vector<algebra::Vec3>(n, algebra::Vec3::Zero()),
                 std::vector<algebra::Vec3>(n, algebra::Vec3::Zero())};
-  parallel::for_chunks(body.n_owned, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-    for (std::int64_t a = begin; a < end; ++a) {
-      for (int i = 0; i < Dim; ++i) {
-        motion.u[a][i] = body.u.at(a, i);
-        motion.v[a][i] = body.v.at(a, i);
-      }
+  lanczos::for_nodes(body.n_owned, [&](std::int64_t a) {
+    for (int i = 0; i < Dim; ++i) {
+      motion.u[a][i] = body.u.at(a, i);
+      motion.v[a][i] = body.v.at(a, i);
     }
   });
   return motion;

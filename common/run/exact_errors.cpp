@@ -1,7 +1,7 @@
 #include "common/run/exact_errors.hpp"
 
 #include "common/functions/placed_values.hpp"
-#include "common/parallel/for_chunks.hpp"
+#include "common/run/lanczos.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,19 +10,7 @@
 namespace diptych::run {
 
 using algebra::Vec3;
-
-namespace {
-
-/// work(a) for all nodes, in parallel.
-template <class Field, class Work>
-void for_nodes(const std::vector<Field>& of, const Work& work) {
-  parallel::for_chunks(std::ssize(of), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-    for (auto a = static_cast<size_t>(begin); a < static_cast<size_t>(end); ++a)
-      work(a);
-  });
-}
-
-}  // namespace
+using lanczos::for_nodes;
 
 ExactErrors::ExactErrors(const cases::Case& setup,
                          const scheme::PairGraph& graph,
@@ -41,9 +29,9 @@ std::vector<Mat3> ExactErrors::exact_deformation_gradients(double t) {
   std::vector<double> values(n_values * graph_.X.size());
   gradients_->at(t, values);
   std::vector<Mat3> F(graph_.X.size(), Mat3::Identity());
-  for_nodes(F, [&](size_t a) {
+  for_nodes(std::ssize(F), [&](std::int64_t a) {
     for (int k = 0; k < d * d; ++k)
-      F[a](k / d, k % d) += values[a * n_values + static_cast<size_t>(k)];
+      F[a](k / d, k % d) += values[static_cast<size_t>(a) * n_values + static_cast<size_t>(k)];
   });
   return F;
 }
@@ -141,13 +129,15 @@ Snapshot ExactErrors::exact_snapshot(double t) {
   const size_t n = graph_.X.size();
   const auto vectors = [&](size_t first) {
     std::vector<Vec3> field(n);
-    for_nodes(field, [&](size_t a) { field[a] = Vec3(values.data() + a * n_values + first); });
+    for_nodes(std::ssize(field), [&](std::int64_t a) {
+      field[a] = Vec3(values.data() + static_cast<size_t>(a) * n_values + first);
+    });
     return field;
   };
   const auto tensors = [&](size_t first) {
     std::vector<Mat3> field(n);
-    for_nodes(field, [&](size_t a) {  // which stands row by row
-      field[a] = Mat3(values.data() + a * n_values + first).transpose();
+    for_nodes(std::ssize(field), [&](std::int64_t a) {  // which stands row by row
+      field[a] = Mat3(values.data() + static_cast<size_t>(a) * n_values + first).transpose();
     });
     return field;
   };
@@ -158,7 +148,7 @@ Snapshot ExactErrors::exact_snapshot(double t) {
   s.F = exact.deformation_gradient ? tensors(of_F) : exact_deformation_gradients(t);
   s.H.resize(n);
   s.J.resize(n);
-  for_nodes(s.F, [&](size_t a) {
+  for_nodes(std::ssize(s.F), [&](std::int64_t a) {
     const auto X = physics::deformation_of(algebra::to_tensor(s.F[a]));
     s.H[a] = algebra::to_eigen(X.H);
     s.J[a] = X.J;
@@ -167,7 +157,8 @@ Snapshot ExactErrors::exact_snapshot(double t) {
     s.P = tensors(of_P);
   } else if (setup_.material.branches.empty()) {
     s.P.resize(n);
-    for_nodes(s.F, [&](size_t a) { s.P[a] = solver_.equilibrium_stress(s.F[a]); });
+    for_nodes(std::ssize(s.F),
+              [&](std::int64_t a) { s.P[a] = solver_.equilibrium_stress(s.F[a]); });
   }
   return s;
 }

@@ -20,10 +20,9 @@ void EnergyGuard::refuse_gain(const Check& check, double gained) const {
   throw base::BreakdownError(fmt::format(
       "numerical dissipation has given the body {:.3g} of the largest energy so far, bound {:g}, "
       "{}\n"
-      "  what is left of linear reconstructions has the wrong sign here: use scheme.reconstruction "
-      "= "
-      "\"symmetric\" or scheme.limiter = \"sign-preserving\"; guards.energy_residual raises the "
-      "bound",
+      "  what is left of linear reconstructions has the wrong sign here: use "
+      "scheme.reconstruction = \"symmetric\" or scheme.limiter = \"sign-preserving\"; "
+      "guards.energy_residual raises the bound",
       gained / energy_.scale(), threshold_, instant_of(check.step)));
 }
 
