@@ -58,10 +58,8 @@ double error_bar(const ColumnConvergence& study, const Quantity& quantity, size_
 /// Scalars of one column for a terminal of 100 columns; empty where there are none.
 std::string quantity_table(const ColumnConvergence& study);
 
-using report::formal_order;
-
 /// Both methods, at the settings of the case, on the finest level: difference of each scalar
-/// against the sum of both error bars, where both methods resolve it (report::why_unresolved).
+/// against the sum of both error bars, as far as both methods resolve it (report::verdict_on).
 /// Empty where there is nothing to compare.
 /// @param causes  quantity: why the methods are apart on it ([[apart]] of the case)
 std::string agreement_table(const std::vector<ColumnConvergence>& studies,

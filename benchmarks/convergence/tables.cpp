@@ -2,6 +2,7 @@
 
 #include "benchmarks/convergence/convergence.hpp"
 #include "benchmarks/terminal/text.hpp"
+#include "postprocess/report/agreement.hpp"
 #include "postprocess/report/orders.hpp"
 
 #include <cmath>
@@ -128,26 +129,23 @@ std::string agreement_line(const ColumnConvergence& first,
                            const ColumnConvergence& second,
                            const Quantity& other,
                            const std::map<std::string, std::string>& causes) {
-  const double difference = std::abs(one.values.back() - other.values.back());
-  const double bars = error_bar(first, one, one.values.size() - 1) +
-                      error_bar(second, other, other.values.size() - 1);
-  if (!std::isfinite(difference + bars)) return "";
-  const double scale = std::max(one.scale, other.scale);
-  std::string verdict = difference <= bars ? "agree" : "APART";
-  const auto look_at = [&](const ColumnConvergence& study, const Quantity& quantity) {
-    const std::string why =
-        report::why_unresolved(estimate(study, quantity, quantity.values.size() - 1), scale,
-                               formal_order(study.levels.back()));
-    if (!why.empty()) verdict = "unresolved: " + study.column + " " + why;
+  const auto side = [](const ColumnConvergence& study, const Quantity& quantity) {
+    const size_t last = quantity.values.size() - 1;
+    return report::ScalarOfMethod{study.column, quantity.values[last],
+                                  error_bar(study, quantity, last), estimate(study, quantity, last),
+                                  report::formal_order(study.levels.back())};
   };
-  look_at(second, other);
-  look_at(first, one);
-  if (verdict == "APART") {
+  const report::Verdict verdict =
+      report::verdict_on(side(first, one), side(second, other), std::max(one.scale, other.scale));
+  if (!std::isfinite(verdict.difference + verdict.allowed)) return "";
+  std::string text = report::verdict_text(verdict);
+  if (verdict.agreement == report::Agreement::apart) {
     const auto cause = causes.find(one.name);
-    verdict += cause == causes.end() ? ": the case has no [[apart]] for it" : ": " + cause->second;
+    text += cause == causes.end() ? ": the case has no [[apart]] for it" : ": " + cause->second;
   }
   return fmt::format("{:<32} {:>10.2e} {:>10.2e}  {}\n",
-                     (one.name + " [" + one.unit + "]").substr(0, 32), difference, bars, verdict);
+                     (one.name + " [" + one.unit + "]").substr(0, 32), verdict.difference,
+                     verdict.allowed, text);
 }
 
 }  // namespace
@@ -188,10 +186,9 @@ std::string agreement_table(const std::vector<ColumnConvergence>& columns,
     }
   }
   if (lines.empty()) return "";
-  std::string text =
-      fmt::format("{}, {} and {} on level {}: apart, and the sum of their error bars\n",
-                  first.case_name, report::column_title(first.column),
-                  report::column_title(second.column), first.levels.back().level);
+  std::string text = fmt::format("{}, {} and {} on level {}: apart, and by how much they may be\n",
+                                 first.case_name, report::column_title(first.column),
+                                 report::column_title(second.column), first.levels.back().level);
   text += std::string(80, '-') + "\n";
   return text + lines;
 }

@@ -10,6 +10,7 @@
 #include "common/parallel/for_chunks.hpp"
 #include "common/run/solver.hpp"
 #include "common/time/step_begin.hpp"
+#include "meshes/deformed_cells.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,7 @@ constexpr char known_motion[] =
     "[manufactured]\ndisplacement = [\"0.1*(1 - cos(20*t))*sin(2*x + 0.3)*cos(y)\", "
     "\"0.1*sin(20*t)*sin(2*y)*cos(x)\"{third}]";
 
-enum class Work { stage, balance, snapshot };
+enum class Work { stage, energies, cells, row, snapshot };
 
 /// A row before it is measured: what it sets, on top of what the row `against` sets.
 struct Option {
@@ -105,8 +106,10 @@ std::vector<Option> options() {
       {"manufactured motion", "", {}, 0, Work::stage, 4, true},
       {"manufactured motion, 1 branch", "1 branch, on Mooney-Rivlin", mooney, 1, Work::stage, 4,
        true},
-      {"history row (each)", "", {}, 0, Work::balance},
-      {"fields for a frame (each)", "", {}, 0, Work::snapshot}};
+      {"energies for the guards (each)", "leapfrog", leapfrog, 0, Work::energies},
+      {"look at cells (each)", "leapfrog", leapfrog, 0, Work::cells},
+      {"history row (each)", "leapfrog", leapfrog, 0, Work::row},
+      {"fields for a frame (each)", "leapfrog", leapfrog, 0, Work::snapshot}};
 }
 
 std::string text_of(int dimension, int cells, bool manufactured) {
@@ -121,19 +124,19 @@ std::string text_of(int dimension, int cells, bool manufactured) {
       arg("third_cells", solid ? fmt::format(", {}", n) : ""), arg("n", n));
 }
 
-/// Seconds of one stage, history row or set of fields.
-double measured(run::Solver& solver, Work work, int n) {
+/// Seconds of one stage, look of the guards, history row or set of fields.
+double measured(run::Solver& solver, const meshes::DeformedCells& cells, Work work, int n) {
   scheme::Snapshot fields;
   if (work == Work::snapshot) solver.take_snapshot(fields);  // its memory
   const double start = probes::seconds(1);
   for (int i = 0; i < n; ++i) {
-    if (work == Work::balance) {
-      solver.balance();
-    } else if (work == Work::snapshot) {
-      solver.take_snapshot(fields);
-    } else {
-      solver.step(1e6);
+    if (work == Work::energies || work == Work::row) solver.balance();
+    if (work == Work::cells || work == Work::row) {  // as the watch of cells does at outputs, too
+      const run::Motion motion = solver.motion();
+      cells.outlook(motion.u, motion.v, 1e-6);
     }
+    if (work == Work::snapshot) solver.take_snapshot(fields);
+    if (work == Work::stage) solver.step(1e6);
   }
   const double each = (probes::seconds(1) - start) / n;
   return work == Work::stage ? each / solver.evaluations_per_step() : each;
@@ -146,7 +149,7 @@ std::vector<double> column(const std::string& method,
                            int rounds,
                            const std::string& name,
                            StatusLine& status) {
-  std::map<std::string, scheme::PairGraph> graphs;  // by precision
+  std::map<std::string, CaseGraph> scenes;  // by precision
   const auto all = options();
   std::vector<std::unique_ptr<run::Solver>> solvers;
   for (const Option& option : all) {
@@ -155,18 +158,19 @@ std::vector<double> column(const std::string& method,
     for (int k = 0; k < option.n_branches; ++k)
       setup.material.branches.push_back({0.5, 1e-3 * (k + 1), 0.5, 2e-3 * (k + 1)});
     const std::string& precision = setup.scheme.precision;
-    if (graphs.count(precision) == 0) graphs.emplace(precision, graph_of(setup, method, 0).graph);
-    solvers.push_back(run::make_solver(setup, graphs.at(precision)));
+    if (scenes.count(precision) == 0) scenes.emplace(precision, graph_of(setup, method, 0));
+    solvers.push_back(run::make_solver(setup, scenes.at(precision).graph));
     solvers.back()->step(1e6);  // pages and caches
   }
+  const meshes::DeformedCells deformed(scenes.begin()->second.mesh.mesh);
   std::vector<double> least(all.size(), std::numeric_limits<double>::infinity());
   for (int round = 0; round < rounds && !interrupt_requested(); ++round) {
     status.show(fmt::format("{}: round {} of {}", name, round + 1, rounds));
     for (size_t i = 0; i < all.size(); ++i)
-      least[i] = std::min(least[i], measured(*solvers[i], all[i].work, all[i].n));
+      least[i] = std::min(least[i], measured(*solvers[i], deformed, all[i].work, all[i].n));
   }
   for (double& seconds : least)
-    seconds *= 1e9 / static_cast<double>(graphs.begin()->second.n_nodes());
+    seconds *= 1e9 / static_cast<double>(scenes.begin()->second.graph.n_nodes());
   return least;
 }
 

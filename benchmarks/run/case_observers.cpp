@@ -55,9 +55,11 @@ CaseObservers::CaseObservers(const cases::Case& setup,
       scene_(scene),
       probes_(setup.probes, scene.graph, nodes_around(scene.mesh.mesh)),
       deformed_(scene.mesh.mesh),
-      cells_([this](std::span<const algebra::Vec3> u) {
-        return least_cell(scene_.mesh.mesh, deformed_.least(u));
-      }),
+      cells_(
+          [this](std::span<const algebra::Vec3> u) {
+            return least_cell(scene_.mesh.mesh, deformed_.least(u));
+          },
+          [this](std::int64_t step) { return cell_watch_ ? cell_watch_->seen(step) : nullptr; }),
       history_(*scene.solver, probes_, cells_),
       steps_(*scene.solver, probes_),
       exact_(setup, scene.graph, *scene.solver, probes_),

@@ -62,7 +62,7 @@ ShapeRecorder::ShapeRecorder(const meshes::Mesh& mesh, size_t n_outputs) : n_out
 void ShapeRecorder::at_output(const run::Output& output) {
   const auto number = static_cast<size_t>(output.number);
   if (number % stride_ != 0 && number + 1 != n_outputs_) return;
-  const run::Snapshot& state = output.state;
+  const run::Snapshot& state = output.state.fields();
   report::ShapeFrame frame;
   frame.time = state.time;
   frame.values.resize(record_.fields.size());

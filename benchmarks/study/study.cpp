@@ -80,8 +80,8 @@ RunOptions run_options(const StudyOptions& options, int level, const Column& col
   run.fields = options.fields;
   run.quiet = options.quiet;
   run.shapes = options.shapes && is_finest && column.variant.empty();
-  const bool is_compared = options.methods.size() == 2 || !options.variants.empty();
-  run.scales = (is_compared && is_finest) || options.keeps_checkpoints;
+  const bool has_others = options.methods.size() == 2 || !options.variants.empty();
+  run.scales = options.differences && has_others && is_finest;
   run.checkpoints = options.keeps_checkpoints;
   if (const auto found = options.checkpoints.find(run.column()); found != options.checkpoints.end())
     run.checkpoint = found->second;
@@ -174,7 +174,7 @@ Study run_study(const cases::Case& setup, const StudyOptions& options) {
   };
   if (!make_runs(plan, options.resume ? TakeOver::finished : TakeOver::nothing, add)) return study;
   if (study.is_empty() && !study.refusals.empty()) refuse_all(study.refusals);
-  add_differences(finest, study);
+  if (options.differences) add_differences(finest, study);
   output.prepare();  // where all runs were taken over
   return study;
 }
@@ -197,7 +197,8 @@ std::vector<std::string> material_lines(const cases::MaterialCase& m) {
 /// Scalars of one column with the error bars that each level and those before it give.
 void add_quantities(const ColumnConvergence& column, report::StudyReport& report) {
   for (const Quantity& scalar : column.scalars) {
-    report::GridSeries series{column.column, {}, std::nullopt, formal_order(column.levels.back())};
+    report::GridSeries series{
+        column.column, {}, std::nullopt, report::formal_order(column.levels.back())};
     for (size_t i = 0; i < scalar.values.size(); ++i) {
       if (!std::isfinite(scalar.values[i])) continue;
       series.estimate = estimate(column, scalar, i);

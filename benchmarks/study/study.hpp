@@ -26,6 +26,7 @@ struct StudyOptions {
   bool resume = false;  ///< runs that the same program has finished there are taken over
   bool force = false;   ///< results of another case in the folder may be replaced
   bool goes_past_refusals = false;  ///< a method that cannot begin leaves the other one to run
+  bool differences = true;          ///< find how far columns are apart at the end
   bool keeps_checkpoints = false;   ///< of runs, see RunOptions::checkpoints
   bool goes_on = false;             ///< with what lies in the folder (one level)
   std::map<std::string, std::string> checkpoints;  ///< method: file to go on from

@@ -3,8 +3,7 @@
 
 #include "benchmarks/terminal/text.hpp"
 #include "benchmarks/verifier/verification.hpp"
-#include "postprocess/report/grid_convergence.hpp"
-#include "postprocess/report/orders.hpp"
+#include "postprocess/report/agreement.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +17,7 @@ namespace {
 struct Estimate {
   std::string method;
   double finest = 0, scale = 0;  ///< scale: its largest size on any level
-  double formal_order = 2;
+  report::FormalOrder formal_order;
   report::GridConvergence convergence;
 };
 
@@ -51,20 +50,17 @@ std::vector<std::string> line_of(const std::string& method, const Estimate& e) {
 
 /// "yes, 0.3 of the bars"; a verdict needs that both methods resolve the value.
 std::string agreement(const Estimate& a, const Estimate& b) {
-  const double scale = std::max(a.scale, b.scale);
-  std::string unresolved;
-  for (const Estimate* one : {&a, &b}) {
-    const std::string why = report::why_unresolved(one->convergence, scale, one->formal_order);
-    if (why.empty()) continue;
-    unresolved += fmt::format("{}{} {}", unresolved.empty() ? "unresolved: " : "; ",
-                              one->method == "fvm" ? "FVM" : "SPH", why);
-  }
-  if (!unresolved.empty()) return unresolved;
-  const double difference = std::abs(a.finest - b.finest);
-  const double bars = a.convergence.error_bar + b.convergence.error_bar;
-  if (difference == 0) return "yes";
-  return fmt::format("{}, {:.2g} of the bars", difference <= bars ? "yes" : "**no**",
-                     difference / bars);
+  const auto side = [](const Estimate& one) {
+    return report::ScalarOfMethod{one.method == "fvm" ? "FVM" : "SPH", one.finest,
+                                  one.convergence.error_bar, one.convergence, one.formal_order};
+  };
+  const report::Verdict verdict = report::verdict_on(side(a), side(b), std::max(a.scale, b.scale));
+  const bool is_apart = verdict.agreement == report::Agreement::apart;
+  if (!is_apart && verdict.agreement != report::Agreement::agree)
+    return report::verdict_text(verdict);
+  if (verdict.difference == 0) return "yes";
+  return fmt::format("{}, {:.2g} of the bars", is_apart ? "**no**" : "yes",
+                     verdict.difference / verdict.allowed);
 }
 
 }  // namespace

@@ -190,9 +190,10 @@ constexpr const char* of_literature =
     "diverge no order stands and the bar is three times\ntheir range). \"agree\": whether |SPH - "
     "FVM| on the finest level is within the sum of both bars, where each method shows an order "
     "within\n"
-    "0.5 of its own and a bar of at most 5 % of the largest value; else \"unresolved\", and why. "
-    "Energies are those "
-    "at the end.\nFlop are counted as 147 a pair update (benchmarks/probes/work_counts.hpp).";
+    "0.5 of its own and a bar of at most 5 % of the largest value; else \"unresolved\", and why: "
+    "near where they are no further\napart than three times what three levels change by, far where "
+    "they are, if that is below the same 5 %. Energies are those at the end.\nFlop are counted as "
+    "147 a pair update (benchmarks/probes/work_counts.hpp).";
 
 /// As a block of code in Markdown.
 std::string indented(const std::string& text) {

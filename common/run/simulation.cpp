@@ -74,7 +74,7 @@ Ending Simulation::advance() {
     const bool ends_early = solver_.time() < instant(frame);
     // a run that goes on from here has no output here
     if (ends_early) checkpoint_at_the_end();
-    if (solver_.time() != state_.time) output();
+    if (solver_.time() != output_time_) output();
     const bool is_limited = is_at_step_limit() && solver_.time() < setup_.time.end;
     if (is_limited || is_interrupted()) {
       if (!ends_early) checkpoint_at_the_end();
@@ -126,7 +126,7 @@ void Simulation::archive(algebra::Archive& archive) {
   archive.integer("last step/rejected", last_.rejected);
   archive.integer("run/judged step", judged_);
   archive.integer("run/outputs", n_outputs_);
-  archive.real("run/time of last output", "s", state_.time);
+  archive.real("run/time of last output", "s", output_time_);
   solver_.archive(archive);
   for (Observer* observer : observers_)
     observer->archive(archive);
@@ -173,14 +173,12 @@ void Simulation::check() {
 void Simulation::output() {
   judged_ = last_.step;
   const scheme::Balance balance = solver_.balance();
-  solver_.take_snapshot(state_);  // also where an observer ends the run with this output
-  const Output output{n_outputs_++, last_, balance, solver_.audit(), state_};
+  output_time_ = solver_.time();
+  OutputState state(solver_, state_);
+  const Output output{n_outputs_++, last_, balance, solver_.audit(), state};
   for (Observer* observer : observers_)
     observer->at_output(output);
-  const double time = state_.time;
-  if (time >= setup_.time.end) return;
-  state_ = {};  // as much memory as a quarter of the body's
-  state_.time = time;
+  if (output_time_ < setup_.time.end) state_ = {};  // as much memory as a quarter of the body's
 }
 
 Snapshot Simulation::take_state() {
@@ -201,10 +199,12 @@ void Simulation::take_back() {
 }
 
 void Simulation::keep_last_state() {
-  if (!solver_.is_sound() || solver_.time() == state_.time) return;  // the last output has it
+  if (!solver_.is_sound() || solver_.time() == output_time_) return;  // the last output has it
   const scheme::Balance balance = solver_.balance();
-  solver_.take_snapshot(state_);
-  const Output output{n_outputs_++, last_, balance, solver_.audit(), state_};
+  output_time_ = solver_.time();
+  state_ = {};
+  OutputState state(solver_, state_);
+  const Output output{n_outputs_++, last_, balance, solver_.audit(), state};
   try {
     for (Observer* observer : observers_)
       observer->at_breakdown(output);

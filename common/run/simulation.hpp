@@ -97,7 +97,8 @@ class Simulation {
   StepReport before_;
   std::int64_t judged_ = 0;  // step
   std::int64_t n_outputs_ = 0;
-  Snapshot state_;  ///< of the last output; its fields are gone once the body has moved on
+  double output_time_ = 0;  // s, of the last output
+  Snapshot state_;  ///< of the last output, as far as taken; gone once the body has moved on
   std::optional<base::BreakdownError> breakdown_;
   Checkpointing checkpoints_;
   std::int64_t kept_ = -1;  // step

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 
 namespace diptych::report {
@@ -37,9 +36,10 @@ GridConvergence grid_convergence(const double (&h)[3], const double (&f)[3], dou
   const double range = std::max({f[0], f[1], f[2]}) - std::min({f[0], f[1], f[2]});
   const auto relative = [&](double bar) { return f[0] != 0 ? bar / std::abs(f[0]) : nothing; };
   if (range <= rounding * size) {
-    result = {Convergence::same, nothing, f[0], range, relative(range)};
+    result = {Convergence::same, nothing, f[0], range, relative(range), range};
     return result;
   }
+  result.range = range;
   const double order = e21 * e32 > 0 ? observed_order_of(h, e21, e32) : nothing;
   if (!(order > 0)) {  // NaN too; order <= 0: they part as the grid gets finer
     result.kind = e21 * e32 < 0 ? Convergence::oscillating : Convergence::diverging;
@@ -70,19 +70,6 @@ std::optional<GridConvergence> finest_convergence(const std::vector<double>& spa
 
 double two_grid_error_bar(const double (&h)[2], const double (&f)[2], double formal_order) {
   return 3 * std::abs(f[1] - f[0]) / (std::pow(h[1] / h[0], formal_order) - 1);
-}
-
-std::string why_unresolved(const std::optional<GridConvergence>& estimate,
-                           double scale,
-                           double formal_order) {
-  if (!estimate) return "has fewer than three levels";
-  if (estimate->kind == Convergence::same) return "";
-  if (estimate->kind != Convergence::monotone) return convergence_name(estimate->kind);
-  if (!(std::abs(estimate->order - formal_order) <= order_tolerance))
-    return fmt::format("shows order {:.2g} (its own is {:g})", estimate->order, formal_order);
-  const double index = estimate->error_bar / scale;
-  if (!(index <= largest_index)) return fmt::format("has an error bar of {:.2g} %", 100 * index);
-  return "";
 }
 
 std::string convergence_name(Convergence kind) {

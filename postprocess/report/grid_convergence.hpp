@@ -24,6 +24,7 @@ struct GridConvergence {
   double extrapolated = 0;  ///< NaN unless monotone or same
   double error_bar = 0;     ///< about the fine value, half its width, >= 0
   double index = 0;         ///< error bar over the fine value; NaN where that is zero
+  double range = 0;         ///< largest value less the smallest one
 };
 
 /// Spacings h_fine < h_medium < h_coarse, any ratios. Where the values are monotone
@@ -44,19 +45,6 @@ std::optional<GridConvergence> finest_convergence(const std::vector<double>& spa
 double two_grid_error_bar(const double (&spacing)[2],
                           const double (&value)[2],
                           double formal_order = 2);
-
-/// Whether three grids say where a quantity goes: they are alike, or the observed order is within
-/// `order_tolerance` of the formal one and the error bar below `largest_index` of the scale. Error
-/// bars that are wide, or of values that follow no power law, hold nothing against each other: a
-/// verdict on two methods asks this of both.
-constexpr double order_tolerance = 0.5, largest_index = 0.05;
-
-/// What is missing to that, as it stands behind the name of a method: "shows order 1.1 (its own is
-/// 2)", "oscillates"; empty where nothing is.
-/// @param scale  > 0, of the quantity over the run
-std::string why_unresolved(const std::optional<GridConvergence>& estimate,
-                           double scale,
-                           double formal_order = 2);
 
 /// "monotone", "same on all", "oscillates", "diverges"
 std::string convergence_name(Convergence kind);

@@ -40,11 +40,13 @@ double observed_order(double coarse_error,
   return std::log(coarse_error / fine_error) / std::log(coarse_spacing / fine_spacing);
 }
 
-double formal_order(const io::RunSummary& run) {
+FormalOrder formal_order(const io::RunSummary& run) {
   const auto has = [&](const char* order) {
     return run.graph_operators.find(order) != std::string::npos;
   };
-  return has("order 4") && !has("order 2") ? 3 : 2;  // the lowest of all lines
+  const double in_space = has("order 4") && !has("order 2") ? 3 : 2;  // the lowest of all lines
+  const double in_time = run.integrator == "ssp-rk3" || run.integrator == "ssp-rk43" ? 3 : 2;
+  return {std::min(in_space, in_time), in_space};
 }
 
 std::vector<std::string> methods_of(const std::vector<io::RunSummary>& runs) {

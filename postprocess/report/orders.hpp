@@ -17,9 +17,14 @@ double observed_order(double coarse_error,
                       double coarse_spacing,
                       double fine_spacing);
 
-/// The order that a method as it ran is said to have in v and u: 3 where it sums by parts with the
-/// pair (4, 2), else 2.
-double formal_order(const io::RunSummary& run);
+/// The orders that a run is said to converge with in v and u, as spacing and step fall together:
+/// from that of its integrator (3 of SSP-RK3 and SSP-RK43, else 2) to that of its operators (3
+/// where they sum by parts with the pair (4, 2), else 2), or that of the operators alone where it
+/// is the lower one.
+struct FormalOrder {
+  double least = 2, greatest = 2;
+};
+FormalOrder formal_order(const io::RunSummary& run);
 
 /// Methods at the settings of the case in the order of a reader: sph, fvm, then others by name. A
 /// verdict is on these.

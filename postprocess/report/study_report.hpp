@@ -8,6 +8,7 @@
 
 #include "common/io/run_record.hpp"
 #include "postprocess/report/grid_convergence.hpp"
+#include "postprocess/report/orders.hpp"
 #include "postprocess/report/shapes.hpp"
 
 #include <array>
@@ -32,7 +33,7 @@ struct GridSeries {
   std::string column;
   std::vector<GridPoint> points;
   std::optional<GridConvergence> estimate;  ///< of the finest level: three grids or more
-  double formal_order = 2;                  ///< of the method as it ran
+  FormalOrder formal_order = {};            ///< of the method as it ran
 };
 
 /// Values of a probe from elsewhere.

@@ -5,6 +5,7 @@
 /// too coarse to say.
 /// Test: tests/report/verdict_test.cpp
 
+#include "postprocess/report/agreement.hpp"
 #include "postprocess/report/study_report.hpp"
 
 #include <string>
@@ -17,10 +18,6 @@ constexpr double too_far_apart = 0.5;
 
 /// Sentences in HTML, the most important first; at least one.
 std::vector<std::string> verdict(const StudyReport& study);
-
-/// Whether two values are no further apart than the sum of their error bars, or equal in the six
-/// digits that a page shows.
-bool agree(const GridPoint& a, const GridPoint& b);
 
 /// "0.35 %"
 std::string percent_html(double part);
@@ -47,9 +44,8 @@ struct Pair {
   std::vector<std::string> fields() const;  ///< with an error of both at that level
 };
 
-/// Why the levels of two methods allow no verdict on a quantity ("SPH oscillates; finite volume
-/// shows order 1.1 (its own is 2)"); empty where they do.
-std::string why_unresolved(const std::vector<GridSeries>& series, double scale);
+/// On a quantity that both methods have.
+Verdict verdict_on(const GridSeries& a, const GridSeries& b, double scale);
 
 /// Largest size that a quantity has over the run, so that one that ends near zero is not judged by
 /// its last value; of an energy or a dissipation the largest energy that there is. Variants do not

@@ -45,37 +45,28 @@ std::vector<GridSeries> series_of_methods(const std::vector<GridSeries>& series)
   return methods;
 }
 
-bool agree(const GridPoint& a, const GridPoint& b) {
-  constexpr double shown = 1e-6;  // six digits, those of the table
-  const double apart = std::abs(a.value - b.value);
-  return apart <= a.error_bar + b.error_bar ||
-         apart <= shown * std::max(std::abs(a.value), std::abs(b.value));
-}
-
-std::string why_unresolved(const std::vector<GridSeries>& series, double scale) {
-  std::string all;
-  for (const GridSeries& one : series) {
-    const std::string why = why_unresolved(one.estimate, scale, one.formal_order);
-    if (why.empty()) continue;
-    if (!all.empty()) all += "; ";
-    all += column_in_sentence(one.column) + " " + why;
-  }
-  return all;
+Verdict verdict_on(const GridSeries& a, const GridSeries& b, double scale) {
+  const auto side = [](const GridSeries& one) {
+    return ScalarOfMethod{column_in_sentence(one.column), one.points.back().value,
+                          one.points.back().error_bar, one.estimate, one.formal_order};
+  };
+  return verdict_on(side(a), side(b), scale);
 }
 
 namespace {
 
 /// Quantities by what refinement says of them.
-struct Agreement {
+struct AgreementOfStudy {
   std::vector<std::string> within, beyond;  ///< names
+  std::vector<std::string> near, far;       ///< names of those without an order
   std::vector<std::string> unresolved;      ///< names with the reason, HTML
   std::vector<std::string> causes;          ///< of those beyond, with names, HTML
   size_t n_first = 0, n_second = 0;  ///< of those judged: where that method has the narrower bar
   size_t n_judged() const { return within.size() + beyond.size(); }
 };
 
-Agreement agreement_of(const StudyReport& study, const Pair& pair) {
-  Agreement agreement;
+AgreementOfStudy agreement_of(const StudyReport& study, const Pair& pair) {
+  AgreementOfStudy agreement;
   for (const auto& [quantity, all] : study.quantities) {
     const std::vector<GridSeries> series = series_of_methods(all);
     if (series.size() != 2) continue;
@@ -84,12 +75,15 @@ Agreement agreement_of(const StudyReport& study, const Pair& pair) {
     const GridPoint& b = series[same_order ? 1 : 0].points.back();
     if (a.level != b.level || a.level == 0) continue;
     const double scale = scale_of(study, quantity.first, quantity.second, series);
-    const std::string why = why_unresolved(series, scale);
-    if (!why.empty()) {
-      agreement.unresolved.push_back(escaped(quantity.first + " (" + why + ")"));
+    const Verdict verdict =
+        verdict_on(series[same_order ? 0 : 1], series[same_order ? 1 : 0], scale);
+    if (!verdict.why.empty()) {
+      agreement.unresolved.push_back(escaped(quantity.first + " (" + verdict.why + ")"));
+      if (verdict.agreement == Agreement::near) agreement.near.push_back(quantity.first);
+      if (verdict.agreement == Agreement::far) agreement.far.push_back(quantity.first);
       continue;
     }
-    const bool is_within = agree(a, b);
+    const bool is_within = verdict.agreement == Agreement::agree;
     (is_within ? agreement.within : agreement.beyond).push_back(quantity.first);
     if (!is_within) {
       const auto cause = study.causes.find(quantity.first);
@@ -104,7 +98,7 @@ Agreement agreement_of(const StudyReport& study, const Pair& pair) {
 }
 
 /// Without an exact solution the widths of the error bars are what there is to say of errors.
-std::string nearer_sentence(const Agreement& agreement, const Pair& pair) {
+std::string nearer_sentence(const AgreementOfStudy& agreement, const Pair& pair) {
   const size_t n = agreement.n_judged();
   if (agreement.n_first == agreement.n_second) {
     return fmt::format(
@@ -126,7 +120,7 @@ std::string nearer_sentence(const Agreement& agreement, const Pair& pair) {
 std::vector<std::string> agreement_sentences(const StudyReport& study,
                                              const Pair& pair,
                                              bool has_errors) {
-  const Agreement agreement = agreement_of(study, pair);
+  const AgreementOfStudy agreement = agreement_of(study, pair);
   std::vector<std::string> sentences;
   const size_t n = agreement.n_judged(), n_within = agreement.within.size();
   if (n > 0 && n == n_within) {
@@ -143,10 +137,21 @@ std::vector<std::string> agreement_sentences(const StudyReport& study,
     sentences.push_back(fmt::format("They are apart on {}.", fmt::join(agreement.causes, "; ")));
   if (n > 0 && !has_errors) sentences.insert(sentences.begin(), nearer_sentence(agreement, pair));
   if (!agreement.unresolved.empty()) {
-    const std::string sentence = fmt::format(
-        "{} of {} quantities {} unresolved: {}.", agreement.unresolved.size(),
-        n + agreement.unresolved.size(), agreement.unresolved.size() == 1 ? "is" : "are",
-        fmt::join(agreement.unresolved, ", "));
+    std::string sentence = fmt::format("{} of {} quantities {} unresolved: {}.",
+                                       agreement.unresolved.size(), n + agreement.unresolved.size(),
+                                       agreement.unresolved.size() == 1 ? "is" : "are",
+                                       fmt::join(agreement.unresolved, ", "));
+    if (!agreement.near.empty()) {
+      sentence += fmt::format(
+          " Of these the methods are no further apart than three times what their levels change "
+          "by, which is little, on {}.",
+          names_html(agreement.near));
+    }
+    if (!agreement.far.empty()) {
+      sentence += fmt::format(
+          " They are further apart than that, although the levels change by little, on {}.",
+          names_html(agreement.far));
+    }
     sentences.insert(n > 0 ? sentences.end() : sentences.begin(), sentence);
   }
   return sentences;

@@ -152,17 +152,27 @@ TEST(Verdict, IsGivenOfWhatBothMethodsResolveOnly) {
   for (const auto& [estimate, why] :
        std::vector<std::pair<std::optional<GridConvergence>, std::string>>{
            {std::nullopt, "SPH has fewer than three levels"},
-           {GridConvergence{Convergence::oscillating, NAN, NAN, 0.01, 0.01}, "SPH oscillates"},
-           {GridConvergence{Convergence::monotone, 1.4, 1, 0.01, 0.01},
+           {GridConvergence{Convergence::oscillating, NAN, NAN, 0.01, 0.01, 0.1}, "SPH oscillates"},
+           {GridConvergence{Convergence::monotone, 1.4, 1, 0.01, 0.01, 0.1},
             "SPH shows order 1.4 (its own is 2)"},
-           {GridConvergence{Convergence::monotone, 2.6, 1, 0.01, 0.01}, "SPH shows order 2.6"},
-           {GridConvergence{Convergence::monotone, 2, 1, 0.07, 0.07},
+           {GridConvergence{Convergence::monotone, 2.6, 1, 0.01, 0.01, 0.1}, "SPH shows order 2.6"},
+           {GridConvergence{Convergence::monotone, 2, 1, 0.07, 0.07, 0.1},
             "SPH has an error bar of 6 %"}}) {
     EXPECT_THAT(verdict_with(estimate),
                 AllOf(StartsWith("1 of 1 quantities is unresolved: strain energy (" + why),
                       Not(HasSubstr("agree within"))));
   }
-  series[0].formal_order = 3;  // of a method that sums by parts
+  EXPECT_THAT(verdict_with(GridConvergence{Convergence::oscillating, NAN, NAN, 0.01, 0.01, 0.01}),
+              AllOf(HasSubstr("is unresolved: strain energy (SPH oscillates). Of these the methods "
+                              "are no further apart than three times"),
+                    HasSubstr("is little, on strain energy.")));
+  series[0].points.back().value += 0.1;
+  EXPECT_THAT(
+      verdict_with(GridConvergence{Convergence::oscillating, NAN, NAN, 0.01, 0.01, 0.01}),
+      HasSubstr("They are further apart than that, although the levels change by little, on "
+                "strain energy."));
+  series[0].points.back().value -= 0.1;
+  series[0].formal_order = {3, 3};  // of a method that sums by parts
   EXPECT_THAT(verdict_with(GridConvergence{Convergence::monotone, 2.6, 1, 0.01, 0.01}),
               HasSubstr("agree within"));
 }

@@ -9,6 +9,8 @@ void CellWatch::after_step(const StepReport& step) {
   const CellOutlook outlook = look_(solver_.motion(), step.dt);
   if (outlook.now.n_inverted > 0)
     throw RefusedStep(outlook.now.message(step.step, step.time), outlook.now.node);
+  seen_step_ = step.step;
+  seen_ = outlook.now;
   next_step_ = step.step + period;
   next_time_ = step.time + of_time * outlook.steps_left * step.dt;  // steps may become larger
   J_ = outlook.now.J;

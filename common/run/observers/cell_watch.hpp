@@ -26,6 +26,8 @@ class CellWatch : public Observer {
   /// @throws RefusedStep
   void after_step(const StepReport& step) override;
   void archive(algebra::Archive& archive) override;
+  /// At the end of this step; null where it did not look then.
+  const LeastCell* seen(std::int64_t step) const { return step == seen_step_ ? &seen_ : nullptr; }
 
   /// Steps between looks at most: one costs 0.6 of the cheapest step.
   static constexpr std::int64_t period = 48;
@@ -39,6 +41,8 @@ class CellWatch : public Observer {
   Look look_;
   std::int64_t next_step_ = 1;
   double next_time_ = std::numeric_limits<double>::max();  // s
+  std::int64_t seen_step_ = -1;
+  LeastCell seen_;
   // of the last look
   double J_ = 1, nodal_J_ = 1;
 };

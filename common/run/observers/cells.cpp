@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <utility>
 
 namespace diptych::run {
 
@@ -16,14 +15,12 @@ std::string LeastCell::message(std::int64_t step, double time) const {
       n_inverted, n_cells, step, time, J, centre[0], centre[1], centre[2]);
 }
 
-Cells::Cells(std::function<LeastCell(std::span<const algebra::Vec3> u)> least)
-    : least_(std::move(least)) {}
-
 void Cells::at_output(const Output& output) {
-  now_ = least_(output.state.u);
+  const LeastCell* seen = seen_ ? seen_(output.step.step) : nullptr;
+  now_ = seen ? *seen : least_(output.state.u());
   least_J_ = std::min(least_J_, now_.J);
   most_inverted_ = std::max(most_inverted_, now_.n_inverted);
-  if (now_.n_inverted > 0 && !inverted_from_) inverted_from_ = output.state.time;
+  if (now_.n_inverted > 0 && !inverted_from_) inverted_from_ = output.state.time();
 }
 
 void Cells::archive(algebra::Archive& archive) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace diptych::run {
 
@@ -26,8 +27,12 @@ struct LeastCell {
 
 class Cells : public Observer {
  public:
+  using Least = std::function<LeastCell(std::span<const algebra::Vec3> u)>;
+  using Seen = std::function<const LeastCell*(std::int64_t step)>;
+
   /// @param least  of displacements u, [n_nodes] m
-  explicit Cells(std::function<LeastCell(std::span<const algebra::Vec3> u)> least);
+  /// @param seen  what is known of the cells at the end of a step, else null; may be empty
+  explicit Cells(Least least, Seen seen = {}) : least_(std::move(least)), seen_(std::move(seen)) {}
 
   void at_output(const Output& output) override;
   void at_breakdown(const Output& output) override { at_output(output); }
@@ -38,7 +43,8 @@ class Cells : public Observer {
   void fill(io::RunSummary& summary) const;
 
  private:
-  std::function<LeastCell(std::span<const algebra::Vec3> u)> least_;
+  Least least_;
+  Seen seen_;
   LeastCell now_;
   double least_J_ = 1e300;
   std::int64_t most_inverted_ = 0;

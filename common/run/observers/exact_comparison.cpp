@@ -9,7 +9,7 @@ namespace diptych::run {
 
 void ExactComparison::at_output(const Output& output) {
   if (!errors_.available()) return;
-  add_row(errors_.measure(output.state));
+  add_row(errors_.measure(output.state.fields()));
 }
 
 /// Of the same fields each time.

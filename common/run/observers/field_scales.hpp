@@ -16,7 +16,7 @@ class FieldScales : public Observer {
   explicit FieldScales(const scheme::PairGraph& graph) : graph_(graph) {}
 
   void at_output(const Output& output) override {
-    for (const auto& [field, norm] : field_norms(graph_, output.state))
+    for (const auto& [field, norm] : field_norms(graph_, output.state.fields()))
       largest_[field] = std::max(largest_[field], norm);
   }
   void archive(algebra::Archive& archive) override {

@@ -63,9 +63,10 @@ void Fields::at_output(const Output& output) {
   const std::vector<double>& probes = history_.rows().back().probes;
   for (size_t k = 0; k < probes.size(); ++k)
     values.push_back({columns_[k], probes[k]});
-  last_frame_ = {writer_->write(output.state.time, frame_fields(output.state, order_), values),
-                 output.state.time};
-  times_.push_back(output.state.time);
+  last_frame_ = {
+      writer_->write(output.state.time(), frame_fields(output.state.fields(), order_), values),
+      output.state.time()};
+  times_.push_back(output.state.time());
 }
 
 }  // namespace diptych::run

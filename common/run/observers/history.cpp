@@ -22,7 +22,7 @@ void History::write_to(const std::string& path, const std::vector<std::string>& 
 void History::at_output(const Output& output) {
   const scheme::Balance& balance = output.balance;
   io::HistoryRow row;
-  row.time = output.state.time;
+  row.time = output.state.time();
   row.step = output.step.step;
   row.dt = output.step.dt;
   row.energy = energy_.at(balance, output.audit);

@@ -5,7 +5,7 @@
 
 #include "common/algebra/archive.hpp"
 #include "common/base/error.hpp"
-#include "common/run/solver.hpp"
+#include "common/run/output_state.hpp"
 
 #include <cstdint>
 
@@ -14,13 +14,13 @@ namespace diptych::run {
 /// How a simulation ended.
 enum class Ending { done, interrupted, step_limit, breakdown };
 
-/// The body at an output time, worked out once for all observers.
+/// The body at an output time; what observers share of it is worked out once.
 struct Output {
   std::int64_t number;     ///< from 0, that of t = 0
   const StepReport& step;  ///< the last one, number 0 at t = 0
   const scheme::Balance& balance;
   const scheme::Audit& audit;
-  const Snapshot& state;
+  OutputState& state;
 };
 
 /// What guards judge between output times.

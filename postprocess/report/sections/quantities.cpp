@@ -17,17 +17,15 @@ std::string titled(const std::pair<std::string, std::string>& quantity) {
          (quantity.second == "-" ? "" : " [" + escaped(quantity.second) + "]");
 }
 
-/// Whether the finest values of the two methods lie within the sum of their error bars, where both
-/// are resolved.
+/// Of the finest values of the two methods.
 std::string agreement(const StudyReport& study,
                       const std::pair<std::string, std::string>& quantity,
                       const std::vector<GridSeries>& all) {
   const std::vector<GridSeries> series = series_of_methods(all);
   if (series.size() != 2) return "";
   const double scale = scale_of(study, quantity.first, quantity.second, series);
-  const std::string why = why_unresolved(series, scale);
-  if (!why.empty()) return "unresolved: " + escaped(why);
-  return agree(series[0].points.back(), series[1].points.back()) ? "agree" : "apart";
+  const Verdict verdict = verdict_on(series[0], series[1], scale);
+  return verdict.agreement == Agreement::apart ? "apart" : escaped(verdict_text(verdict));
 }
 
 std::string rows_of(const StudyReport& study,
@@ -74,8 +72,9 @@ std::string quantities_section(const StudyReport& study) {
       "give (grid convergence index; on the second level with the formal order and a factor of "
       "3). The methods agree where their finest values are no further apart than the sum of their "
       "bars. Unresolved: one of them shows no order within 0.5 of its own, or its bar is wider "
-      "than "
-      "5 % of the quantity over the run.</p>\n<p class=\"choice\"><label>Quantity <select "
+      "than 5 % of the quantity over the run; near or far: within, or beyond, three times what the "
+      "last three levels change by, where that is below the same 5 %.</p>\n<p "
+      "class=\"choice\"><label>Quantity <select "
       "id=\"quantity\">\n" +
           options + "</select></label></p>\n" +
           chart("quantity-chart", "A quantity against spacing with error bars",

@@ -275,9 +275,12 @@ TEST(MomentumGuard, StopsWhereRotationIsBrakedAndNotWhereAMomentDoesIt) {
   initial.kinetic = now.kinetic = 1;
   initial.angular_momentum.z() = 10;
   initial.angular_scale = now.angular_scale = 12;
+  const Guarded run("fvm", {});
+  Snapshot fields;
   const auto judge = [&](double L, double impulse) {
     MomentumGuard guard(initial, 0.2, 1e-9);
-    guard.at_output({0, StepReport{}, initial, scheme::Audit{}, Snapshot{}});
+    OutputState state(*run.scene.solver, fields);
+    guard.at_output({0, StepReport{}, initial, scheme::Audit{}, state});
     now.angular_momentum.z() = L;
     scheme::Audit audit;
     audit.impulse.angular.z() = impulse;
@@ -364,7 +367,12 @@ struct Watched {
   Watched(const std::vector<std::string>& overrides, double room)
       : scene(tests::scene_of("fvm", free_cube, overrides)),
         probes(scene.setup.probes, scene.graph, {}),
-        cells([room](std::span<const algebra::Vec3> u) { return cell_of(u, room); }),
+        cells(
+            [this, room](std::span<const algebra::Vec3> u) {
+              ++n_looks_at_outputs;
+              return cell_of(u, room);
+            },
+            [this](std::int64_t step) { return watch.seen(step); }),
         watch(*scene.solver,
               [this, room](const Motion& motion, double dt) {
                 ++n_looks;
@@ -388,7 +396,7 @@ struct Watched {
 
   tests::Scene scene;
   Probes probes;
-  std::int64_t n_looks = 0;
+  std::int64_t n_looks = 0, n_looks_at_outputs = 0;
   Cells cells;
   CellWatch watch;
   History history;
@@ -431,6 +439,7 @@ TEST(CellWatch, LeavesTheBodyWhereNoStepIsTakenBack) {
 TEST(CellWatch, LooksSeldomWhereNoCellNearsZero) {
   Watched run({"time.cfl=0.1", "output.frames=2"}, 10);
   EXPECT_EQ(run.simulation.run(), Ending::done);
+  EXPECT_EQ(run.n_looks_at_outputs, 1) << "at t = 0; the others are known of the watch";
   EXPECT_LE(run.n_looks, 4 + run.simulation.totals().steps / CellWatch::period);
   EXPECT_GE(run.n_looks, run.simulation.totals().steps / CellWatch::period);
 }

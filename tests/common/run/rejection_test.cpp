@@ -212,7 +212,7 @@ TEST(Rejection, OfLeapfrogGoesBackOverManySteps) {
 class Keeper : public Observer {
  public:
   void at_breakdown(const Output& output) override {
-    time = output.state.time;
+    time = output.state.time();
     least_J = output.balance.least_J;
   }
   double time = -1, least_J = 0;

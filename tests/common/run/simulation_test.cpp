@@ -52,11 +52,11 @@ class Listener : public Observer {
   }
   void at_output(const Output& output) override {
     told.push_back(fmt::format("output {}", output.number));
-    EXPECT_EQ(output.state.time, output.step.time);
-    EXPECT_EQ(output.state.time, times.empty() ? 0 : times.back());
+    EXPECT_EQ(output.state.time(), output.step.time);
+    EXPECT_EQ(output.state.time(), times.empty() ? 0 : times.back());
     EXPECT_GT(output.balance.kinetic, 0);
-    EXPECT_EQ(output.state.u.size(), 9u);
-    output_times.push_back(output.state.time);
+    EXPECT_EQ(output.state.u().size(), 9u);
+    output_times.push_back(output.state.time());
   }
   void end(Ending ending) override { told.push_back(status_of(ending)); }
 
