@@ -4,23 +4,56 @@
 
 namespace diptych::scheme {
 
+using algebra::Lanes;
 using algebra::n_lanes;
 
 namespace {
 
+/// X - centroid of the nodes of a block, zero in the padding  [m]
 template <int Dim>
-void add_momenta(const Body<Dim>& body, std::int64_t begin, std::int64_t end, Balance& sum) {
-  for (std::int64_t a = begin * n_lanes; a < std::min(end * n_lanes, body.n_owned); ++a) {
-    Vec3 p = Vec3::Zero(), x = body.X_centred(a);
-    for (int i = 0; i < Dim; ++i) {
-      p[i] = body.options.rho_R * body.graph.Omega[a] * body.v.at(a, i);
-      x[i] += body.u.at(a, i);
-    }
-    sum.linear_momentum += p;
-    sum.angular_momentum += x.cross(p);
-    sum.momentum_scale += p.norm();
-    sum.angular_scale += x.norm() * p.norm();
+DIPTYCH_INLINE void load_positions(const Body<Dim>& body, std::int64_t b, Lanes (&x)[Dim]) {
+  const std::int64_t first = b * n_lanes;
+  const auto n = static_cast<int>(std::min<std::int64_t>(n_lanes, body.n_owned - first));
+  for (int i = 0; i < Dim; ++i)
+    x[i] = Lanes{};
+  for (int l = 0; l < n; ++l) {
+    for (int i = 0; i < Dim; ++i)
+      x[i][l] = body.X[first + l][i] - body.centroid[i];
   }
+}
+
+template <int Dim>
+DIPTYCH_CLONES void add_momenta(const Body<Dim>& body,
+                                std::int64_t begin,
+                                std::int64_t end,
+                                Balance& sum) {
+  Lanes linear[3]{}, angular[3]{}, momentum_scale{}, angular_scale{};
+  for (std::int64_t b = begin; b < end; ++b) {
+    const Lanes mass = body.options.rho_R * algebra::load(body.graph.Omega.data() + b * n_lanes);
+    Lanes x[Dim], p[Dim], x_x{}, p_p{};
+    load_positions(body, b, x);
+    for (int i = 0; i < Dim; ++i) {
+      p[i] = mass * body.v.get(b, i);
+      x[i] += body.u.get(b, i);
+      linear[i] += p[i];
+      x_x += x[i] * x[i];
+      p_p += p[i] * p[i];
+    }
+    angular[2] += x[0] * p[1] - x[1] * p[0];
+    if constexpr (Dim == 3) {
+      angular[0] += x[1] * p[2] - x[2] * p[1];
+      angular[1] += x[2] * p[0] - x[0] * p[2];
+    }
+    const Lanes size = algebra::square_root(p_p);
+    momentum_scale += size;
+    angular_scale += algebra::square_root(x_x) * size;
+  }
+  for (int i = 0; i < 3; ++i) {
+    sum.linear_momentum[i] += algebra::lane_sum(linear[i]);
+    sum.angular_momentum[i] += algebra::lane_sum(angular[i]);
+  }
+  sum.momentum_scale += algebra::lane_sum(momentum_scale);
+  sum.angular_scale += algebra::lane_sum(angular_scale);
 }
 
 }  // namespace

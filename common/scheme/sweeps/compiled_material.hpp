@@ -184,7 +184,7 @@ DIPTYCH_CLONES void add_energies_of(const Model<Material>& model,
                                     std::int64_t begin,
                                     std::int64_t end,
                                     Balance& sum) {
-  double least_J = sum.least_J;
+  Lanes least_J = Lanes{} + sum.least_J, drift_H{}, drift_J{};
   for (std::int64_t b = begin; b < end; ++b) {
     const Lanes Omega = algebra::load(body.graph.Omega.data() + b * n_lanes);
     const Deformation<Lanes> X = load_deformation(body, b);
@@ -200,17 +200,21 @@ DIPTYCH_CLONES void add_energies_of(const Model<Material>& model,
     sum.kinetic += 0.5 * model.rho_R * algebra::lane_sum(Omega * v_v);
     sum.strain += algebra::lane_sum(Omega * W);
     const Deformation<Lanes> exact = physics::deformation_of(X.F);
-    for (int l = 0; l < n_lanes; ++l) {
-      if (Omega[l] == 0) continue;  // padding
-      least_J = algebra::smaller(least_J, X.J[l]);
-      sum.involution_J = algebra::larger(sum.involution_J, std::fabs(X.J[l] - exact.J[l]));
-      for (int k = 0; k < 9; ++k) {
-        const double drift = std::fabs(X.H(k / 3, k % 3)[l] - exact.H(k / 3, k % 3)[l]);
-        sum.involution_H = algebra::larger(sum.involution_H, drift);
-      }
+    Lanes drift{};
+    for (int k = 0; k < 9; ++k) {
+      const Lanes of_H = X.H(k / 3, k % 3) - exact.H(k / 3, k % 3);
+      drift = algebra::larger(drift, algebra::magnitude(of_H));
     }
+    const auto is_node = Omega != 0;  // the rest is padding
+    least_J = algebra::smaller(least_J, is_node ? X.J : least_J);
+    drift_J = algebra::larger(drift_J, is_node ? algebra::magnitude(X.J - exact.J) : drift_J);
+    drift_H = algebra::larger(drift_H, is_node ? drift : drift_H);
   }
-  sum.least_J = least_J;
+  for (int l = 0; l < n_lanes; ++l) {
+    sum.least_J = algebra::smaller(sum.least_J, least_J[l]);
+    sum.involution_J = algebra::larger(sum.involution_J, drift_J[l]);
+    sum.involution_H = algebra::larger(sum.involution_H, drift_H[l]);
+  }
 }
 
 template <class Material>
