@@ -330,7 +330,7 @@ class MomentCheck {
     throw base::InputError(fmt::format(
         "{}: operators that sum by parts are for bodies with plane sides of at least four nodes "
         "along each line: on the boundary of this mesh volumes and areas differ by {:.2g} in the "
-        "moments of cubics; refine the mesh, or use {}",
+        "moments of cubics; use {}, or, where sides are plane, refine the mesh",
         use.asked, difference, use.instead));
   }
 

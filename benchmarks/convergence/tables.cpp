@@ -143,9 +143,11 @@ std::string agreement_line(const ColumnConvergence& first,
     const auto cause = causes.find(one.name);
     text += cause == causes.end() ? ": the case has no [[apart]] for it" : ": " + cause->second;
   }
-  return fmt::format("{:<32} {:>10.2e} {:>10.2e}  {}\n",
-                     (one.name + " [" + one.unit + "]").substr(0, 32), verdict.difference,
-                     verdict.allowed, text);
+  return folded(fmt::format("{:<32} {:>10.2e} {:>10.2e}  {}",
+                            (one.name + " [" + one.unit + "]").substr(0, 32), verdict.difference,
+                            verdict.allowed, text),
+                100, 56) +
+         "\n";
 }
 
 }  // namespace

@@ -41,7 +41,6 @@ integrator = "ssp-rk3"
 [scheme]
 unknowns = "F"
 reconstruction = "none"
-energy_budget = false
 )toml";
 
 /// A body that moves by itself, or one that follows a motion with its body force.
@@ -76,7 +75,6 @@ std::vector<Option> options() {
       {"barest", "", {}},
       {"J evolved", "", {"scheme.unknowns=FJ"}},
       {"H and J evolved", "", {"scheme.unknowns=FHJ"}},
-      {"energy budget", "", {"scheme.energy_budget=true"}},
       {"angular-momentum projection", "", {"scheme.angular_momentum_projection=true"}},
       {"reconstruction", "", {linear}},
       {"limiter, on reconstruction", "reconstruction", {linear, "scheme.limiter=sign-preserving"}},
@@ -96,8 +94,6 @@ std::vector<Option> options() {
       {"Mooney-Rivlin", "", mooney},
       {"1 branch, on Mooney-Rivlin", "Mooney-Rivlin", mooney, 1},
       {"3 branches, on Mooney-Rivlin", "Mooney-Rivlin", mooney, 3},
-      {"1 branch with budget", "1 branch, on Mooney-Rivlin",
-       with(mooney, "scheme.energy_budget=true"), 1},
       {"no retries", "", {"time.max_retries=0"}},
       {"no retries, 1 branch", "1 branch, on Mooney-Rivlin", with(mooney, "time.max_retries=0"), 1},
       {"leapfrog", "", leapfrog, 0, Work::stage, between_copies},

@@ -225,26 +225,20 @@ std::vector<RegressCheck> conservation_of(const cases::Case& setup, const RunRes
     angular.note = "without angular_momentum_projection the scheme does not conserve it";
   }
   checks.push_back(angular);
-  if (setup.scheme.energy_budget) {
-    checks.push_back(checked(name, "energy residual", std::abs(s.energy.relative_residual), 0.02));
-    checks.push_back(checked(name, fall_of_viscous,
-                             fall_of(run.history, &io::EnergySummary::viscous_dissipation),
-                             rounding));
-    RegressCheck numerical =
-        checked(name, fall_of_numerical,
-                fall_of(run.history, &io::EnergySummary::numerical_dissipation), rounding);
-    // pair by pair only one limiter gives a sign; else the fall is kept as a quantity
-    if (numerical.verdict == Verdict::failed && std::isfinite(numerical.measured) &&
-        setup.scheme.limiter != "sign-preserving") {
-      numerical.verdict = Verdict::known;
-      numerical.note = "limiter " + setup.scheme.limiter + " gives pairs no sign";
-    }
-    checks.push_back(numerical);
-  } else {
-    RegressCheck budget{
-        name, "energy budget", Verdict::skipped, 0, 0, "scheme.energy_budget = false"};
-    checks.push_back(budget);
+  checks.push_back(checked(name, "energy residual", std::abs(s.energy.relative_residual), 0.02));
+  checks.push_back(checked(name, fall_of_viscous,
+                           fall_of(run.history, &io::EnergySummary::viscous_dissipation),
+                           rounding));
+  RegressCheck numerical =
+      checked(name, fall_of_numerical,
+              fall_of(run.history, &io::EnergySummary::numerical_dissipation), rounding);
+  // pair by pair only one limiter gives a sign; else the fall is kept as a quantity
+  if (numerical.verdict == Verdict::failed && std::isfinite(numerical.measured) &&
+      setup.scheme.limiter != "sign-preserving") {
+    numerical.verdict = Verdict::known;
+    numerical.note = "limiter " + setup.scheme.limiter + " gives pairs no sign";
   }
+  checks.push_back(numerical);
   return checks;
 }
 

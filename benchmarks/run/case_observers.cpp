@@ -65,6 +65,10 @@ CaseObservers::CaseObservers(const cases::Case& setup,
       exact_(setup, scene.graph, *scene.solver, probes_),
       fields_(scene.mesh.order, run::probe_columns(setup.probes, false), history_),
       progress_(setup, options, history_),
+      energy_guard_(scene.solver->balance(),
+                    setup.guards.energy_residual,
+                    largest_loss(setup),
+                    energy_of_rounding(setup, scene)),
       involution_guard_(*scene.solver, setup.guards.involution),
       momentum_guard_(
           scene.solver->balance(), setup.guards.angular_drift, energy_of_rounding(setup, scene)) {
@@ -77,10 +81,6 @@ CaseObservers::CaseObservers(const cases::Case& setup,
       return run::CellOutlook{least_cell(scene_.mesh.mesh, outlook.now), outlook.steps_left};
     });
     cell_guard_.emplace(cells_);
-  }
-  if (setup.scheme.energy_budget) {
-    energy_guard_.emplace(scene.solver->balance(), setup.guards.energy_residual,
-                          largest_loss(setup), energy_of_rounding(setup, scene));
   }
 }
 
@@ -115,7 +115,7 @@ std::vector<run::Observer*> CaseObservers::all() {
   all.push_back(&steps_);
   all.push_back(&progress_);
   // last: what they stop at has been written
-  if (energy_guard_) all.push_back(&*energy_guard_);
+  all.push_back(&energy_guard_);
   all.push_back(&involution_guard_);
   all.push_back(&momentum_guard_);
   if (cell_guard_) all.push_back(&*cell_guard_);

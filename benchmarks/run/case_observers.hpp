@@ -65,7 +65,7 @@ class CaseObservers {
   std::optional<ShapeRecorder> shapes_;
   std::optional<run::CellWatch> cell_watch_;
   std::optional<run::CellGuard> cell_guard_;
-  std::optional<run::EnergyGuard> energy_guard_;
+  run::EnergyGuard energy_guard_;
   run::InvolutionGuard involution_guard_;
   run::MomentumGuard momentum_guard_;
 };

@@ -98,7 +98,7 @@ std::vector<CampaignRun> plan_of(const std::vector<Column>& columns,
       plan.push_back(
           {&column.setup, run_options(options, level, column), column.name(), column.method});
       plan.back().may_be_refused =
-          options.goes_past_refusals && options.methods.size() == 2 && column.variant.empty();
+          !column.variant.empty() || (options.goes_past_refusals && options.methods.size() == 2);
       plan.back().options.before_writing = [&output] { output.prepare(); };
     }
   }
@@ -155,7 +155,8 @@ Study run_study(const cases::Case& setup, const StudyOptions& options) {
     const std::string column = run.column();
     RunResult& result = made.run;
     if (result.summary.status == "failed") {
-      study.refusals.push_back({column, run.level, result.summary.failure->message});
+      study.refusals.push_back(
+          {column, run.level, result.summary.failure->message, !run.variant.empty()});
       if (!options.quiet && number + 1 < plan.size()) tell(study.refusals.back());
       return;
     }

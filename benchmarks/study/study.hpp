@@ -7,6 +7,7 @@
 #include "benchmarks/run/run_case.hpp"
 #include "postprocess/report/study_report.hpp"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -25,7 +26,8 @@ struct StudyOptions {
   bool shapes = false;  ///< keep deformed surfaces of both methods, finest level, for the report
   bool resume = false;  ///< runs that the same program has finished there are taken over
   bool force = false;   ///< results of another case in the folder may be replaced
-  bool goes_past_refusals = false;  ///< a method that cannot begin leaves the other one to run
+  bool goes_past_refusals = false;  ///< a method that cannot begin leaves the other one to run; a
+                                    ///< variant always leaves the others
   bool differences = true;          ///< find how far columns are apart at the end
   bool keeps_checkpoints = false;   ///< of runs, see RunOptions::checkpoints
   bool goes_on = false;             ///< with what lies in the folder (one level)
@@ -37,6 +39,7 @@ struct Refusal {
   std::string column;
   int level = 0;
   std::string message;
+  bool is_variant = false;
 };
 
 struct Study {
@@ -55,8 +58,13 @@ struct Study {
                                               ///< over its largest norm at any output time
   std::vector<report::ColumnDistance> distances;  ///< the same of each variant from each method
 
-  /// All of one level came to their ends, but for those that broke down.
-  bool has_all() const { return runs.size() + breakdowns.size() == columns.size(); }
+  /// All of one level came to their ends, but for those that broke down and variants that could
+  /// not be begun.
+  bool has_all() const {
+    const auto n_refused = std::count_if(refusals.begin(), refusals.end(),
+                                         [](const Refusal& one) { return one.is_variant; });
+    return runs.size() + breakdowns.size() + static_cast<size_t>(n_refused) == columns.size();
+  }
   /// The only run of a column, or null.
   const io::RunSummary* run_of(const std::string& column) const;
 

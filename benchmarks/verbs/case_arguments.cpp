@@ -7,6 +7,7 @@
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/menus.hpp"
 #include "benchmarks/terminal/reference_table.hpp"
+#include "benchmarks/terminal/text.hpp"
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 #include "common/parallel/partition.hpp"
@@ -132,7 +133,24 @@ void print_breakdowns(const harness::Study& study) {
   if (!table.empty()) print(table + "\n");
 }
 
+void print_later_references(const cases::Case& setup, const harness::Study& study) {
+  double end = 0;
+  for (const io::RunSummary& run : study.runs)
+    end = std::max(end, run.end_time);
+  if (study.runs.empty() || !run::changed_scene(setup.overrides).empty()) return;
+  for (const cases::ReferenceCase& reference : setup.references) {
+    const double from = reference.points.front()[0];
+    if (from <= end * (1 + 1e-9)) continue;
+    print(harness::folded(fmt::format("{} against {}: not compared, the values begin at {:g} s and "
+                                      "the run ends at {:g} s",
+                                      reference.probe, reference.source, from, end),
+                          100, 2) +
+          "\n");
+  }
+}
+
 void print_references(const cases::Case& setup, const harness::Study& study) {
+  print_later_references(setup, study);
   const std::string table = harness::reference_table(study.runs);
   if (!table.empty()) print("\n" + table);
   const std::string changed = run::changed_scene(setup.overrides);

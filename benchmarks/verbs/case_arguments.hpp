@@ -67,6 +67,8 @@ void print_breakdowns(const harness::Study& study);
 /// How far its runs are from the values from elsewhere that the case names, or why that is not
 /// judged; nothing where it names none.
 void print_references(const cases::Case& setup, const harness::Study& study);
+/// Values from elsewhere that begin after the end of the runs, which are held against nothing.
+void print_later_references(const cases::Case& setup, const harness::Study& study);
 
 /// Of a command without levels that was interrupted: where what it has is, and how to go on.
 std::string end_of(const harness::Study& study, const std::string& folder);

@@ -1,6 +1,7 @@
 /// diptych check: reads a case, builds its graphs and makes one step; or reads what runs have left.
 
 #include "benchmarks/run/case_check.hpp"
+#include "benchmarks/run/judgement.hpp"
 #include "benchmarks/run/memory_estimate.hpp"
 #include "benchmarks/run/record_check.hpp"
 #include "benchmarks/terminal/progress.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 int check(const CaseArguments& arguments) {
   const cases::Case setup = arguments.read();
+  harness::check_figures(setup);
   parallel::set_threads(arguments.threads);
   for (const std::string& method : arguments.methods()) {
     const auto check = harness::check_case(setup, method, arguments.level);

@@ -74,8 +74,7 @@ int converge(const ConvergeArguments& arguments) {
     print("taken over, not run again: " + folder + "\n");
   if (!study.taken_over.empty()) print("\n");
   show_convergence(setup, arguments, study, options.directory);
-  return harness::exit_code_of_study(study.breakdowns, study.runs,
-                                     harness::go_on_from(options.directory));
+  return exit_code_of(study, harness::go_on_from(options.directory));
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ int run_methods(const CaseArguments& arguments) {
     print("taken over, not run again: " + directory + "\n");
   for (const auto& summary : study.runs)
     print(harness::run_table(summary) + "\n");
+  print_later_references(setup, study);
   print_breakdowns(study);
   if (!study.is_empty()) print("output: " + options.directory + "\n");
   return exit_code_of(study, study.is_empty() ? end_of(study, options.directory)

@@ -139,7 +139,6 @@ struct SchemeCase {
   std::string volumes = "auto";         ///< auto, cells or nodes: scheme::Volumes
   std::string precision = "double";     ///< double, mixed or single: scheme::Precision
   bool angular_momentum_projection = false;
-  bool energy_budget = true;
 };
 
 /// [sph]

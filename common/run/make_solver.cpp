@@ -130,7 +130,6 @@ scheme::SweepOptions sweep_options_of(const cases::Case& setup) {
                          scheme::impedance_menu().at(setup.scheme.impedance)};
   options.dissipation_factor = setup.scheme.dissipation;
   options.face_correction = setup.scheme.face_correction;
-  options.energy_budget = setup.scheme.energy_budget;
   return options;
 }
 
@@ -188,7 +187,7 @@ std::unique_ptr<BodySolver<Dim>> assembled(const cases::Case& setup,
                                parts.integrator, setup.scheme.angular_momentum_projection};
   moving.clock.least_share = setup.guards.least_step;
   const BudgetOfStart::Bounds start{
-      setup.scheme.energy_budget ? setup.guards.energy_residual : 0,
+      setup.guards.energy_residual,
       energy_of_rounding(setup.material.density, parts.material->undeformed_speed(), graph.Omega)};
   return std::make_unique<BodySolver<Dim>>(std::move(moving), std::move(parts.known),
                                            setup.time.max_retries, start);

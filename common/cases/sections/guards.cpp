@@ -12,16 +12,17 @@ SectionEntry guards_section() {
                "or that numerical dissipation has given to the body, is more than this share of "
                "the largest energy so far, at an output instant or "
                "50 steps after the last judgement. For what the budget "
-               "does not account for the bound is 8/n^2, where that is larger, in step n < 20 "
+               "does not account for the bound is 8/n^2 or 0.5/n, where these are larger, in step "
+               "n < 50 "
                "after "
-               "a state of rest. Needs scheme.energy_budget.",
+               "a state of rest.",
                "0.02"})
           .key("numerical_dissipation", &GuardsCase::numerical_dissipation,
                optional({"-", Range{0, 1, false, true},
                          "The run is stopped (code 3) where numerical dissipation has taken more "
                          "than this share of the largest energy so far, at the same steps but for "
                          "the first 20 after a state of rest: what is left is no solution of the "
-                         "equations. 1: no bound. Needs scheme.energy_budget.",
+                         "equations. 1: no bound.",
                          "0.05",
                          "optional; 0.5, and no bound with a limiter of shocks (all but \"none\" "
                          "and \"sign-preserving\"): shocks dissipate"}))

@@ -66,9 +66,7 @@ SectionKeys<SchemeCase> scheme_keys() {
            {"-", any,
             "Correct the velocities of a free body after each step so that its angular momentum is "
             "conserved.",
-            "true"})
-      .key("energy_budget", &SchemeCase::energy_budget,
-           {"-", any, "Sum up stored, dissipated and external work.", "false"});
+            "true"});
 }
 
 void check(const SectionValues& section, const SchemeCase& scheme) {

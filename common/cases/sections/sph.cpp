@@ -14,8 +14,9 @@ SectionEntry sph_section() {
                "theta_a "
                "the part of the angle around the node that the body fills, 1 inside. 1.2 suits any "
                "nodes; 0.75, one spacing and its diagonals, is cheaper and errs less on regular "
-               "ones. Boxes take more than 0.708, with quintic-spline 0.5: corners need their "
-               "diagonals.",
+               "lattices. Boxes of quadrilaterals and hexahedra take more than 0.708, with "
+               "quintic-spline 0.5: corners need their diagonals; of triangles and tetrahedra 0.8 "
+               "or more.",
                "0.75"})
           .key("closure", &SphCase::closure,
                {"-", any,

@@ -2,7 +2,6 @@
 
 #include "common/base/error.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -34,12 +33,6 @@ void EnergyGuard::refuse_loss(const Check& check, double lost) const {
       lost / energy_.scale(), largest_loss_, instant_of(check.step)));
 }
 
-/// Of a step before judged_from_.
-double EnergyGuard::bound_of_start(std::int64_t step) const {
-  const auto n = static_cast<double>(step - (judged_from_ - steps_of_start));
-  return error_of_start / (n * n);
-}
-
 void EnergyGuard::refuse_residual(const Check& check, double residual, double bound) const {
   throw base::BreakdownError(fmt::format(
       "the energy budget does not close: residual {:.3g} of the largest energy so far, bound {:g}, "
@@ -52,7 +45,7 @@ void EnergyGuard::refuse_residual(const Check& check, double residual, double bo
 void EnergyGuard::after_step(const StepReport& step) {
   constexpr double rounding = 1e-12;
   is_at_rest_ = is_at_rest_ && std::abs(step.least_J - 1) <= rounding;
-  if (is_at_rest_) judged_from_ = step.step + steps_of_start;
+  if (is_at_rest_) at_rest_until_ = step.step;
 }
 
 void EnergyGuard::at_check(const Check& check) {
@@ -64,14 +57,13 @@ void EnergyGuard::at_check(const Check& check) {
   if (-lost > threshold_ * scale + least_energy_) refuse_gain(check, -lost);
   if (!std::isfinite(residual)) refuse_residual(check, residual, threshold_);
   is_at_rest_ = held <= least_energy_;
-  if (is_at_rest_) judged_from_ = check.step.step + steps_of_start;
-  const bool is_start = check.step.step < judged_from_;
-  const double bound =
-      is_start ? std::max(threshold_, bound_of_start(check.step.step)) : threshold_;
+  if (is_at_rest_) at_rest_until_ = check.step.step;
+  const std::int64_t n = check.step.step - at_rest_until_;
+  const double bound = n < steps_of_start ? std::max(threshold_, bound_of_start(n)) : threshold_;
   // first what an unstable step does, which dissipates, too
   if (std::abs(residual) * scale > bound * scale + least_energy_)
     refuse_residual(check, residual, bound);
-  if (is_start) return;
+  if (n < steps_of_any_loss) return;
   if (lost > largest_loss_ * scale + least_energy_) refuse_loss(check, lost);
 }
 

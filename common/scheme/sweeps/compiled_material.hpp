@@ -143,7 +143,7 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
   if (sweep.drift != 0) drift_block(body, sweep.drift, b);
   const Deformation<Lanes> X = load_deformation(body, b);
   totals.least_J = algebra::smaller(totals.least_J, X.J);
-  const bool with_dissipation = sweep.with_dissipation && sweep.relaxation.excess_C.size() > 0;
+  const bool with_dissipation = sweep.relaxation.excess_C.size() > 0;
   Lanes dissipation{};
   Response<Lanes> response = response_of_block(
       model, body, sweep.relaxation, X, b,

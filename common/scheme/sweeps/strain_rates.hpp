@@ -25,7 +25,6 @@ struct StrainRateSweep {
   Body<Dim>& body;
   const MaterialModel& material;
   const Relaxation& relaxation;
-  bool with_dissipation;   ///< sum the viscous dissipation of a step at its end (notes 6.1)
   double face_correction;  ///< kappa_f, 0: none; else body.gradients hold the uncorrected dF/dt
   const StageCombination* stage;  ///< SSP: moves F, H, J by the old rates first; may be null
   double drift;                   ///< s, leapfrog: moves u, F, H, J by the new rates

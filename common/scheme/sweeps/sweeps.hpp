@@ -20,7 +20,6 @@ struct SweepOptions {
   DissipationKind dissipation;
   double dissipation_factor = 1;
   double face_correction = 0;  ///< kappa_f (notes 3.8), 0: none
-  bool energy_budget = true;   ///< sum the viscous dissipation
   TimeStepRule time_step;
 };
 

@@ -45,7 +45,6 @@ TEST(CaseKeys, HaveTheDefaultsOfTheStructs) {
   EXPECT_EQ(read.scheme.face_correction, made.scheme.face_correction);
   EXPECT_EQ(read.scheme.precision, made.scheme.precision);
   EXPECT_EQ(read.scheme.angular_momentum_projection, made.scheme.angular_momentum_projection);
-  EXPECT_EQ(read.scheme.energy_budget, made.scheme.energy_budget);
   EXPECT_EQ(read.sph.kernel, made.sph.kernel);
   EXPECT_EQ(read.sph.kappa, made.sph.kappa);
   EXPECT_EQ(read.sph.closure, made.sph.closure);

@@ -65,11 +65,11 @@ TEST(ChangedSetting, IsToldWithBothValues) {
 }
 
 TEST(ChangedSetting, SeesFlags) {
-  EXPECT_EQ(change_by({"scheme.energy_budget=false"}),
-            "scheme.energy_budget was not given, is false");
-  EXPECT_EQ(changed_setting(settings_with({"scheme.energy_budget=false"}),
-                            settings_with({"scheme.energy_budget=true"})),
-            "scheme.energy_budget was false, is true");
+  EXPECT_EQ(change_by({"scheme.angular_momentum_projection=false"}),
+            "scheme.angular_momentum_projection was not given, is false");
+  EXPECT_EQ(changed_setting(settings_with({"scheme.angular_momentum_projection=false"}),
+                            settings_with({"scheme.angular_momentum_projection=true"})),
+            "scheme.angular_momentum_projection was false, is true");
   EXPECT_EQ(change_by({"output.fields=false"}), "");
   EXPECT_EQ(changed_setting("a = 1\nno setting\n", "a = 1\n"), "");
 }

@@ -80,10 +80,6 @@ TEST_P(BudgetOfStartOf, OthersAreLeftAlone) {
   EXPECT_EQ(first_steps_of(tests::scene_of(GetParam(), twist("leapfrog"))).rejected, 0)
       << "whose budget swings and closes again";
   EXPECT_EQ(
-      first_steps_of(tests::scene_of(GetParam(), twist("ssp-rk3"), {"scheme.energy_budget=false"}))
-          .rejected,
-      0);
-  EXPECT_EQ(
       first_steps_of(tests::scene_of(GetParam(), twist("ssp-rk3"),
                                      {"initial.velocity=[0, 0, 0]", "boundary.0.type=\"traction\"",
                                       "boundary.0.value=[0, 0, 1e5]"}))

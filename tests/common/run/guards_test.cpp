@@ -158,8 +158,8 @@ TEST(EnergyGuard, DoesNotJudgeLossesInTheFirstStepsOfABodyAtRest) {
     guard.at_check({step, now, audit});
   };
   judge(0, 0, 0);
-  EXPECT_NO_THROW(judge(EnergyGuard::steps_of_start - 1, 1, 0.8));
-  EXPECT_THROW(judge(EnergyGuard::steps_of_start, 1, 0.8), base::BreakdownError);
+  EXPECT_NO_THROW(judge(EnergyGuard::steps_of_any_loss - 1, 1, 0.8));
+  EXPECT_THROW(judge(EnergyGuard::steps_of_any_loss, 1, 0.8), base::BreakdownError);
 }
 
 TEST(EnergyGuard, StopsEnergyOfNothingInTheFirstStepsOfABodyAtRest) {
@@ -174,13 +174,16 @@ TEST(EnergyGuard, StopsEnergyOfNothingInTheFirstStepsOfABodyAtRest) {
     step.step = number;
     guard.at_check({step, now, audit});
   };
-  // of 8/n^2: 0.32, 0.08 and 0.022 of the energy held
+  // of 8/n^2: 0.32 and 0.08 of the energy held; of 0.5/n: 0.0263 and 0.0102
   EXPECT_NO_THROW(judge(2, 100));
   EXPECT_NO_THROW(judge(5, 1.4));
   EXPECT_THROW(judge(5, 1.5), base::BreakdownError);
   EXPECT_NO_THROW(judge(10, 1.08));
   EXPECT_THROW(judge(10, 1.09), base::BreakdownError);
-  EXPECT_THROW(judge(19, 1.03), base::BreakdownError);
+  EXPECT_NO_THROW(judge(19, 1.026));
+  EXPECT_THROW(judge(19, 1.028), base::BreakdownError);
+  EXPECT_NO_THROW(judge(49, 1.0102));
+  EXPECT_THROW(judge(50, 1.0102), base::BreakdownError);
   EXPECT_NO_THROW(judge(10, 1e-10 + 1));
 }
 
