@@ -2,6 +2,7 @@
 
 #include "benchmarks/convergence/convergence.hpp"
 #include "benchmarks/terminal/text.hpp"
+#include "common/base/text.hpp"
 #include "postprocess/report/agreement.hpp"
 #include "postprocess/report/orders.hpp"
 
@@ -143,11 +144,10 @@ std::string agreement_line(const ColumnConvergence& first,
     const auto cause = causes.find(one.name);
     text += cause == causes.end() ? ": the case has no [[apart]] for it" : ": " + cause->second;
   }
-  return folded(fmt::format("{:<32} {:>10.2e} {:>10.2e}  {}",
-                            (one.name + " [" + one.unit + "]").substr(0, 32), verdict.difference,
-                            verdict.allowed, text),
-                100, 56) +
-         "\n";
+  return base::folded(fmt::format("{:<32} {:>10.2e} {:>10.2e}  {}\n",
+                                  (one.name + " [" + one.unit + "]").substr(0, 32),
+                                  verdict.difference, verdict.allowed, text),
+                      56);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "benchmarks/run/interruption.hpp"
 #include "common/base/error.hpp"
+#include "common/base/text.hpp"
 #include "postprocess/report/orders.hpp"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ std::string breakdown_table(const std::vector<report::Breakdown>& breakdowns) {
                         one.node < 0 ? "-" : std::to_string(one.node), place_of(one));
   }
   for (const report::Breakdown& one : breakdowns)
-    text += fmt::format("{} level {}: {}\n", one.column, one.level, one.message);
+    text += base::folded(fmt::format("{} level {}: {}\n", one.column, one.level, one.message), 2);
   return text;
 }
 

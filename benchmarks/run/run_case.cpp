@@ -13,6 +13,7 @@
 #include "benchmarks/run/run_folder.hpp"
 #include "benchmarks/run/run_identity.hpp"
 #include "common/base/error.hpp"
+#include "common/base/text.hpp"
 #include "common/io/checkpoint_file.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/parallel/thread_count.hpp"
@@ -140,8 +141,9 @@ void CaseRun::tell(const std::string& notice) const {
 
 /// Told where no progress is, too.
 void CaseRun::warn(const std::string& notice) const {
-  std::fputs(fmt::format("{} level {}: {}\n", options_.column(), options_.level, notice).c_str(),
-             stderr);
+  const std::string text =
+      fmt::format("{} level {}: {}\n", options_.column(), options_.level, notice);
+  std::fputs(base::folded(text, 2).c_str(), stderr);
 }
 
 /// Takes state and records from the checkpoint.
@@ -275,7 +277,8 @@ void CaseRun::finish() {
   s.state_hash = scene_->solver->state_hash(scene_->mesh.order);
   note_ranks(*scene_, s);
   observers_->give(result_);
-  result_.final_state = simulation_->take_state();
+  if (options_.final_state || !options_.measures.empty())
+    result_.final_state = simulation_->take_state();
   result_.order = std::move(scene_->mesh.order);
   result_.graph = std::move(scene_->graph);
   if (s.status == "done") {

@@ -26,6 +26,7 @@ struct RunOptions {
   bool fields = true;               ///< write field frames (besides output.fields of the case)
   bool quiet = false;               ///< no progress
   bool shapes = false;              ///< keep deformed surfaces for a report
+  bool final_state = true;          ///< keep the fields of the end
   bool scales = false;              ///< find the largest norms of the fields over the output times
   bool checkpoints = false;  ///< keep its state when the case says so, and where it is interrupted
   std::string checkpoint;    ///< file to go on from; empty: the run begins at t = 0

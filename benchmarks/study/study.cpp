@@ -81,7 +81,7 @@ RunOptions run_options(const StudyOptions& options, int level, const Column& col
   run.quiet = options.quiet;
   run.shapes = options.shapes && is_finest && column.variant.empty();
   const bool has_others = options.methods.size() == 2 || !options.variants.empty();
-  run.scales = options.differences && has_others && is_finest;
+  run.scales = run.final_state = options.differences && has_others && is_finest;
   run.checkpoints = options.keeps_checkpoints;
   if (const auto found = options.checkpoints.find(run.column()); found != options.checkpoints.end())
     run.checkpoint = found->second;

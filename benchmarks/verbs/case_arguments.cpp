@@ -7,8 +7,8 @@
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/menus.hpp"
 #include "benchmarks/terminal/reference_table.hpp"
-#include "benchmarks/terminal/text.hpp"
 #include "common/base/error.hpp"
+#include "common/base/text.hpp"
 #include "common/cases/reader.hpp"
 #include "common/parallel/partition.hpp"
 #include "common/parallel/ranks.hpp"
@@ -141,11 +141,11 @@ void print_later_references(const cases::Case& setup, const harness::Study& stud
   for (const cases::ReferenceCase& reference : setup.references) {
     const double from = reference.points.front()[0];
     if (from <= end * (1 + 1e-9)) continue;
-    print(harness::folded(fmt::format("{} against {}: not compared, the values begin at {:g} s and "
-                                      "the run ends at {:g} s",
-                                      reference.probe, reference.source, from, end),
-                          100, 2) +
-          "\n");
+    print(
+        base::folded(fmt::format("{} against {}: not compared, the values begin at {:g} s and the "
+                                 "run ends at {:g} s\n",
+                                 reference.probe, reference.source, from, end),
+                     2));
   }
 }
 

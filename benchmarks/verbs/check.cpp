@@ -8,6 +8,7 @@
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
 #include "common/base/error.hpp"
+#include "common/base/text.hpp"
 #include "common/io/folder_lock.hpp"
 #include "common/parallel/for_chunks.hpp"
 
@@ -27,23 +28,26 @@ int check(const CaseArguments& arguments) {
     const auto kilobytes = [&](std::int64_t bytes) {
       return 1e-3 * static_cast<double>(bytes) / static_cast<double>(check.nodes);
     };
-    print(fmt::format(
-        "{:4} {} nodes, {} cells, {} pairs ({:.1f} a node, least {}), linear exactness {:.1e}, "
-        "closure {:.1e}\n     first dt {:.4g} s, about {} steps\n"
-        "     memory a node: {:.2f} kB in arrays of the solver; process {:.2f} kB while running, "
-        "{:.2f} kB while building\n"
-        "     in all: {} of memory at most (estimated beforehand: {}); {} for the steps of the "
-        "whole "
-        "run with {} {}, as the first ones went, after {} of set-up\n",
-        method, check.nodes, check.cells, check.pairs, check.quality.mean_neighbours,
-        check.quality.least_neighbours, check.quality.linear_exactness, check.quality.closure,
-        check.dt, check.steps, kilobytes(check.bytes), kilobytes(check.running_bytes),
-        kilobytes(check.building_bytes),
-        harness::bytes_text(static_cast<double>(check.building_bytes)),
-        harness::bytes_text(check.estimated_bytes), harness::duration_text(check.seconds),
-        parallel::n_threads(), parallel::n_threads() == 1 ? "thread" : "threads",
-        harness::duration_text(check.setup_seconds)));
-    if (!check.operators.empty()) print("     " + check.operators + "\n");
+    print(base::folded(
+        fmt::format(
+            "{:4} {} nodes, {} cells, {} pairs ({:.1f} a node, least {}), linear exactness {:.1e}, "
+            "closure {:.1e}\n     first dt {:.4g} s, about {} steps\n"
+            "     memory a node: {:.2f} kB in arrays of the solver; process {:.2f} kB while "
+            "running, "
+            "{:.2f} kB while building\n"
+            "     in all: {} of memory at most (estimated beforehand: {}); {} for the steps of the "
+            "whole "
+            "run with {} {}, as the first ones went, after {} of set-up\n",
+            method, check.nodes, check.cells, check.pairs, check.quality.mean_neighbours,
+            check.quality.least_neighbours, check.quality.linear_exactness, check.quality.closure,
+            check.dt, check.steps, kilobytes(check.bytes), kilobytes(check.running_bytes),
+            kilobytes(check.building_bytes),
+            harness::bytes_text(static_cast<double>(check.building_bytes)),
+            harness::bytes_text(check.estimated_bytes), harness::duration_text(check.seconds),
+            parallel::n_threads(), parallel::n_threads() == 1 ? "thread" : "threads",
+            harness::duration_text(check.setup_seconds)),
+        5));
+    if (!check.operators.empty()) print(base::folded("     " + check.operators + "\n", 5));
   }
   print(setup.name + ": the case is sound\n");
   return 0;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <CLI/CLI.hpp>
+#include <memory>
 
 namespace diptych::verbs {
 
@@ -103,12 +104,21 @@ std::string mistake(const CLI::App& app,
   return std::string(error.what()) + "; see diptych " + *verb + " --help";
 }
 
+/// Descriptions of options in lines that fit a terminal.
+class FoldedHelp : public CLI::Formatter {
+ public:
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    return base::folded(CLI::Formatter::make_option(option, is_positional), get_column_width());
+  }
+};
+
 }  // namespace
 
 int run_program(const std::vector<Verb>& verbs, int argc, char** argv) {
   CLI::App app{"Diptych: one large-strain solid-dynamics scene on SPH and finite volumes",
                "diptych"};
   app.require_subcommand(1);
+  app.formatter(std::make_shared<FoldedHelp>());
   app.set_version_flag("--version", std::string("diptych ") + DIPTYCH_VERSION);
   std::vector<std::pair<const CLI::App*, Action>> actions;
   for (const Verb& verb : verbs) {

@@ -64,4 +64,25 @@ std::string joined(const std::vector<std::string>& names, std::string_view separ
   return text;
 }
 
+std::string folded(std::string_view text, size_t indent, size_t width) {
+  std::string all;
+  while (!text.empty()) {
+    const size_t end = std::min(text.find('\n'), text.size());
+    std::string line(text.substr(0, end));
+    while (line.size() > width) {
+      const size_t first = std::max(line.find_first_not_of(' '), indent);
+      size_t at = line.rfind(' ', width);
+      if (at == std::string::npos || at <= first) at = line.find(' ', width);
+      if (at == std::string::npos) break;
+      all += line.substr(0, line.find_last_not_of(' ', at) + 1) + "\n";
+      const size_t next = line.find_first_not_of(' ', at);
+      line = std::string(indent, ' ') + (next == std::string::npos ? "" : line.substr(next));
+    }
+    all += line;
+    if (end < text.size()) all += '\n';
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return all;
+}
+
 }  // namespace diptych::base

@@ -1,6 +1,7 @@
 #pragma once
-/// Text for messages: edit distance and "did you mean".
+/// Text for messages: edit distance and "did you mean", lines that fit a terminal.
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,5 +20,9 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& na
 
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& names, std::string_view separator = ", ");
+
+/// Every line in lines of at most `width` characters, broken at spaces; those that were broken go
+/// on after as many spaces as `indent` says. A word that is longer stands alone.
+std::string folded(std::string_view text, size_t indent, size_t width = 100);
 
 }  // namespace diptych::base

@@ -74,15 +74,16 @@ void write_counts(Hdf5File& file, std::int64_t n_points, std::int64_t n_cells, s
 
 /// Values as float32. What does not fit, or is no number, is a breakdown of the run and not a
 /// colour in a picture.
-std::vector<float> narrowed(const NodeField& field) {
+/// @param first  number of the first node
+std::vector<float> narrowed(const NodeField& field, std::int64_t first) {
   std::vector<float> values(field.values.size());
   for (size_t i = 0; i < values.size(); ++i) {
     values[i] = static_cast<float>(field.values[i]);
     if (!std::isfinite(values[i])) {
-      throw base::BreakdownError(
-          fmt::format("field '{}' is {} at node {}, component {}; no frame was written", field.name,
-                      field.values[i], i / static_cast<size_t>(field.n_components),
-                      i % static_cast<size_t>(field.n_components)));
+      throw base::BreakdownError(fmt::format(
+          "field '{}' is {} at node {}, component {}; no frame was written", field.name,
+          field.values[i], static_cast<size_t>(first) + i / static_cast<size_t>(field.n_components),
+          i % static_cast<size_t>(field.n_components)));
     }
   }
   return values;
@@ -206,7 +207,7 @@ FieldWriter::FieldWriter(std::string directory, const VisualMesh& mesh, std::vec
 }
 
 std::string FieldWriter::write(double time,
-                               std::span<const NodeField> fields,
+                               const FieldsOfNodes& fields,
                                std::span<const NamedValue> values) {
   if (!std::isfinite(time) || (!times_.empty() && time <= times_.back())) {
     throw std::logic_error(fmt::format("frames must follow in time: {} after {}", time,
@@ -220,15 +221,18 @@ std::string FieldWriter::write(double time,
     file.link(in_root(shared), mesh_file, in_root(shared));
   }
   file.create_group(in_root("PointData"));
-  for (const NodeField& field : fields) {
-    if (field.n_components < 1 ||
-        static_cast<std::int64_t>(field.values.size()) != n_points_ * field.n_components) {
-      throw std::logic_error(fmt::format("field '{}' has {} values for {} nodes x {} components",
-                                         field.name, field.values.size(), n_points_,
-                                         field.n_components));
+  const std::int64_t at_once = nodes_at_once(n_points_);
+  for (std::int64_t begin = 0; begin < n_points_; begin += at_once) {
+    const std::int64_t end = std::min(n_points_, begin + at_once);
+    for (const NodeField& field : fields(begin, end)) {
+      const int n = field.n_components;
+      if (n < 1 || static_cast<std::int64_t>(field.values.size()) != (end - begin) * n) {
+        throw std::logic_error(fmt::format("field '{}' has {} values for {} nodes x {} components",
+                                           field.name, field.values.size(), end - begin, n));
+      }
+      file.write_rows(in_root("PointData/" + stored_name(field.name)), narrowed(field, begin), n,
+                      begin, n_points_);
     }
-    file.write(in_root("PointData/" + stored_name(field.name)),
-               std::span<const float>(narrowed(field)), field.n_components);
   }
   file.create_group(in_root("FieldData"));
   file.write(in_root("FieldData/time"), std::span<const double>(&time, 1));

@@ -3,7 +3,9 @@
 /// in mesh.hdf and linked externally, index run.hdf.series. Each file is written under a temporary
 /// name, closed, and renamed.
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +25,8 @@ struct NodeField {
   int n_components = 1;
   std::vector<double> values;
 };
+/// The fields of the nodes [begin, end) of the mesh: the same ones whatever the nodes.
+using FieldsOfNodes = std::function<std::vector<NodeField>(std::int64_t begin, std::int64_t end)>;
 
 /// A number of a frame, such as a probe: name with unit, value.
 struct NamedValue {
@@ -39,9 +43,16 @@ class FieldWriter {
   FieldWriter(std::string directory, const VisualMesh& mesh, std::vector<double> times = {});
   /// Writes DIR/frame_NNNN.hdf (fields as float32; field data "time" and the values) and refreshes
   /// run.hdf.series. @return path of the frame
+  /// @param fields  asked for some nodes after the other, so that none is whole in memory but in
+  /// the
+  ///                file
   std::string write(double time,
-                    std::span<const NodeField> fields,
+                    const FieldsOfNodes& fields,
                     std::span<const NamedValue> values = {});
+  /// So many of n: not more than eight parts, since each may cost a sweep over the body.
+  static std::int64_t nodes_at_once(std::int64_t n) {
+    return std::max<std::int64_t>(1 << 16, (n + 7) / 8);
+  }
 
  private:
   std::string directory_;

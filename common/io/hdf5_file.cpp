@@ -191,10 +191,31 @@ void Hdf5File::write(const std::string& name, std::span<const double> values, in
                std::span(shape).first(n_columns == 1 ? 1 : 2), false);
 }
 
-void Hdf5File::write(const std::string& name, std::span<const float> values, int n_columns) {
-  const auto shape = table_shape(values.size(), n_columns);
-  write_values(name, values.data(), H5T_NATIVE_FLOAT,
-               std::span(shape).first(n_columns == 1 ? 1 : 2), false);
+void Hdf5File::write_rows(const std::string& name,
+                          std::span<const float> values,
+                          int n_columns,
+                          std::int64_t first,
+                          std::int64_t n_rows) {
+  const std::string what = "cannot write '" + name + "'";
+  const auto columns = static_cast<hsize_t>(n_columns);
+  const int n_dimensions = n_columns == 1 ? 1 : 2;
+  const hsize_t whole[2] = {static_cast<hsize_t>(n_rows), columns};
+  const hsize_t begin[2] = {static_cast<hsize_t>(first), 0};
+  const hsize_t part[2] = {values.size() / columns, columns};
+  const Owned space(H5Screate_simple(n_dimensions, whole, nullptr), H5Sclose);
+  const Owned memory(H5Screate_simple(n_dimensions, part, nullptr), H5Sclose);
+  if (space.failed() || memory.failed()) fail(what);
+  Owned set(first == 0 ? H5Dcreate2(file_, name.c_str(), stored_type(H5T_NATIVE_FLOAT), space.get(),
+                                    H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)
+                       : H5Dopen2(file_, name.c_str(), H5P_DEFAULT),
+            H5Dclose);
+  if (set.failed() ||
+      H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, begin, nullptr, part, nullptr) < 0 ||
+      H5Dwrite(set.get(), H5T_NATIVE_FLOAT, memory.get(), space.get(), H5P_DEFAULT, values.data()) <
+          0 ||
+      !set.close()) {
+    fail(what);
+  }
 }
 
 void Hdf5File::write(const std::string& name,
@@ -222,7 +243,10 @@ std::string Hdf5File::take_image() {
   if (H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0) fail("cannot finish it");
   const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
   if (size <= 0) fail("cannot take its size");
-  std::string image(static_cast<size_t>(size), '\0');
+  std::string image;
+  constexpr size_t seal = 4096;  // and a part in a hundred: it is appended without a copy
+  image.reserve(static_cast<size_t>(size) + static_cast<size_t>(size) / 100 + seal);
+  image.resize(static_cast<size_t>(size));
   if (H5Fget_file_image(file_, image.data(), image.size()) != size) fail("cannot take its bytes");
   if (H5Fclose(std::exchange(file_, -1)) < 0) fail("cannot close it");
   return image;

@@ -40,7 +40,13 @@ class Hdf5File {
   /// A data set of shape [values.size() / n_columns][n_columns], or of one dimension for
   /// n_columns = 1. compressed: gzip 1 after shuffle, worth it for integers.
   void write(const std::string& name, std::span<const double> values, int n_columns = 1);
-  void write(const std::string& name, std::span<const float> values, int n_columns = 1);
+  /// Rows [first, first + values.size() / n_columns) of a data set of n_rows, which is made with
+  /// the first of them.
+  void write_rows(const std::string& name,
+                  std::span<const float> values,
+                  int n_columns,
+                  std::int64_t first,
+                  std::int64_t n_rows);
   void write(const std::string& name,
              std::span<const std::int64_t> values,
              bool compressed = false);

@@ -162,7 +162,6 @@ void BodySolver<Dim>::take_snapshot(Snapshot& snapshot) const {
 
 template <int Dim>
 Snapshot BodySolver<Dim>::snapshot(std::span<const std::int32_t> nodes) const {
-  scheme::gather_unknowns(moving_.body, nodes);
   return scheme::snapshot_of(material(), moving_.body, time(), nodes);
 }
 

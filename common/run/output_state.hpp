@@ -26,6 +26,11 @@ class OutputState {
     return motion_->u;
   }
 
+  /// Of these nodes, in this order.
+  Snapshot fields_of(std::span<const std::int32_t> nodes) {
+    return has_fields_ ? fields_.of(nodes) : solver_.snapshot(nodes);
+  }
+
   const Snapshot& fields() {
     if (!has_fields_) solver_.take_snapshot(fields_);
     has_fields_ = true;

@@ -35,8 +35,9 @@ void write_run(const std::string& directory) {
       displacement.values.insert(displacement.values.end(), {time * height, 0, 0});
       velocity.values.insert(velocity.values.end(), {height, 0, 0});
     }
-    const io::NodeField fields[] = {displacement, velocity};
-    writer.write(time, fields);
+    writer.write(time, [&](std::int64_t, std::int64_t) {
+      return std::vector<io::NodeField>{displacement, velocity};
+    });
   }
 }
 

@@ -196,7 +196,7 @@ class LoadedBody {
     const auto face = scheme::face_correction_sweeps<Dim>();
     if (kappa_f_ != 0) face.gradients(body_, 0, blocks);
     scheme::evaluate_strain_rates<Dim>(
-        {body_, material_, {}, true, kappa_f_, nullptr, 0, viscous_.data(), least_J_.data()});
+        {body_, material_, {}, kappa_f_, nullptr, 0, viscous_.data(), least_J_.data()});
     if (kappa_f_ != 0) face.stresses(body_, kappa_f_, 0, blocks);
     scheme::sum_forces<Dim>({body_, 1, false, numerical_.data(), rate_.data(), limited_.data()},
                             scheme::momentum_function<Dim>({}, true));

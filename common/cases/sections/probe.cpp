@@ -34,7 +34,8 @@ SectionKeys<ProbeCase> probe_keys() {
                  "from its mean, both as norms over the body or region: 1 to 1.5 where it "
                  "alternates from node to node, falling with the square of the spacing where it is "
                  "smooth), reaction (force that "
-                 "supports and walls exert on the nodes of the groups).",
+                 "supports and walls exert on the nodes of the groups at that instant; the impulse "
+                 "with which a wall catches a node within a step is not in it).",
                  "\"mean\""))
       .key("quantity", KeyType::scalar_field,
            {"that of probe.unit", any,

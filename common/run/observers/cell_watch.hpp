@@ -1,7 +1,7 @@
 #pragma once
 /// Looks at the cells between the outputs, the more often the sooner one of them would come to
 /// nothing, and has the step that turns one inside out taken back: the run ends with a body that is
-/// whole. Test: tests/common/run/guards_test.cpp
+/// whole. Test: tests/common/run/cell_watch_test.cpp
 
 #include "common/run/observers/cells.hpp"
 

@@ -14,15 +14,14 @@
 namespace diptych::run {
 
 /// Displacement, velocity, deformation gradient, first Piola-Kirchhoff and Cauchy stress (nine
-/// components each, row by row), von Mises stress, J, pressure. Plane strain gives all components.
-/// @param order  [node] its number in the user's mesh, which the fields have
-std::vector<io::NodeField> frame_fields(const Snapshot& state,
-                                        const std::vector<std::int32_t>& order);
+/// components each, row by row), von Mises stress, J, pressure, node by node of the snapshot. Plane
+/// strain gives all components.
+std::vector<io::NodeField> frame_fields(const Snapshot& state);
 
 class Fields : public Observer {
  public:
   /// Writes nothing yet.
-  /// @param order    [node] its number in the user's mesh; kept by reference
+  /// @param order    [node] its number in the user's mesh, which frames have; kept by reference
   /// @param columns  headers of the probes, whose values stand in each frame
   /// @param history  has them; kept by reference, told of an output before this one
   Fields(const std::vector<std::int32_t>& order,
@@ -31,7 +30,7 @@ class Fields : public Observer {
 
   /// From now on frames are written, behind those of before a checkpoint.
   /// @param writer  made with frame_times()
-  void write_with(io::FieldWriter writer) { writer_.emplace(std::move(writer)); }
+  void write_with(io::FieldWriter writer);
   /// Of the frames that were written  [s]
   const std::vector<double>& frame_times() const { return times_; }
 
@@ -44,6 +43,7 @@ class Fields : public Observer {
  private:
   std::optional<io::FieldWriter> writer_;
   const std::vector<std::int32_t>& order_;
+  std::vector<std::int32_t> nodes_;  ///< in the user's order; empty where nothing is written
   std::vector<std::string> columns_;
   const History& history_;
   std::vector<double> times_;

@@ -5,26 +5,46 @@
 #include "common/scheme/body/point_access.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace diptych::scheme {
 
 namespace {
 
-/// J of nodes by the volumes of cells, on all ranks; empty where these do not carry the pressure.
+std::int32_t chunk_of(std::int32_t node) {
+  return static_cast<std::int32_t>(node / (parallel::chunk_size * algebra::n_lanes));
+}
+
+/// J of nodes by the volumes of cells, of a rank's own; empty where these do not carry the
+/// pressure.
 template <int Dim>
 std::vector<double> cell_ratios(const Body<Dim>& body, std::span<const std::int32_t> nodes) {
   if (!body.bulk) return {};
   const std::vector<double> all = body.bulk->ratios(body);
   std::vector<double> J;
-  std::vector<std::int32_t> chunk_of;
-  for (const std::int32_t a : nodes) {
+  for (const std::int32_t a : nodes)
     J.push_back(all[a]);
-    chunk_of.push_back(static_cast<std::int32_t>(a / (parallel::chunk_size * algebra::n_lanes)));
-  }
-  body.part().complete(J, chunk_of);
   return J;
 }
 
+/// The entries of other ranks.
+void complete(const parallel::Part& part, std::span<const std::int32_t> nodes, Snapshot& s) {
+  if (part.is_whole()) return;
+  std::vector<std::int32_t> chunks;
+  for (const std::int32_t a : nodes)
+    chunks.push_back(chunk_of(a));
+  for (auto* field : {&s.u, &s.v})
+    part.complete(*field, chunks);
+  for (auto* field : {&s.F, &s.H, &s.P})
+    part.complete(*field, chunks);
+  part.complete(s.J, chunks);
+  for (auto* branches : {&s.A, &s.S}) {
+    for (std::vector<Mat3>& field : *branches)
+      part.complete(field, chunks);
+  }
+}
+
+/// Of a rank's own nodes.
 /// @param node_of  node_of(k): the node of entry k
 template <int Dim, class NodeOf>
 void put_fields(const MaterialModel& material,
@@ -47,6 +67,7 @@ void put_fields(const MaterialModel& material,
   }
   const auto take = [&](size_t k) {
     const std::int32_t a = node_of(k);
+    if (!body.part().owns(chunk_of(a))) return;
     s.u[k] = s.v[k] = Vec3::Zero();
     for (int i = 0; i < Dim; ++i) {
       s.u[k][i] = body.u.at(a, i);
@@ -78,6 +99,22 @@ void put_fields(const MaterialModel& material,
 
 }  // namespace
 
+Snapshot Snapshot::of(std::span<const std::int32_t> nodes) const {
+  const auto picked = [&](const auto& field) {
+    std::remove_cvref_t<decltype(field)> values;
+    values.reserve(nodes.size());
+    for (const std::int32_t a : nodes)
+      values.push_back(field[static_cast<size_t>(a)]);
+    return values;
+  };
+  Snapshot s{time, picked(u), picked(v), picked(F), picked(H), picked(P), picked(J), {}, {}};
+  for (const std::vector<Mat3>& field : A)
+    s.A.push_back(picked(field));
+  for (const std::vector<Mat3>& field : S)
+    s.S.push_back(picked(field));
+  return s;
+}
+
 template <int Dim>
 Snapshot snapshot_of(const MaterialModel& material,
                      const Body<Dim>& body,
@@ -88,6 +125,7 @@ Snapshot snapshot_of(const MaterialModel& material,
   put_fields(
       material, body, nodes.size(), [&](size_t k) { return nodes[k]; }, cell_ratios(body, nodes),
       s);
+  complete(body.part(), nodes, s);
   return s;
 }
 

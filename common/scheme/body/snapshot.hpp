@@ -23,9 +23,12 @@ struct Snapshot {
   std::vector<Mat3> F, H, P;            ///< -, -, Pa
   std::vector<double> J;                ///< -
   std::vector<std::vector<Mat3>> A, S;  ///< [branch][node] C_v^-1, G_v^-1
+
+  /// Of these of its nodes, in this order.
+  Snapshot of(std::span<const std::int32_t> nodes) const;
 };
 
-/// Of these nodes, in this order.
+/// Of these nodes, in this order; among ranks each works its own, and all have all.
 template <int Dim>
 Snapshot snapshot_of(const MaterialModel& material,
                      const Body<Dim>& body,

@@ -28,7 +28,8 @@ std::unique_ptr<BoundaryCondition> make_rigid_wall(const BoundaryValues& values)
 BoundaryKind rigid_wall_condition() {
   return {make_rigid_wall, BoundaryKind::Takes::plane, BoundaryKind::Acts::touch,
           "frictionless contact with a fixed rigid plane in space, which the group may touch and "
-          "leave"};
+          "leave; what a node loses as the wall catches it is negative external work, of the first "
+          "order in the spacing"};
 }
 
 void WallContacts::add(const RigidWall& wall, const WallCandidate& candidate) {

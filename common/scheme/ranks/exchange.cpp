@@ -137,31 +137,12 @@ void gather_state(Body<Dim>& body) {
     gather(body, role);
 }
 
-template <int Dim>
-void gather_unknowns(Body<Dim>& body, std::span<const std::int32_t> nodes) {
-  if (!body.division) return;
-  std::vector<std::int32_t> chunk_of;
-  for (const std::int32_t node : nodes)
-    chunk_of.push_back(static_cast<std::int32_t>(node / (parallel::chunk_size * n_lanes)));
-  std::vector<double> values(nodes.size());
-  for (const Field<Dim>& field : body.fields()) {
-    for (int c = 0; field.role == Role::unknown && c < field.n_components; ++c) {
-      for (size_t k = 0; k < nodes.size(); ++k)
-        values[k] = field.at(body, nodes[k], c);
-      body.part().complete(values, chunk_of);
-      for (size_t k = 0; k < nodes.size(); ++k)
-        field.set(body, nodes[k], c, values[k]);
-    }
-  }
-}
-
 #define DIPTYCH_INSTANTIATE(Dim)                          \
   template void begin_exchange(Body<Dim>&, Tables<Dim>);  \
   template void finish_exchange(Body<Dim>&, Tables<Dim>); \
   template void gather(Body<Dim>&, Role);                 \
   template void gather_motion(Body<Dim>&);                \
-  template void gather_state(Body<Dim>&);                 \
-  template void gather_unknowns(Body<Dim>&, std::span<const std::int32_t>);
+  template void gather_state(Body<Dim>&);
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)
 #undef DIPTYCH_INSTANTIATE

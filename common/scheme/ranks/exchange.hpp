@@ -51,8 +51,4 @@ void gather_motion(Body<Dim>& body);
 template <int Dim>
 void gather_state(Body<Dim>& body);
 
-/// Brings the unknowns of these nodes to all ranks.
-template <int Dim>
-void gather_unknowns(Body<Dim>& body, std::span<const std::int32_t> nodes);
-
 }  // namespace diptych::scheme

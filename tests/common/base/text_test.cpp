@@ -10,6 +10,7 @@
 namespace {
 
 using diptych::base::edit_distance;
+using diptych::base::folded;
 using diptych::base::joined;
 using diptych::base::nearest_name;
 using diptych::base::suggestion;
@@ -63,6 +64,13 @@ TEST(Joined, PutsTheSeparatorBetween) {
   EXPECT_EQ(joined({}), "");
   EXPECT_EQ(joined({"a"}), "a");
   EXPECT_EQ(joined({"a", "b", "c"}, " | "), "a | b | c");
+}
+
+TEST(FoldedText, FitsEveryLineAndKeepsTheOthers) {
+  EXPECT_EQ(folded("short\n\n  kept as it is\n", 2, 20), "short\n\n  kept as it is\n");
+  EXPECT_EQ(folded("one two three four\nfive", 4, 10), "one two\n    three\n    four\nfive");
+  EXPECT_EQ(folded("a twenty-letter-word-here b", 2, 8), "a twenty-letter-word-here\n  b");
+  EXPECT_EQ(folded("", 2, 8), "");
 }
 
 }  // namespace

@@ -195,7 +195,9 @@ TEST(FailingDisk, FramesAndTheirIndexSayWhatFailed) {
       [&] { fs::remove_all(folder / "out"); },
       [&] {
         FieldWriter writer(folder / "out", mesh);
-        writer.write(0, std::vector<NodeField>{{"jacobian [-]", 1, {1, 1, 1, 1}}});
+        writer.write(0, [](std::int64_t, std::int64_t) {
+          return std::vector<NodeField>{{"jacobian [-]", 1, {1, 1, 1, 1}}};
+        });
       },
       [&] { return read_field(frame, "jacobian [-]").values.size() == 4; },
       [&](int, const std::string& message) { EXPECT_THAT(message, HasSubstr(folder / "out")); });

@@ -49,10 +49,43 @@ std::vector<NodeField> fields(double scale = 1) {
   return {velocity, stress, {"jacobian [-]", 1, {1, 0.9, 0.8, 0.7, 0.6}}};
 }
 
+/// Of meshes of fewer nodes than are asked for at once.
+FieldsOfNodes whole(std::vector<NodeField> all) {
+  return [all = std::move(all)](std::int64_t, std::int64_t) { return all; };
+}
+
+TEST(FieldWriter, AsksForManyNodesPartByPart) {
+  const Scratch folder;
+  const std::int64_t n = (1 << 16) + 1000;
+  VisualMesh mesh = two_tets();
+  mesh.points.resize(3 * static_cast<size_t>(n));
+  FieldWriter writer(folder.path(), mesh);
+  std::vector<std::int64_t> asked;
+  writer.write(0, [&](std::int64_t begin, std::int64_t end) {
+    asked.push_back(begin);
+    NodeField number{"number [-]", 1, {}}, place{"place [m]", 3, {}};
+    for (std::int64_t a = begin; a < end; ++a) {
+      number.values.push_back(static_cast<double>(a));
+      place.values.insert(place.values.end(), {0.5 * static_cast<double>(a), 1, 2});
+    }
+    return std::vector<NodeField>{number, place};
+  });
+  EXPECT_THAT(asked, ElementsAre(0, 1 << 16));
+  const NodeField number = read_field(folder / "frame_0000.hdf", "number [-]");
+  const NodeField place = read_field(folder / "frame_0000.hdf", "place [m]");
+  ASSERT_EQ(std::ssize(number.values), n);
+  ASSERT_EQ(std::ssize(place.values), 3 * n);
+  size_t n_wrong = 0;
+  for (size_t a = 0; a < number.values.size(); ++a)
+    n_wrong += number.values[a] != static_cast<double>(a) ||
+               place.values[3 * a] != 0.5 * static_cast<double>(a) || place.values[3 * a + 2] != 2;
+  EXPECT_EQ(n_wrong, 0u);
+}
+
 TEST(FieldWriter, GivesBackWhatItWroteInSinglePrecision) {
   const Scratch folder;
   FieldWriter writer(folder / "out", two_tets());
-  writer.write(0.5, fields());
+  writer.write(0.5, whole(fields()));
   const NodeField velocity = read_field(folder / "out/frame_0000.hdf", "velocity [m/s]");
   EXPECT_EQ(velocity.n_components, 3);
   ASSERT_EQ(velocity.values.size(), 15u);
@@ -65,7 +98,7 @@ TEST(FieldWriter, GivesBackWhatItWroteInSinglePrecision) {
 TEST(FieldWriter, HasTheLayoutOfVtkhdfOne) {
   const Scratch folder;
   FieldWriter writer(folder.path(), two_tets());
-  writer.write(0.25, fields());
+  writer.write(0.25, whole(fields()));
   const Hdf5File frame = Hdf5File::open_for_reading(folder / "frame_0000.hdf");
   EXPECT_THAT(frame.read_integers("/VTKHDF/NumberOfPoints"), ElementsAre(5));
   EXPECT_THAT(frame.read_integers("/VTKHDF/NumberOfCells"), ElementsAre(2));
@@ -86,7 +119,7 @@ TEST(FieldWriter, HasTheLayoutOfVtkhdfOne) {
 TEST(FieldWriter, LinksTheMeshAndMarksTheFile) {
   const Scratch folder;
   FieldWriter writer(folder.path(), two_tets());
-  writer.write(0, fields());
+  writer.write(0, whole(fields()));
   const hid_t file = H5Fopen((folder / "frame_0000.hdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(file, 0);
   for (const char* name : {"Points", "Connectivity", "Offsets", "Types"}) {
@@ -116,7 +149,7 @@ TEST(FieldWriter, IndexListsFramesAndTimes) {
   const Scratch folder;
   FieldWriter writer(folder.path(), two_tets());
   for (const double time : {0.0, 0.1, 0.30000000000000004})
-    writer.write(time, fields());
+    writer.write(time, whole(fields()));
   const auto series = nlohmann::json::parse(read_file(folder / "run.hdf.series"));
   EXPECT_EQ(series["file-series-version"], "1.0");
   EXPECT_EQ(series["files"][1]["name"], "frame_0001.hdf");
@@ -124,15 +157,15 @@ TEST(FieldWriter, IndexListsFramesAndTimes) {
   ASSERT_EQ(frames.size(), 3u);
   EXPECT_EQ(frames[2].time, 0.30000000000000004);
   EXPECT_EQ(read_field(frames[2].path, "velocity [m/s]").values.size(), 15u);
-  EXPECT_THROW(writer.write(0.1, fields()), std::logic_error) << "time must advance";
+  EXPECT_THROW(writer.write(0.1, whole(fields())), std::logic_error) << "time must advance";
 }
 
 TEST(FieldWriter, RemovesFramesOfAnEarlierRunAndNothingElse) {
   const Scratch folder;
   {
     FieldWriter writer(folder.path(), two_tets());
-    writer.write(0, fields());
-    writer.write(1, fields());
+    writer.write(0, whole(fields()));
+    writer.write(1, whole(fields()));
   }
   write_file_atomically(folder / "frame_notes.hdf", "mine");
   FieldWriter again(folder.path(), two_tets());
@@ -157,7 +190,7 @@ TEST(FieldWriter, RefusesWhatIsNoNumberOrDoesNotFit) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), 1e39}) {
     auto broken = fields();
     broken[0].values[7] = bad;
-    EXPECT_THAT(message_of<base::BreakdownError>([&] { writer.write(0, broken); }),
+    EXPECT_THAT(message_of<base::BreakdownError>([&] { writer.write(0, whole(broken)); }),
                 HasSubstr("'velocity [m/s]' is " + std::string(bad > 0 ? "1e+39" : "nan") +
                           " at node 2, component 1"));
   }
@@ -165,7 +198,7 @@ TEST(FieldWriter, RefusesWhatIsNoNumberOrDoesNotFit) {
   EXPECT_FALSE(fs::exists(folder / "frame_0000.hdf.tmp"));
   auto short_field = fields();
   short_field[1].values.pop_back();
-  EXPECT_THROW(writer.write(0, short_field), std::logic_error);
+  EXPECT_THROW(writer.write(0, whole(short_field)), std::logic_error);
 }
 
 TEST(FieldWriter, RefusesAMeshWhoseArraysDisagree) {
@@ -186,7 +219,7 @@ TEST(FieldWriter, RefusesAMeshWhoseArraysDisagree) {
 TEST(ReadField, SaysWhatIsThere) {
   const Scratch folder;
   FieldWriter writer(folder.path(), two_tets());
-  writer.write(0, fields());
+  writer.write(0, whole(fields()));
   const std::string frame = folder / "frame_0000.hdf";
   EXPECT_THAT(message_of<base::InputError>([&] { read_field(frame, "veloctiy [m/s]"); }),
               HasSubstr("the frame has: jacobian [-], stress [Pa], velocity [m s-1]"));
@@ -217,7 +250,7 @@ TEST(FieldWriterDeathTest, AFullDiskIsAnErrorAndLeavesNoHalfOfAFrame) {
     const rlimit limit{1024, 1024};
     setrlimit(RLIMIT_FSIZE, &limit);
     try {
-      writer.write(0, fields());
+      writer.write(0, whole(fields()));
     } catch (const base::EnvironmentError& error) {
       fputs(error.what(), stderr);
       std::exit(4);

@@ -25,6 +25,7 @@ Snapshot two_nodes() {
   s.P = {Mat3::Zero(), Mat3::Zero()};
   s.P[1](0, 0) = 12;
   s.P[1](0, 1) = 8;
+  s.H = {Mat3::Identity(), Eigen::Vector3d(0.25, 1, 1).asDiagonal()};
   s.J = {1, 0.5};
   return s;
 }
@@ -38,7 +39,7 @@ const io::NodeField& field(const std::vector<io::NodeField>& fields, const std::
 
 TEST(FrameFields, HaveNamesWithUnitsInOrder) {
   std::vector<std::string> names;
-  for (const io::NodeField& one : frame_fields(two_nodes(), {0, 1}))
+  for (const io::NodeField& one : frame_fields(two_nodes()))
     names.push_back(one.name);
   EXPECT_THAT(names, ElementsAre("displacement [m]", "velocity [m/s]", "deformation_gradient [-]",
                                  "first_piola_stress [Pa]", "cauchy_stress [Pa]",
@@ -47,7 +48,8 @@ TEST(FrameFields, HaveNamesWithUnitsInOrder) {
 
 // sigma = P F^T / J: 12 * 2 / 0.5 and 8 * 0.5 / 0.5, in the row of the user's node 0
 TEST(FrameFields, AreThoseOfTheNodesOfTheUsersMesh) {
-  const auto fields = frame_fields(two_nodes(), {1, 0});
+  const std::vector<std::int32_t> nodes{1, 0};
+  const auto fields = frame_fields(two_nodes().of(nodes));
   EXPECT_THAT(field(fields, "displacement [m]").values, ElementsAre(1, 2, 3, 0, 0, 0));
   EXPECT_THAT(field(fields, "velocity [m/s]").values, ElementsAre(4, 5, 6, 0, 0, 0));
   EXPECT_THAT(field(fields, "cauchy_stress [Pa]").values,

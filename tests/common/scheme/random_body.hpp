@@ -73,7 +73,7 @@ class RandomBody {
                 scheme::MomentumFunction<3> momentum,
                 double factor = 1) {
     const scheme::Relaxation frozen;
-    const scheme::StrainRateSweep<3> first{state,   material, frozen,         true,          0,
+    const scheme::StrainRateSweep<3> first{state,   material, frozen,         0,
                                            nullptr, 0,        viscous.data(), least_J.data()};
     parallel::for_chunks(state.n_blocks,
                          [&](auto b, auto e, auto c) { strain_rates(first, b, e, c); });
