@@ -52,23 +52,12 @@ RunResult not_begun(const CampaignRun& run, const std::string& status, const std
   return result;
 }
 
-/// What a variant cannot begin with is told with its name: the methods may well begin.
-RunResult attempt(const CampaignRun& run, const RunOptions& options) {
-  try {
-    return attempt_case(*run.setup, options);
-  } catch (const base::InputError& error) {
-    if (options.variant.empty()) throw;
-    throw base::InputError(
-        fmt::format("{} level {}: {}", options.column(), options.level, error.what()));
-  }
-}
-
 RunResult made_now(const CampaignRun& run, const Schedule& schedule) {
   RunOptions options = run.options;
   options.schedule = &schedule;
   StatusLine status(options.quiet);
   if (!run.label.empty()) status.show(run.label);
-  if (!run.may_be_refused) return attempt(run, options);
+  if (!run.may_be_refused) return attempt_case(*run.setup, options);
   try {
     return attempt_case(*run.setup, options);
   } catch (const base::InputError& error) {

@@ -5,7 +5,6 @@
 
 #include "common/io/run_record.hpp"
 #include "postprocess/report/grid_convergence.hpp"
-#include "postprocess/report/orders.hpp"
 
 #include <map>
 #include <optional>

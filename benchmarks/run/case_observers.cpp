@@ -60,7 +60,7 @@ CaseObservers::CaseObservers(const cases::Case& setup,
             return least_cell(scene_.mesh.mesh, deformed_.least(u));
           },
           [this](std::int64_t step) { return cell_watch_ ? cell_watch_->seen(step) : nullptr; }),
-      history_(*scene.solver, probes_, cells_),
+      history_(*scene.solver, probes_, cells_, energy_of_rounding(setup, scene)),
       steps_(*scene.solver, probes_),
       exact_(setup, scene.graph, *scene.solver, probes_),
       fields_(scene.mesh.order, run::probe_columns(setup.probes, false), history_),

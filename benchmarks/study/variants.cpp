@@ -28,38 +28,6 @@ std::vector<std::string> values_of(const std::string& text) {
   return values;
 }
 
-/// "sph" of "sph.kappa=1.2"; empty where the key is of no one method.
-std::string method_of_key(const std::string& override) {
-  const std::string section = override.substr(0, override.find('.'));
-  return section == "sph" || section == "fvm" ? section : "";
-}
-
-void add_override(Variant& variant, const std::string& override) {
-  const std::string key = override.substr(0, override.find('='));
-  variant.label += (variant.label.empty() ? "" : " ") + override.substr(key.rfind('.') + 1);
-  variant.overrides.push_back(override);
-}
-
-/// Of each method those that differ by what it reads.
-std::vector<Variant> by_method(const std::vector<Variant>& variants) {
-  std::vector<Variant> split;
-  for (const char* method : {"sph", "fvm"}) {
-    for (const Variant& variant : variants) {
-      Variant own;
-      own.method = method;
-      for (const std::string& override : variant.overrides) {
-        const std::string of = method_of_key(override);
-        if (of.empty() || of == method) add_override(own, override);
-      }
-      const bool is_new = std::none_of(split.begin(), split.end(), [&](const Variant& one) {
-        return one.method == own.method && one.overrides == own.overrides;
-      });
-      if (is_new) split.push_back(std::move(own));
-    }
-  }
-  return split;
-}
-
 }  // namespace
 
 std::vector<Variant> variants_of(const std::vector<std::string>& variations) {
@@ -70,16 +38,16 @@ std::vector<Variant> variants_of(const std::vector<std::string>& variations) {
     std::vector<Variant> combined;
     for (const Variant& variant : variants) {
       for (const std::string& value : values) {
-        combined.push_back(variant);
-        add_override(combined.back(), key + "=" + value);
+        Variant next = variant;
+        next.label +=
+            (next.label.empty() ? "" : " ") + key.substr(key.rfind('.') + 1) + "=" + value;
+        next.overrides.push_back(key + "=" + value);
+        combined.push_back(std::move(next));
       }
     }
     variants = std::move(combined);
   }
-  const bool has_own_keys =
-      std::any_of(variants.front().overrides.begin(), variants.front().overrides.end(),
-                  [](const std::string& override) { return !method_of_key(override).empty(); });
-  return has_own_keys ? by_method(variants) : variants;
+  return variants;
 }
 
 std::vector<Variant> variants_of_columns(const std::vector<Column>& columns) {

@@ -20,8 +20,7 @@ struct Variant {
 };
 
 /// All combinations of texts like "sph.kappa=1.0,1.2", the last variation fastest; one without
-/// overrides where none is asked. Where a key is of one method ("sph.kappa"), those of the other
-/// method are without it. @throws base::InputError where there is no key, no '=' or an
+/// overrides where none is asked. @throws base::InputError where there is no key, no '=' or an
 /// empty value
 std::vector<Variant> variants_of(const std::vector<std::string>& variations);
 

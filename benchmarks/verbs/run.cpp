@@ -17,7 +17,7 @@ int run_methods(const CaseArguments& arguments) {
   const cases::Case setup = arguments.read();
   auto options = arguments.study_options(setup);
   options.keeps_checkpoints = true;
-  options.differences = false;  // printed by others
+  options.differences = false;  // compare and converge print them
   options.goes_past_refusals = true;
   go_on(setup, arguments.restart, !arguments.directory.empty(), options);
   const harness::Study study = harness::run_study(setup, options);

@@ -58,6 +58,7 @@ std::string agreement(const Estimate& a, const Estimate& b) {
   const bool is_apart = verdict.agreement == report::Agreement::apart;
   if (!is_apart && verdict.agreement != report::Agreement::agree)
     return report::verdict_text(verdict);
+  if (!is_apart && verdict.difference > verdict.allowed) return "yes, in six digits";
   if (verdict.difference == 0) return "yes";
   return fmt::format("{}, {:.2g} of the bars", is_apart ? "**no**" : "yes",
                      verdict.difference / verdict.allowed);

@@ -76,7 +76,7 @@ std::string folded(std::string_view text, size_t indent, size_t width) {
       if (at == std::string::npos) break;
       all += line.substr(0, line.find_last_not_of(' ', at) + 1) + "\n";
       const size_t next = line.find_first_not_of(' ', at);
-      line = std::string(indent, ' ') + (next == std::string::npos ? "" : line.substr(next));
+      line = next == std::string::npos ? "" : std::string(indent, ' ') + line.substr(next);
     }
     all += line;
     if (end < text.size()) all += '\n';

@@ -24,7 +24,7 @@ class BudgetOfStart {
 
   struct Bounds {
     double opening = 0;       ///< of the budget by the first steps together, as a share of the
-                              ///< energy; 0: none is judged
+                              ///< energy
     double least_energy = 0;  ///< J: a body that holds no more at t = 0 is at rest. It is not
                               ///< judged: what a load brings in its first steps is less than any
                               ///< step errs by

@@ -27,8 +27,10 @@ inline double energy_of_rounding(double density, double speed, const std::vector
 /// Budget of a run relative to the largest energy that it has held.
 class EnergyRecord {
  public:
-  explicit EnergyRecord(const scheme::Balance& initial)
-      : initial_(initial.kinetic + initial.strain), scale_(initial_) {}
+  /// @param least_energy  J, energy_of_rounding(): the residual of a body that has held no more is
+  /// 0
+  explicit EnergyRecord(const scheme::Balance& initial, double least_energy = 0)
+      : initial_(initial.kinetic + initial.strain), scale_(initial_), least_energy_(least_energy) {}
 
   io::EnergySummary at(const scheme::Balance& now, const scheme::Audit& audit) {
     io::EnergySummary e;
@@ -40,7 +42,7 @@ class EnergyRecord {
     e.projection_work = audit.projection_work;
     scale_ = std::max({scale_, now.kinetic + now.strain, std::abs(audit.external_work)});
     const double residual = now.kinetic + now.strain - initial_ - audit.gain();
-    e.relative_residual = scale_ > 0 ? residual / scale_ : residual;
+    e.relative_residual = scale_ > least_energy_ ? residual / scale_ : 0;
     return e;
   }
 
@@ -54,7 +56,7 @@ class EnergyRecord {
   }
 
  private:
-  double initial_, scale_;
+  double initial_, scale_, least_energy_;
 };
 
 }  // namespace diptych::run

@@ -61,7 +61,7 @@ class Simulation {
   void archive(algebra::Archive& archive);
 
   /// Steps between what guards judge: an energy that grows is found within a hundred, and the
-  /// energies of a body, which cost 2/3 of a step of leapfrog at most, 1.5 % (diptych cost).
+  /// energies of a body cost 0.3 of a step of leapfrog at most, 0.6 % (diptych cost).
   static constexpr std::int64_t check_period = 50;
 
   const StepTotals& totals() const { return totals_; }

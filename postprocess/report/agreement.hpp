@@ -7,7 +7,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace diptych::report {
 
@@ -29,8 +28,8 @@ constexpr double order_tolerance = 0.5, largest_index = 0.05;
 enum class Agreement {
   agree,      ///< both resolved, apart by no more than the sum of their error bars
   apart,      ///< both resolved, apart by more
-  near,       ///< one has no order; apart by no more than three times what their levels change by
-  far,        ///< one has no order; apart by more, although their levels change by little
+  near,       ///< one not resolved; apart by no more than three times what their levels change by
+  far,        ///< one not resolved; apart by more, although their levels change by little
   unresolved  ///< fewer than three levels, or they change by too much to say anything
 };
 

@@ -92,6 +92,29 @@ TEST(Refusal, OfOneMethodLeavesTheOtherToRun) {
   }
 }
 
+TEST(Refusal, OfAVariantLeavesTheOtherColumnsToRun) {
+  for (const char* verb : {"compare", "converge"}) {
+    const Folder folder;
+    folder.write("case.toml", crushed("1"));
+    const auto outcome =
+        diptych(folder, std::string(verb) +
+                            " case.toml --quiet --threads 1 --set time.max_steps=2 "
+                            "--out out --with \"small: sph.kappa=0.5\"" +
+                            (verb == std::string("converge") ? " --levels 2" : ""));
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
+    EXPECT_THAT(outcome.text, AllOf(HasSubstr("diptych: sph-small level 0 was refused: particle"),
+                                    HasSubstr("raise sph.kappa")));
+    const fs::path first =
+        folder.path() / "out" / (verb == std::string("converge") ? "level_0" : "");
+    for (const char* method : {"sph", "fvm"})
+      EXPECT_EQ(summary_in(first / method).steps, 2);
+    EXPECT_FALSE(fs::exists(first / "sph-small"));
+    if (verb == std::string("compare")) {
+      EXPECT_TRUE(fs::exists(folder.path() / "out" / "report.html"));
+    }
+  }
+}
+
 /// What is left of a step that has failed for good is the state before it, to be looked at.
 TEST(Breakdown, LeavesTheLastGoodState) {
   const Folder folder;

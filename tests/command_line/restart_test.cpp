@@ -1,7 +1,7 @@
 /// A run that goes on from a checkpoint leaves what the run that never ended leaves; a damaged
 /// checkpoint, one of another run and none at all are told apart, with code 2.
 
-#include "common/io/field_writer.hpp"
+#include "tests/command_line/frames.hpp"
 #include "tests/command_line/small_case.hpp"
 
 #include <gtest/gtest.h>
@@ -19,6 +19,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using tests::diptych;
+using tests::expect_same_frames;
 using tests::Folder;
 using tests::Outcome;
 using tests::shell;
@@ -43,20 +44,6 @@ std::vector<fs::path> checkpoints_in(const fs::path& directory) {
   }
   std::sort(found.rbegin(), found.rend());
   return found;
-}
-
-void expect_same_frames(const fs::path& a, const fs::path& b) {
-  const auto wanted = io::read_series((a / "run.hdf.series").string());
-  const auto found = io::read_series((b / "run.hdf.series").string());
-  ASSERT_EQ(found.size(), wanted.size());
-  for (size_t k = 0; k < wanted.size(); ++k) {
-    EXPECT_EQ(found[k].time, wanted[k].time);
-    for (const char* field : {"velocity [m/s]", "displacement [m]", "first_piola_stress [Pa]"}) {
-      EXPECT_EQ(io::read_field(found[k].path, field).values,
-                io::read_field(wanted[k].path, field).values)
-          << field << " of frame " << k;
-    }
-  }
 }
 
 /// All that the runs have left, but for dates and what it took.

@@ -10,23 +10,11 @@ namespace {
 using testing::ElementsAre;
 
 TEST(Variants, AreAllCombinationsTheLastFastest) {
-  const auto variants = variants_of({"time.cfl=1.0,1.2", "scheme.face_correction=0,1/6"});
+  const auto variants = variants_of({"sph.kappa=1.0,1.2", "scheme.face_correction=0,1/6"});
   ASSERT_EQ(variants.size(), 4u);
-  EXPECT_EQ(variants[0].label, "cfl=1.0 face_correction=0");
-  EXPECT_THAT(variants[1].overrides, ElementsAre("time.cfl=1.0", "scheme.face_correction=1/6"));
-  EXPECT_EQ(variants[2].label, "cfl=1.2 face_correction=0");
-  EXPECT_EQ(variants[3].method, "") << "of both";
-}
-
-TEST(Variants, OfAKeyOfOneMethodLeaveTheOtherAsItIs) {
-  const auto variants = variants_of({"sph.kappa=1.0,1.2", "time.cfl=0.5,1"});
-  ASSERT_EQ(variants.size(), 6u);
-  EXPECT_EQ(variants[1].label, "kappa=1.0 cfl=1");
-  EXPECT_EQ(variants[3].method, "sph");
-  EXPECT_EQ(variants[4].method, "fvm");
-  EXPECT_THAT(variants[4].overrides, ElementsAre("time.cfl=0.5"));
-  EXPECT_EQ(variants[5].label, "cfl=1");
-  EXPECT_EQ(variants_of({"sph.kappa=1.0,1.2"}).back().label, "") << "finite volumes once";
+  EXPECT_EQ(variants[0].label, "kappa=1.0 face_correction=0");
+  EXPECT_THAT(variants[1].overrides, ElementsAre("sph.kappa=1.0", "scheme.face_correction=1/6"));
+  EXPECT_EQ(variants[2].label, "kappa=1.2 face_correction=0");
 }
 
 TEST(Variants, OfNothingAreTheCaseItself) {

@@ -1,6 +1,7 @@
 /// Runs among ranks have the bits of a run of one process: state and histories, for both methods,
 /// rows and runs of pairs, both precisions, and all that ranks tell each other of.
 
+#include "tests/command_line/frames.hpp"
 #include "tests/command_line/program.hpp"
 #include "tests/trials.hpp"
 
@@ -121,7 +122,7 @@ value = ["sin(1000*t)", 0]
 )toml";
   const std::string pressed = " --set material.poissons_ratio=0.49";
   return {
-      {"HexahedraHeld", cube + held + probes, ""},
+      {"HexahedraHeld", cube + held + probes, "--set output.fields=true"},
       {"TetrahedraInSinglePrecision", cube + held,
        "--set mesh.element=tetrahedron --set scheme.precision=single"},
       {"LeapfrogWithBranchesAndProjection", cube + branches,
@@ -129,7 +130,8 @@ value = ["sin(1000*t)", 0]
       {"MovedNodesWithLimiterAndFaceCorrection", cube + branches + held,
        "--set mesh.perturbation=0.2 --set scheme.limiter=venkatakrishnan --set "
        "scheme.face_correction=1/6 --set time.integrator=ssp-rk3"},
-      {"VolumesOfCells", cube + held, "--set scheme.volumes=cells" + pressed},
+      {"VolumesOfCells", cube + held,
+       "--set scheme.volumes=cells --set output.fields=true" + pressed},
       {"VolumesOfCellsLeapfrog", cube + held,
        "--set mesh.element=tetrahedron --set time.integrator=leapfrog --set scheme.volumes=cells" +
            pressed},
@@ -178,6 +180,9 @@ class Ranks : public testing::TestWithParam<Scene> {
       EXPECT_EQ(hash_in(a), hash_in(b)) << method;
       EXPECT_EQ(text_of(a / "history.csv"), text_of(b / "history.csv")) << method;
       EXPECT_EQ(text_of(a / "steps.csv"), text_of(b / "steps.csv")) << method;
+      const auto series = a / "run.hdf.series";
+      ASSERT_EQ(std::filesystem::exists(series), std::filesystem::exists(b / "run.hdf.series"));
+      if (std::filesystem::exists(series)) expect_same_frames(a, b);
     }
   }
   Folder folder_;

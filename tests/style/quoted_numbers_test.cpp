@@ -76,7 +76,6 @@ TEST(QuotedNumbers, OfAllPagesAreThoseOfTheGeneratedTables) {
   EXPECT_GT(count, 20) << "the pages have lost their quotes";
 }
 
-/// In the cases that are shipped, and nothing else is; of those of users regress only says so.
 /// The line of a case in AGREEMENT.md.
 std::string agreement_of(const std::string& name) {
   const std::string page = text_of(root / "benchmarks/AGREEMENT.md");
@@ -84,6 +83,7 @@ std::string agreement_of(const std::string& name) {
   return at == std::string::npos ? "" : page.substr(at + 1, page.find('\n', at + 1) - at - 1);
 }
 
+/// In the cases that are shipped, and nothing else is; of those of users regress only says so.
 TEST(Disagreements, AreExplainedInTheirCases) {
   int count = 0;
   for (const auto& entry : fs::directory_iterator(root / "benchmarks/baselines")) {

@@ -5,11 +5,11 @@
 
 namespace diptych::run {
 
-History::History(Solver& solver, const Probes& probes, const Cells& cells)
+History::History(Solver& solver, const Probes& probes, const Cells& cells, double least_energy)
     : solver_(solver),
       probes_(probes),
       cells_(cells),
-      energy_(solver.balance()),
+      energy_(solver.balance(), least_energy),
       momenta_(solver.balance()) {}
 
 void History::write_to(const std::string& path, const std::vector<std::string>& columns) {

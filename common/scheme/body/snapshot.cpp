@@ -2,6 +2,7 @@
 
 #include "common/parallel/for_chunks.hpp"
 #include "common/scheme/body/material_model.hpp"
+#include "common/scheme/body/node_chunks.hpp"
 #include "common/scheme/body/point_access.hpp"
 
 #include <algorithm>
@@ -10,10 +11,6 @@
 namespace diptych::scheme {
 
 namespace {
-
-std::int32_t chunk_of(std::int32_t node) {
-  return static_cast<std::int32_t>(node / (parallel::chunk_size * algebra::n_lanes));
-}
 
 /// J of nodes by the volumes of cells, of a rank's own; empty where these do not carry the
 /// pressure.
@@ -32,7 +29,7 @@ void complete(const parallel::Part& part, std::span<const std::int32_t> nodes, S
   if (part.is_whole()) return;
   std::vector<std::int32_t> chunks;
   for (const std::int32_t a : nodes)
-    chunks.push_back(chunk_of(a));
+    chunks.push_back(static_cast<std::int32_t>(chunk_of_node(a)));
   for (auto* field : {&s.u, &s.v})
     part.complete(*field, chunks);
   for (auto* field : {&s.F, &s.H, &s.P})
@@ -67,7 +64,7 @@ void put_fields(const MaterialModel& material,
   }
   const auto take = [&](size_t k) {
     const std::int32_t a = node_of(k);
-    if (!body.part().owns(chunk_of(a))) return;
+    if (!body.part().owns(chunk_of_node(a))) return;
     s.u[k] = s.v[k] = Vec3::Zero();
     for (int i = 0; i < Dim; ++i) {
       s.u[k][i] = body.u.at(a, i);

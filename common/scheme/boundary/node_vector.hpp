@@ -3,7 +3,7 @@
 
 #include "common/algebra/field.hpp"
 #include "common/algebra/vectors.hpp"
-#include "common/parallel/for_chunks.hpp"
+#include "common/scheme/body/node_chunks.hpp"
 
 namespace diptych::scheme {
 
@@ -15,11 +15,6 @@ algebra::Vec3 vector_at(const Field& field, std::int64_t node) {
   for (int i = 0; i < Dim; ++i)
     r[i] = field.at(node, i);
   return r;
-}
-
-/// Chunk of parallel::for_chunks that a node is in.
-inline std::int64_t chunk_of_node(std::int64_t node) {
-  return node / (parallel::chunk_size * algebra::n_lanes);
 }
 
 /// A vector that begins with zero.

@@ -1,5 +1,6 @@
 #include "common/parallel/partition.hpp"
 #include "common/parallel/sharing.hpp"
+#include "common/scheme/body/node_chunks.hpp"
 #include "common/scheme/ranks/division.hpp"
 
 #include <algorithm>
@@ -10,12 +11,6 @@ namespace diptych::scheme {
 namespace {
 
 using algebra::n_lanes;
-
-constexpr std::int64_t chunk_nodes = parallel::chunk_size * n_lanes;
-
-std::int64_t chunk_of_node(std::int64_t a) {
-  return a / chunk_nodes;
-}
 
 /// use(a, b): node a, or its lane, reads node b in a sweep over pairs. In runs all lanes of a block
 /// read, those without a pair too.

@@ -353,6 +353,16 @@ TEST(EnergyGuard, DoesNotJudgeRounding) {
   EXPECT_EQ(run.run(), Ending::done) << run.message;
 }
 
+TEST(EnergyRecord, HasNoResidualOfABodyThatHoldsWhatRoundingMakes) {
+  scheme::Balance initial, now;
+  scheme::Audit audit;
+  now.strain = 3e-10;
+  EXPECT_EQ(EnergyRecord(initial, 1e-9).at(now, audit).relative_residual, 0);
+  EXPECT_EQ(EnergyRecord(initial).at(now, audit).relative_residual, 1);
+  now.strain = 2e-9;
+  EXPECT_EQ(EnergyRecord(initial, 1e-9).at(now, audit).relative_residual, 1);
+}
+
 TEST(CellGuard, StopsWhereACellIsInsideOutAndKeepsTheRow) {
   Guarded run("fvm", {"time.cfl=0.5"}, 1);
   EXPECT_EQ(run.run(), Ending::breakdown);

@@ -95,6 +95,45 @@ TEST(Simulation, TellsOfEachStepAndOfEachOutputOnceAndInOrder) {
   EXPECT_EQ(simulation.take_state().time, 0.03);
 }
 
+/// Parts of the state at an output, before and after all of it was asked for.
+class Looker : public Observer {
+ public:
+  void at_output(const Output& output) override {
+    const std::vector<std::int32_t> nodes{5, 0, 3};
+    const Snapshot before = output.state.fields_of(nodes);
+    const std::vector<algebra::Vec3> u(output.state.u().begin(), output.state.u().end());
+    const Snapshot& all = output.state.fields();
+    const Snapshot after = output.state.fields_of(nodes);
+    EXPECT_EQ(u, all.u);
+    EXPECT_EQ(output.state.u().data(), all.u.data()) << "no second copy";
+    EXPECT_EQ(&output.state.fields(), &all);
+    for (const Snapshot* part : {&before, &after}) {
+      EXPECT_EQ(part->time, output.step.time);
+      ASSERT_EQ(part->u.size(), nodes.size());
+      for (size_t k = 0; k < nodes.size(); ++k) {
+        const auto a = static_cast<size_t>(nodes[k]);
+        EXPECT_EQ(part->u[k], all.u[a]);
+        EXPECT_EQ(part->v[k], all.v[a]);
+        EXPECT_EQ(part->F[k], all.F[a]);
+        EXPECT_EQ(part->P[k], all.P[a]);
+        EXPECT_EQ(part->J[k], all.J[a]);
+      }
+    }
+    ++n_outputs;
+  }
+  int n_outputs = 0;
+};
+
+TEST(Simulation, GivesPartsOfTheStateAsTheyAreInAllOfIt) {
+  for (const char* method : {"sph", "fvm"}) {
+    tests::Scene scene(method, case_of("1"));
+    Looker looker;
+    Simulation simulation(scene.setup, *scene.solver, {&looker});
+    EXPECT_EQ(simulation.run(), Ending::done);
+    EXPECT_EQ(looker.n_outputs, 3);
+  }
+}
+
 TEST(Simulation, EndsAtTheStepLimitWithAnOutput) {
   tests::Scene scene("fvm", case_of("1", {"time.max_steps=1"}));
   Listener listener;
