@@ -30,14 +30,13 @@ int check(const CaseArguments& arguments) {
     };
     print(base::folded(
         fmt::format(
-            "{:4} {} nodes, {} cells, {} pairs ({:.1f} a node, least {}), linear exactness {:.1e}, "
-            "closure {:.1e}\n     first dt {:.4g} s, about {} steps\n"
-            "     memory a node: {:.2f} kB in arrays of the solver; process {:.2f} kB while "
-            "running, "
-            "{:.2f} kB while building\n"
-            "     in all: {} of memory at most (estimated beforehand: {}); {} for the steps of the "
-            "whole "
-            "run with {} {}, as the first ones went, after {} of set-up\n",
+            "{:4} {} nodes, {} cells, {} pairs ({:.1f} a node, least {})\n"
+            "     linear exactness {:.1e}, closure {:.1e}, first dt {:.4g} s, about {} steps\n"
+            "     memory a node: {:.2f} kB in arrays of the solver, {:.2f} kB of the process while "
+            "running,\n     {:.2f} kB while building\n"
+            "     in all: {} of memory at most (estimated beforehand: {}),\n"
+            "     {} for the steps of the whole run with {} {}, as the first ones went,\n"
+            "     after {} of set-up\n",
             method, check.nodes, check.cells, check.pairs, check.quality.mean_neighbours,
             check.quality.least_neighbours, check.quality.linear_exactness, check.quality.closure,
             check.dt, check.steps, kilobytes(check.bytes), kilobytes(check.running_bytes),
