@@ -1,7 +1,7 @@
 /// Input and surroundings that once crashed the program, hung it, or passed for success: each ends
 /// with one line that says what to do, and the documented code.
 
-#include "tests/command_line/program.hpp"
+#include "tests/command_line/small_case.hpp"
 #include "tests/folders.hpp"
 
 #include <gtest/gtest.h>
@@ -81,6 +81,39 @@ TEST(CommandLine, CheckTellsMemoryAndTimeOfTheWholeRun) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_THAT(outcome.text, AllOf(HasSubstr("B of memory at most (estimated beforehand: "),
                                   HasSubstr("for the steps of the whole run with 1 thread")));
+}
+
+TEST(CommandLine, CheckRefusesFiguresThatNoRunHas) {
+  const Folder folder;
+  folder.write("case.toml",
+               tests::small_case("Bar") + "[expect]\nholds = [\"least cel J >= 0.1\"]\n");
+  for (const char* verb : {"check", "run"}) {
+    expect_line(diptych(folder, std::string(verb) + " case.toml --method fvm --out out"), 2,
+                "'least cel J' is no figure of a run; did you mean 'least cell J'?");
+  }
+}
+
+/// The run ends at 5e-4 s.
+TEST(CommandLine, ValuesFromElsewhereThatBeginAfterTheEndAreNamed) {
+  const std::string probe =
+      "[[probe]]\nname = \"end\"\nunit = \"m\"\nkind = \"mean\"\ngroup = \"x_max\"\nquantity = "
+      "\"ux\"\n[[reference]]\nprobe = \"end\"\nvalue = 0\nsource = \"nobody\"\ntime = ";
+  for (const char* verb : {"run", "compare"}) {
+    for (const char* time : {"1e-4", "2e-3"}) {
+      const Folder folder;
+      folder.write("case.toml", tests::small_case("Bar") + probe + time + "\n");
+      const auto outcome =
+          diptych(folder, std::string(verb) + " case.toml --quiet --threads 1 --out out");
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+      const char* told =
+          "end against nobody: not compared, the values begin at 0.002 s and the run";
+      if (time == std::string("2e-3")) {
+        EXPECT_THAT(outcome.text, HasSubstr(told));
+      } else {
+        EXPECT_THAT(outcome.text, testing::Not(HasSubstr("not compared")));
+      }
+    }
+  }
 }
 
 TEST(CommandLine, OutputThatDoesNotArriveIsAnError) {
