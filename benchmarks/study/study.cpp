@@ -155,8 +155,7 @@ Study run_study(const cases::Case& setup, const StudyOptions& options) {
     const std::string column = run.column();
     RunResult& result = made.run;
     if (result.summary.status == "failed") {
-      study.refusals.push_back(
-          {column, run.level, result.summary.failure->message, !run.variant.empty()});
+      study.refusals.push_back({column, run.level, result.summary.failure->message});
       if (!options.quiet && number + 1 < plan.size()) tell(study.refusals.back());
       return;
     }

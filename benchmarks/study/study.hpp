@@ -39,7 +39,6 @@ struct Refusal {
   std::string column;
   int level = 0;
   std::string message;
-  bool is_variant = false;
 };
 
 struct Study {
@@ -61,8 +60,9 @@ struct Study {
   /// All of one level came to their ends, but for those that broke down and variants that could
   /// not be begun.
   bool has_all() const {
-    const auto n_refused = std::count_if(refusals.begin(), refusals.end(),
-                                         [](const Refusal& one) { return one.is_variant; });
+    const auto n_refused = std::count_if(refusals.begin(), refusals.end(), [](const Refusal& one) {
+      return !report::variant_of_column(one.column).empty();
+    });
     return runs.size() + breakdowns.size() + static_cast<size_t>(n_refused) == columns.size();
   }
   /// The only run of a column, or null.

@@ -27,8 +27,7 @@ inline double energy_of_rounding(double density, double speed, const std::vector
 /// Budget of a run relative to the largest energy that it has held.
 class EnergyRecord {
  public:
-  /// @param least_energy  J, energy_of_rounding(): the residual of a body that has held no more is
-  /// 0
+  /// @param least_energy  J, energy_of_rounding(): a body that has held no more has no residual
   explicit EnergyRecord(const scheme::Balance& initial, double least_energy = 0)
       : initial_(initial.kinetic + initial.strain), scale_(initial_), least_energy_(least_energy) {}
 

@@ -4,6 +4,7 @@
 
 #include "common/run/observers/history.hpp"
 #include "common/run/simulation.hpp"
+#include "tests/common/run/free_cube.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
 #include <algorithm>
@@ -14,24 +15,7 @@ namespace diptych::run {
 namespace {
 
 using testing::HasSubstr;
-
-/// A free cube that is thrown at itself, slowly.
-const std::string free_cube = R"([mesh]
-element = "hexahedron"
-cells = [4, 4, 4]
-[material]
-model = "neo-hookean"
-density = 1100
-youngs_modulus = 17e6
-poissons_ratio = 0.3
-[initial]
-velocity = ["-1*x", 0, 0]
-[time]
-end = 0.08
-integrator = "ssp-rk2"
-[output]
-frames = 10
-)";
+using tests::free_cube;
 
 /// The cube, whose only cell comes to nothing when a node has moved by `room`.
 struct Watched {

@@ -7,6 +7,7 @@
 #include "common/run/observers/involution_guard.hpp"
 #include "common/run/observers/momentum_guard.hpp"
 #include "common/run/simulation.hpp"
+#include "tests/common/run/free_cube.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
 #include <cmath>
@@ -18,26 +19,9 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using tests::free_cube;
 
 constexpr double any_loss = std::numeric_limits<double>::infinity();
-
-/// A free cube that is thrown at itself, slowly.
-const std::string free_cube = R"([mesh]
-element = "hexahedron"
-cells = [4, 4, 4]
-[material]
-model = "neo-hookean"
-density = 1100
-youngs_modulus = 17e6
-poissons_ratio = 0.3
-[initial]
-velocity = ["-1*x", 0, 0]
-[time]
-end = 0.08
-integrator = "ssp-rk2"
-[output]
-frames = 10
-)";
 
 /// A run of the cube with guards, and with `inverted` cells of 64 from the fourth output on.
 struct Guarded {
