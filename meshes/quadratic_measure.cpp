@@ -72,14 +72,19 @@ Weights volume_of(const Mesh& mesh,
     at.push_back((mesh.nodes[a] - middle) / h);
     share.push_back(shares[a] / unit);
   }
+  std::array<int, 8> place{};  // of the corners among the nodes
+  for (int i = 0; i < cell.n_nodes; ++i) {
+    place[i] =
+        static_cast<int>(std::lower_bound(weights.nodes.begin(), weights.nodes.end(), corners[i]) -
+                         weights.nodes.begin());
+  }
   Vector exact = Vector::Zero(n_monomials(mesh.dimension, 2)), values = exact;
   for (const QuadraturePoint& point : cell.fine) {
     const double dV = point.weight * jacobian(cell, point, corners, mesh.nodes).determinant();
     Vec3 X = Vec3::Zero();
     for (int i = 0; i < cell.n_nodes; ++i) {
-      X += point.N[i] * (mesh.nodes[corners[i]] - middle) / h;
-      const auto place = std::lower_bound(weights.nodes.begin(), weights.nodes.end(), corners[i]);
-      weights.value[place - weights.nodes.begin()] += point.N[i] * dV;
+      X += point.N[i] * at[place[i]];
+      weights.value[place[i]] += point.N[i] * dV;
     }
     fill_monomials(X, mesh.dimension, 2, values.data());
     exact += dV * values;

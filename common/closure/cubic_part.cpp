@@ -1,5 +1,7 @@
 #include "common/closure/cubic_part.hpp"
 
+#include "common/algebra/field.hpp"
+#include "common/algebra/four.hpp"
 #include "common/algebra/monomials.hpp"
 #include "common/parallel/for_each.hpp"
 
@@ -10,6 +12,7 @@ namespace diptych::closure {
 
 namespace {
 
+using algebra::Four;
 using Matrix = Eigen::MatrixXd;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -36,6 +39,36 @@ Matrix transposed_product(const Left& A, const Right& B) {
   for (size_t i = 1; i < parts.size(); ++i)
     sum += parts[i];
   return sum;
+}
+
+constexpr int most_terms = 20;
+
+struct Projection {
+  Four value[most_terms];
+};
+
+/// part = B^T r over n rows
+DIPTYCH_CLONES void project(
+    const double* B, int n_terms, const Vec3* r, std::int64_t n, Four* part) {
+  Four sum[most_terms]{};
+  for (std::int64_t a = 0; a < n; ++a, B += n_terms) {
+    const Four of_row = algebra::load_three(r[a]);
+    for (int m = 0; m < n_terms; ++m)
+      sum[m] += B[m] * of_row;
+  }
+  for (int m = 0; m < n_terms; ++m)
+    part[m] = sum[m];
+}
+
+/// r -= B part over n rows
+DIPTYCH_CLONES void subtract(
+    const double* B, int n_terms, const Four* part, std::int64_t n, Vec3* r) {
+  for (std::int64_t a = 0; a < n; ++a, B += n_terms) {
+    Four of_row = algebra::load_three(r[a]);
+    for (int m = 0; m < n_terms; ++m)
+      of_row -= B[m] * part[m];
+    algebra::store_three(r[a].data(), of_row);
+  }
 }
 
 }  // namespace
@@ -83,12 +116,16 @@ CubicPart::CubicPart(const scheme::PairGraph& graph, const std::vector<double>& 
 
 void CubicPart::remove(Field& r) const {
   const auto n_rows = static_cast<std::int64_t>(r.size());
-  const Eigen::Map<const RowMajor> B(basis_.data(), n_rows, n_terms_);
-  using Entries = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-  Eigen::Map<Entries> R(r.front().data(), n_rows, 3);
-  const Matrix part = transposed_product(B, R);
+  algebra::AlignedArray<Projection> parts((n_rows + piece_size - 1) / piece_size);
+  for_pieces(n_rows, [&](std::int64_t i, std::int64_t first, std::int64_t n) {
+    project(basis_.data() + first * n_terms_, n_terms_, r.data() + first, n, parts[i].value);
+  });
+  for (std::int64_t i = 1; i < parts.size(); ++i) {
+    for (int m = 0; m < n_terms_; ++m)
+      parts[0].value[m] += parts[i].value[m];
+  }
   for_pieces(n_rows, [&](std::int64_t, std::int64_t first, std::int64_t n) {
-    R.middleRows(first, n) -= B.middleRows(first, n).lazyProduct(part);
+    subtract(basis_.data() + first * n_terms_, n_terms_, parts[0].value, n, r.data() + first);
   });
 }
 

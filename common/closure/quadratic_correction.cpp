@@ -70,8 +70,11 @@ QuadraticCorrection<D>::QuadraticCorrection(const scheme::PairGraph& graph,
       h_(spacings(graph)),
       reach_(graph.X.size()),
       inverse_(graph.X.size()),
+      first_moment_(graph.X.size()),
       blocks_(graph.X.size()),
-      records_(graph.n_nodes()) {
+      jumps_(graph.n_nodes()),
+      fits_(graph.n_nodes()),
+      closure_(graph.n_nodes()) {
   for_each_node(inverse_.size(), [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t a = begin; a < end; ++a) {
       Square moments = Square::Zero();
@@ -87,8 +90,11 @@ QuadraticCorrection<D>::QuadraticCorrection(const scheme::PairGraph& graph,
           moments.col(m) += k[p] * q[m] * q;
       }
       inverse_[a] = inverse_of(moments);
-      for (int i = 0; i < 3; ++i)
-        records_[a].value[i][3] = graph.X[a][i];
+      first_moment_[a].setZero();
+      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
+        first_moment_[a] += k[p] * terms(graph.X[graph.neighbour[p]] - graph.X[a]);
+      for (int i = 0; i < D; ++i)
+        jumps_[a].value[i][3] = fits_[a].value[i][3] = graph.X[a][i];
     }
   });
   // outside of parallel loops, so that the first node that is refused is the one that is named
@@ -108,14 +114,15 @@ void QuadraticCorrection<D>::set_smooth() {
   using Second = SplineLevels<quadratic>;
   cubics_ = std::make_unique<Fourth>(graph_, [&](std::int64_t a, auto& left, auto& whole) {
     add_moments<Fourth>(
-        a, [](const Vec3&) { return 1.0; }, left, whole);
+        fitted_row(a), a, [](const Vec3&) { return 1.0; }, left, whole);
   });
   cubics_->set_slopes(graph_, h_);
   cubics_->scale_to([this](const Field& y, Field& S_y) { apply_S(y, S_y); });
   gradients_ = std::make_unique<Second>(graph_, [&](std::int64_t a, auto& left, auto& whole) {
+    const FittedRow row = fitted_row(a);
     for (int i = 0; i < D; ++i)
       add_moments<Second>(
-          a, [i](const Vec3& X) { return X[i]; }, left, whole);
+          row, a, [i](const Vec3& X) { return X[i]; }, left, whole);
   });
   of_gradient_.resize(h_.size());
   sum_of_gradient_.resize(h_.size());
@@ -134,24 +141,39 @@ void QuadraticCorrection<D>::set_smooth() {
   });
 }
 
-/// T_a of spline_levels.hpp with jumps factor(X) times its monomials.
+template <int D>
+FittedRow QuadraticCorrection<D>::fitted_row(std::int64_t a) const {
+  FittedRow row{k_.data() + graph_.row[a], {}, n_terms, inverse_[a].data()};
+  row.q.resize(static_cast<size_t>(graph_.row[a + 1] - graph_.row[a]) * n_terms);
+  double* q = row.q.data();
+  for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p, q += n_terms) {
+    const Vec3 X = (graph_.X[graph_.neighbour[p]] - graph_.X[a]) / reach_[a];
+    fill_terms<D>(X.data(), q);
+  }
+  return row;
+}
+
+/// Adds T_a of spline_levels.hpp with jumps factor(X) times its monomials.
 template <int D>
 template <class Levels, class Factor>
-void QuadraticCorrection<D>::add_moments(std::int64_t a,
+void QuadraticCorrection<D>::add_moments(const FittedRow& row,
+                                         std::int64_t a,
                                          const Factor& factor,
                                          typename Levels::Moments& left,
                                          typename Levels::Terms& whole) const {
-  Eigen::Matrix<double, n_terms, Levels::n_terms> mixed;
-  mixed.setZero();
-  typename Levels::Moments all = Levels::Moments::Zero();
-  for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
-    const Vec3 X = graph_.X[graph_.neighbour[p]] - graph_.X[a];
-    const typename Levels::Terms m = factor(X) * Levels::monomials(X);
-    all += k_[p] * m * m.transpose();
-    mixed += k_[p] * terms(X / reach_[a]) * m.transpose();
+  constexpr int N = Levels::n_terms <= 8 ? 8 : 16;
+  const std::int64_t first = graph_.row[a], n = graph_.row[a + 1] - first;
+  std::vector<double> m(static_cast<size_t>(n * N));
+  for (std::int64_t p = 0; p < n; ++p) {
+    const Vec3 X = graph_.X[graph_.neighbour[first + p]] - graph_.X[a];
+    Levels::Terms::Map(m.data() + p * N) = factor(X) * Levels::monomials(X);
   }
-  whole += all.diagonal();
-  left += all - mixed.transpose() * inverse_[a] * mixed;
+  Eigen::Matrix<double, N, N> of_row;  // lower part, column by column
+  double sums[N];
+  fitted_moments<N>(row, m, of_row.data(), sums);
+  whole += Levels::Terms::Map(sums);
+  const Eigen::Matrix<double, N, N> all = of_row.template selfadjointView<Eigen::Lower>();
+  left += all.template topLeftCorner<Levels::n_terms, Levels::n_terms>();
 }
 
 /// Of S, from what a multiplier of node a does to its own row and, one pair each, to those of its
@@ -184,24 +206,7 @@ void QuadraticCorrection<D>::set_blocks() {
 template <int D>
 void QuadraticCorrection<D>::correct_rows(std::vector<Vec3>& C) const {
   for_each_node(h_.size(), [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t a = begin; a < end; ++a) {
-      const auto X = [&](std::int64_t p) -> Vec3 {
-        return (graph_.X[graph_.neighbour[p]] - graph_.X[a]) / reach_[a];
-      };
-      Terms rho[3];
-      for (int i = 0; i < 3; ++i) {
-        Terms missing = Terms::Zero();
-        if (i < D) missing[i] = 2 * graph_.Omega[a] / reach_[a];
-        for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p)
-          missing -= C[p][i] * terms(X(p));
-        rho[i] = product(inverse_[a], missing);
-      }
-      for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
-        const Terms q = terms(X(p));
-        for (int i = 0; i < 3; ++i)
-          C[p][i] += k_[p] * rho[i].dot(q);
-      }
-    }
+    closure::correct_rows(rows(), jumps_.data(), graph_.Omega.data(), C.data(), begin, end);
   });
 }
 
@@ -227,27 +232,31 @@ Field QuadraticCorrection<D>::gap(const std::vector<Vec3>& C) const {
 }
 
 template <int D>
+auto QuadraticCorrection<D>::rows() const -> QuadraticRows<QuadraticCorrection> {
+  return {graph_.row.data(), graph_.neighbour.data(), k_.data(), inverse_.data(),
+          reach_.data(),     first_moment_.data(),    h_.data()};
+}
+
+template <int D>
 void QuadraticCorrection<D>::fit(const Field& y) {
   for_each_node(h_.size(), [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t a = begin; a < end; ++a) {
       const Vec3* of_node = &y[static_cast<size_t>(a) * n_conditions];
-      store_three(records_[a].value[0], load_three(of_node[0]));
+      store_three(jumps_[a].value[0], 0.5 * load_three(of_node[0]));
       for (int i = 0; i < D; ++i)
-        store_three(records_[a].value[1 + i], load_three(of_node[1 + i]) / h_[a]);
+        store_three(jumps_[a].value[1 + i], 0.5 / h_[a] * load_three(of_node[1 + i]));
     }
   });
-  const WeightedRows rows{graph_.row.data(), graph_.neighbour.data(), k_.data()};
   for_each_node(h_.size(), [&](std::int64_t begin, std::int64_t end) {
-    fit_rows(rows, inverse_.data(), reach_.data(), records_.data(), begin, end);
+    fit_rows(rows(), jumps_.data(), fits_.data(), closure_.data(), begin, end);
   });
 }
 
 template <int D>
 void QuadraticCorrection<D>::apply_S(const Field& y, Field& S_y) {
   fit(y);
-  const WeightedRows rows{graph_.row.data(), graph_.neighbour.data(), k_.data()};
   for_each_node(h_.size(), [&](std::int64_t begin, std::int64_t end) {
-    apply_rows(rows, records_.data(), h_.data(), S_y.data(), begin, end);
+    apply_rows(rows(), jumps_.data(), fits_.data(), closure_.data(), S_y.data(), begin, end);
   });
 }
 
@@ -281,17 +290,7 @@ template <int D>
 void QuadraticCorrection<D>::change(const Field& y, std::vector<Vec3>& C) {
   fit(y);
   for_each_node(h_.size(), [&](std::int64_t begin, std::int64_t end) {
-    double X[3], q[n_terms];
-    for (std::int64_t a = begin; a < end; ++a) {
-      const Record& node = records_[a];
-      for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
-        const Record& b = records_[graph_.neighbour[p]];
-        difference(node, b, X);
-        fill_terms<D>(X, q);
-        const Four dC = k_[p] * (jump<D>(node, b, X) - fitted<D, false>(q, node.rho));
-        C[p] += Vec3(dC[0], dC[1], dC[2]);
-      }
-    }
+    change_rows(rows(), jumps_.data(), fits_.data(), C.data(), begin, end);
   });
 }
 

@@ -13,6 +13,7 @@
 
 #include "common/algebra/field.hpp"
 #include "common/closure/conjugate_gradients.hpp"
+#include "common/closure/row_moments.hpp"
 #include "common/closure/spline_levels.hpp"
 
 #include <memory>
@@ -23,6 +24,9 @@ namespace diptych::closure {
 /// Spacing of each node, Omega_a^(1/d).  [m]
 std::vector<double> spacings(const scheme::PairGraph& graph);
 
+template <class Correction>
+struct QuadraticRows;
+
 template <int D>
 class QuadraticCorrection {
  public:
@@ -32,10 +36,14 @@ class QuadraticCorrection {
   using Square = Eigen::Matrix<double, n_terms, n_terms>;
   using Block = Eigen::Matrix<double, n_conditions, n_conditions>;
 
-  /// What the passes read of a node: y and X[0]; the columns of Y with X[1], X[2]; rho.
-  struct alignas(64) Record {
+  /// What the first pass reads of a neighbour: 1/2 y and the columns of 1/2 Y, with X beside the
+  /// first of them.
+  struct alignas(64) Jump {
     double value[4][4];
-    double rho[n_terms][4];
+  };
+  /// What the second does: 1/2 y and rho, with X beside the first of them.
+  struct alignas(64) Fit {
+    double value[1 + n_terms][4];
   };
 
   /// @throws base::InputError where a row has too few neighbours for a quadratic
@@ -53,10 +61,13 @@ class QuadraticCorrection {
 
  private:
   void fit(const Field& y);
+  QuadraticRows<QuadraticCorrection> rows() const;
   void set_blocks();
   void set_smooth();
+  FittedRow fitted_row(std::int64_t a) const;
   template <class Levels, class Factor>
-  void add_moments(std::int64_t a,
+  void add_moments(const FittedRow& row,
+                   std::int64_t a,
                    const Factor& factor,
                    typename Levels::Moments& left,
                    typename Levels::Terms& whole) const;
@@ -64,10 +75,13 @@ class QuadraticCorrection {
   const scheme::PairGraph& graph_;
   const std::vector<double>& k_;
   std::vector<double> h_;
-  std::vector<double> reach_;    ///< root of the mean square distance in each row, by k  [m]
-  std::vector<Square> inverse_;  ///< (sum k q q^T)^-1 with q of X/reach_a
-  std::vector<Block> blocks_;    ///< inverse diagonal blocks of S
-  algebra::AlignedArray<Record> records_;
+  std::vector<double> reach_;        ///< root of the mean square distance in each row, by k  [m]
+  std::vector<Square> inverse_;      ///< (sum k q q^T)^-1 with q of X/reach_a
+  std::vector<Terms> first_moment_;  ///< sum k q
+  std::vector<Block> blocks_;        ///< inverse diagonal blocks of S
+  algebra::AlignedArray<Jump> jumps_;
+  algebra::AlignedArray<Fit> fits_;
+  algebra::AlignedArray<algebra::Four> closure_;        ///< what rows give to theirs
   std::unique_ptr<SplineLevels<quartic>> cubics_;       ///< of (s, grad s / 3)
   std::unique_ptr<SplineLevels<quadratic>> gradients_;  ///< of (0, s e_i), each i
   Field of_gradient_, sum_of_gradient_;                 ///< work space  [n_nodes]

@@ -1,7 +1,11 @@
 #pragma once
 /// The two passes over the pairs that S of quadratic_correction.hpp is made of, a record of a
-/// neighbour each: rho_a of every row, then what a row and its neighbours' rows give to the
-/// conditions of its node. Test: tests/graphs/summation_by_parts_test.cpp
+/// neighbour each. With K = 1/2 y, K_i = 1/2 Y_i:
+///   fit    t_ab = k_ab (K_a - K_b + K_b,i X_i); rho_a, and what the row gives to its closure,
+///          sum_b dC_ab = sum_b t_ab - rho_a . sum_b k_ab q(X)
+///   apply  what the neighbours' rows give, dC_ba = k_ab (K_b - K_a - K_a,i X_i - q(-X) . rho_b)
+/// Factors of vectors are registers of four equal numbers from the load on.
+/// Test: tests/graphs/summation_by_parts_test.cpp
 
 #include "common/algebra/four.hpp"
 #include "common/closure/quadratic_correction.hpp"
@@ -15,15 +19,21 @@ using algebra::load_four;
 using algebra::load_three;
 using algebra::store_three;
 
-/// What the passes stream.
-struct WeightedRows {
+/// What the passes stream.  @tparam Correction  QuadraticCorrection of two or three dimensions
+template <class Correction>
+struct QuadraticRows {
   const std::int64_t* row;
   const std::int32_t* neighbour;
   const double* k;
+  const typename Correction::Square* inverse;      ///< [n_nodes]
+  const double* reach;                             ///< [n_nodes]
+  const typename Correction::Terms* first_moment;  ///< [n_nodes]
+  const double* h;                                 ///< [n_nodes]
 };
 
-template <int D>
-DIPTYCH_INLINE void fill_terms(const double* X, double* q) {
+/// @tparam T  double, or Four of equal numbers
+template <int D, class T>
+DIPTYCH_INLINE void fill_terms(const T* X, T* q) {
   for (int i = 0; i < D; ++i)
     q[i] = X[i];
   int m = D;
@@ -33,50 +43,39 @@ DIPTYCH_INLINE void fill_terms(const double* X, double* q) {
   }
 }
 
-/// Sum over the terms of q(X) rho; turned: q(-X) rho.
-template <int D, bool turned>
-DIPTYCH_INLINE Four fitted(const double* q, const double (*rho)[4]) {
-  constexpr int n = QuadraticCorrection<D>::n_terms;
-  Four odd = q[0] * load_four(rho[0]), even = q[D] * load_four(rho[D]);
-  for (int m = 1; m < D; ++m)
-    odd += q[m] * load_four(rho[m]);
-  for (int m = D + 1; m < n; ++m)
-    even += q[m] * load_four(rho[m]);
-  return turned ? even - odd : even + odd;
+/// X_b - X_a
+template <int D, class Of, class Other>
+DIPTYCH_INLINE void fill_difference(const Of& a, const Other& b, Four* X) {
+  for (int i = 0; i < D; ++i)
+    X[i] = b.value[i][3] - (Four{} + a.value[i][3]);
 }
 
-/// 1/2 (y_a - y_b + Y_b (X_b - X_a))
-template <int D, class Record>
-DIPTYCH_INLINE Four jump(const Record& a, const Record& b, const double* X) {
-  Four sum = load_four(a.value[0]) - load_four(b.value[0]);
+/// K_a - K_b + K_b,i X_i
+template <int D, class Jump>
+DIPTYCH_INLINE Four jump(const Four& K_a, const Jump& b, const Four* X) {
+  Four sum = K_a - load_four(b.value[0]);
   for (int i = 0; i < D; ++i)
     sum += X[i] * load_four(b.value[1 + i]);
-  return 0.5 * sum;
+  return sum;
 }
 
-template <class Record>
-DIPTYCH_INLINE void difference(const Record& a, const Record& b, double* X) {
-  for (int i = 0; i < 3; ++i)
-    X[i] = b.value[i][3] - a.value[i][3];
-}
-
-/// rho of nodes [begin, end).  @param inverse, reach  [n_nodes] of QuadraticCorrection
-#define DIPTYCH_DECLARE(D)                                                                      \
-  void fit_rows(const WeightedRows& rows, const QuadraticCorrection<D>::Square* inverse,        \
-                const double* reach, QuadraticCorrection<D>::Record* nodes, std::int64_t begin, \
-                std::int64_t end);
-DIPTYCH_DECLARE(2)
-DIPTYCH_DECLARE(3)
-#undef DIPTYCH_DECLARE
-
-/// What they add to the conditions of nodes [begin, end).
-/// @param h    [n_nodes] m
-/// @param out  [n_nodes * (1 + dimension)]
-#define DIPTYCH_DECLARE(D)                                                               \
-  void apply_rows(const WeightedRows& rows, const QuadraticCorrection<D>::Record* nodes, \
-                  const double* h, Vec3* out, std::int64_t begin, std::int64_t end);
-DIPTYCH_DECLARE(2)
-DIPTYCH_DECLARE(3)
+#define DIPTYCH_DECLARE(Correction)                                                                \
+  /** rho of nodes [begin, end), and what their rows give to their closures. */                    \
+  /** @param closure  [n_nodes] */                                                                 \
+  void fit_rows(const QuadraticRows<Correction>& rows, const Correction::Jump* jumps,              \
+                Correction::Fit* fits, Four* closure, std::int64_t begin, std::int64_t end);       \
+  /** S y of nodes [begin, end).  @param out  [n_nodes * (1 + dimension)] */                       \
+  void apply_rows(const QuadraticRows<Correction>& rows, const Correction::Jump* jumps,            \
+                  const Correction::Fit* fits, const Four* closure, Vec3* out, std::int64_t begin, \
+                  std::int64_t end);                                                               \
+  /** C += dC of the rows of nodes [begin, end).  @param C  [n_pairs] */                           \
+  void change_rows(const QuadraticRows<Correction>& rows, const Correction::Jump* jumps,           \
+                   const Correction::Fit* fits, Vec3* C, std::int64_t begin, std::int64_t end);    \
+  /** Changes rows [begin, end) least to be exact for quadratics.  @param Omega  [n_nodes] */      \
+  void correct_rows(const QuadraticRows<Correction>& rows, const Correction::Jump* jumps,          \
+                    const double* Omega, Vec3* C, std::int64_t begin, std::int64_t end);
+DIPTYCH_DECLARE(QuadraticCorrection<2>)
+DIPTYCH_DECLARE(QuadraticCorrection<3>)
 #undef DIPTYCH_DECLARE
 
 }  // namespace diptych::closure

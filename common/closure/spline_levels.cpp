@@ -41,12 +41,6 @@ const auto& exponents() {
 template <int P>
 constexpr double square_of_spline = P == quadratic ? 0.55 : 0.4304;
 
-/// The relation between two scales: a spline as a sum of those of a half or a third of its spacing.
-struct Refinement {
-  int factor = 1, first = 0;        ///< child s of spline j is spline factor * j + first + s
-  std::vector<double> weight{1.0};  ///< of its children
-};
-
 /// Spline j starts at (j - P) H. The weights are the coefficients of
 ///   factor ((1 + z + ... + z^(factor - 1)) / factor)^(P + 1).
 template <int P>
@@ -63,12 +57,16 @@ Refinement refinement(int factor) {
   return made;
 }
 
-/// Calls visit(child, weight) for those of n that spline j has.
-template <class Visit>
-void for_children(const Refinement& to, int j, int n, const Visit& visit) {
-  const int first = to.factor * j + to.first;
-  for (int s = std::max(0, -first); s < std::min<int>(std::ssize(to.weight), n - first); ++s)
-    visit(first + s, to.weight[static_cast<size_t>(s)]);
+/// Calls work(plane), by threads where a grid is large.
+template <class Work>
+void for_planes(std::int64_t size, int n_planes, const Work& work) {
+  constexpr std::int64_t least_parallel = 8192;
+  if (size >= least_parallel) {
+    parallel::for_each(n_planes, work);
+    return;
+  }
+  for (int z = 0; z < n_planes; ++z)
+    work(z);
 }
 
 /// The number of cells 2^k or 3 * 2^k that is nearest to the one wanted, in their ratio.
@@ -324,55 +322,66 @@ auto SplineLevels<P>::splines_at(const Level& level, const Vec3& X) const -> Spl
   return s;
 }
 
+/// The energy of a row of splines in x is a quadratic form of their derivatives in x alone.
 template <int P>
 void SplineLevels<P>::add_energy(
     Level& level, const Splines& s, double Omega, const Moments& left, const Terms& whole) const {
+  using InX = Eigen::Matrix<double, P + 1, 1>;
+  const auto& of = exponents<P>();
   for (int z = 0; z < n_z_; ++z) {
     for (int y = 0; y <= P; ++y) {
+      Eigen::Matrix<double, P + 1, P + 1> form = decltype(form)::Zero();
+      InX uncorrected = InX::Zero();
+      Terms across;
+      for (int m = 0; m < n_terms; ++m) {
+        across[m] = s.value[of[m][1]][1][y] * s.value[of[m][2]][2][z];
+        for (int l = 0; l < m; ++l)
+          form(of[m][0], of[l][0]) += 2 * left(m, l) * across[m] * across[l];
+        form(of[m][0], of[m][0]) += left(m, m) * across[m] * across[m];
+        uncorrected[of[m][0]] += whole[m] * across[m] * across[m];
+      }
       for (int x = 0; x <= P; ++x) {
-        Terms derivatives;
-        for (int m = 0; m < n_terms; ++m) {
-          const SplineIndex& e = exponents<P>()[m];
-          derivatives[m] = s.value[e[0]][0][x] * s.value[e[1]][1][y] * s.value[e[2]][2][z];
-        }
+        InX in_x;
+        for (int order = 0; order <= P; ++order)
+          in_x[order] = s.value[order][0][x];
         const std::int64_t i =
             (static_cast<std::int64_t>(s.first[2] + z) * level.n[1] + s.first[1] + y) * level.n[0] +
             s.first[0] + x;
         const double value = s.value[0][0][x] * s.value[0][1][y] * s.value[0][2][z];
         level.mass[i] += Omega * value * value;
-        level.diagonal[i] += derivatives.dot(left * derivatives);
-        level.uncorrected[i] += whole.dot(derivatives.cwiseAbs2());
+        level.diagonal[i] += in_x.dot(form * in_x);
+        level.uncorrected[i] += uncorrected.dot(in_x.cwiseAbs2());
       }
     }
   }
 }
 
 template <int P>
-template <class Visit>
-void SplineLevels<P>::for_each_child(const Level& fine,
-                                     const Level& coarse,
-                                     const Visit& visit) const {
+auto SplineLevels<P>::between(const Level& fine, const Level& coarse) const -> Refinements {
   static const std::array<Refinement, 4> refinements{{{}, {}, refinement<P>(2), refinement<P>(3)}};
   const auto of = [&](int i) -> const Refinement& {
     return refinements[static_cast<size_t>(i < dimension_ ? (fine.n[i] - P) / (coarse.n[i] - P)
                                                           : 1)];
   };
-  const Refinement &in_x = of(0), &in_y = of(1), &in_z = of(2);
-  std::int64_t c = 0;
-  for (int z = 0; z < coarse.n[2]; ++z) {
-    for (int y = 0; y < coarse.n[1]; ++y) {
-      for (int x = 0; x < coarse.n[0]; ++x, ++c) {
-        for_children(in_z, z, fine.n[2], [&](int fz, double of_z) {
-          for_children(in_y, y, fine.n[1], [&](int fy, double of_y) {
-            for_children(in_x, x, fine.n[0], [&](int fx, double of_x) {
-              visit((static_cast<std::int64_t>(fz) * fine.n[1] + fy) * fine.n[0] + fx, c,
-                    of_x * of_y * of_z);
-            });
-          });
-        });
-      }
-    }
-  }
+  return {of(0), of(1), of(2)};
+}
+
+/// Grid of the coarse level += the sums over the children of its splines.
+template <int P>
+void SplineLevels<P>::restrict_to(Level& coarse, const Level& fine) const {
+  const Refinements to = between(fine, coarse);
+  for_planes(coarse.size(), coarse.n[2], [&](std::int64_t z) {
+    restrict_plane(to, fine.n, fine.grid.data(), coarse.n, static_cast<int>(z), coarse.grid.data());
+  });
+}
+
+/// Grid of the fine level += what the splines of the coarse one are there.
+template <int P>
+void SplineLevels<P>::refine_to(Level& fine, const Level& coarse) const {
+  const Refinements to = between(fine, coarse);
+  for_planes(fine.size(), fine.n[2], [&](std::int64_t z) {
+    refine_plane(to, coarse.n, coarse.grid.data(), fine.n, static_cast<int>(z), fine.grid.data());
+  });
 }
 
 template <int P>
@@ -388,21 +397,15 @@ void SplineLevels<P>::add(const std::vector<Vec3>& r, std::vector<Vec3>& z) {
                                dimension_, r.data(), finest.grid.data());
     }
   });
-  for (size_t l = 1; l < levels_.size(); ++l) {
-    for_each_child(levels_[l - 1], levels_[l], [&](std::int64_t f, std::int64_t c, double w) {
-      levels_[l].grid[c] += w * levels_[l - 1].grid[f];
-    });
-  }
+  for (size_t l = 1; l < levels_.size(); ++l)
+    restrict_to(levels_[l], levels_[l - 1]);
   for (size_t l = levels_.size(); l-- > 0;) {
     Level& level = levels_[l];
     for (std::int64_t i = 0; i < level.grid.size(); ++i) {
       const double diagonal = level.diagonal[i];
       level.grid[i] = diagonal > 0 ? level.grid[i] / diagonal : Four{};
     }
-    if (l + 1 == levels_.size()) continue;
-    for_each_child(level, levels_[l + 1], [&](std::int64_t f, std::int64_t c, double w) {
-      level.grid[f] += w * levels_[l + 1].grid[c];
-    });
+    if (l + 1 < levels_.size()) refine_to(level, levels_[l + 1]);
   }
   prolong(0, z);
 }
@@ -412,9 +415,7 @@ template <int P>
 void SplineLevels<P>::prolong(size_t level, std::vector<Vec3>& z) {
   for (size_t l = level; l-- > 0;) {
     std::fill_n(levels_[l].grid.data(), levels_[l].grid.size(), Four{});
-    for_each_child(levels_[l], levels_[l + 1], [&](std::int64_t f, std::int64_t c, double w) {
-      levels_[l].grid[f] += w * levels_[l + 1].grid[c];
-    });
+    refine_to(levels_[l], levels_[l + 1]);
   }
   const Level& finest = levels_.front();
   for_each_node(node_splines_.size(), [&](std::int64_t begin, std::int64_t end) {

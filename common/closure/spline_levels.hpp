@@ -83,9 +83,9 @@ class SplineLevels {
       Level& level, const Splines& s, double Omega, const Moments& left, const Terms& whole) const;
   void leave_out_unfelt(Level& level);
   void prolong(size_t level, std::vector<Vec3>& z);
-  /// Calls visit(fine, coarse, weight) for the relation between the scales of two levels.
-  template <class Visit>
-  void for_each_child(const Level& fine, const Level& coarse, const Visit& visit) const;
+  Refinements between(const Level& fine, const Level& coarse) const;
+  void restrict_to(Level& coarse, const Level& fine) const;
+  void refine_to(Level& fine, const Level& coarse) const;
 
   int dimension_ = 3;
   int n_z_ = P + 1;  ///< splines felt in z: one in 2-D

@@ -2,7 +2,83 @@
 
 #include "common/algebra/lanes.hpp"
 
+#include <algorithm>
+
 namespace diptych::closure {
+
+namespace {
+
+/// Children of spline j that the fine grid has: [begin, end) of the weights, from spline `from` on.
+struct Children {
+  int begin, end, from;
+};
+
+DIPTYCH_INLINE Children children_of(const Refinement& to, int j, int n) {
+  const int first = to.factor * j + to.first;
+  return {std::max(0, -first), std::min(static_cast<int>(to.weight.size()), n - first), first};
+}
+
+}  // namespace
+
+DIPTYCH_CLONES void restrict_plane(const Refinements& to,
+                                   const SplineIndex& n_fine,
+                                   const Four* fine,
+                                   const SplineIndex& n_coarse,
+                                   int z,
+                                   Four* coarse) {
+  const auto& [in_x, in_y, in_z] = to;
+  const Children cz = children_of(in_z, z, n_fine[2]);
+  Four* of_plane = coarse + static_cast<std::int64_t>(z) * n_coarse[1] * n_coarse[0];
+  for (int y = 0; y < n_coarse[1]; ++y) {
+    const Children cy = children_of(in_y, y, n_fine[1]);
+    for (int x = 0; x < n_coarse[0]; ++x) {
+      const Children cx = children_of(in_x, x, n_fine[0]);
+      Four sum{};
+      for (int k = cz.begin; k < cz.end; ++k) {
+        for (int j = cy.begin; j < cy.end; ++j) {
+          const Four* line =
+              fine +
+              (static_cast<std::int64_t>(cz.from + k) * n_fine[1] + cy.from + j) * n_fine[0] +
+              cx.from;
+          Four along{};
+          for (int i = cx.begin; i < cx.end; ++i)
+            along += in_x.weight[i] * line[i];
+          sum += in_z.weight[k] * in_y.weight[j] * along;
+        }
+      }
+      of_plane[static_cast<std::int64_t>(y) * n_coarse[0] + x] += sum;
+    }
+  }
+}
+
+DIPTYCH_CLONES void refine_plane(const Refinements& to,
+                                 const SplineIndex& n_coarse,
+                                 const Four* coarse,
+                                 const SplineIndex& n_fine,
+                                 int z,
+                                 Four* fine) {
+  const auto& [in_x, in_y, in_z] = to;
+  Four* of_plane = fine + static_cast<std::int64_t>(z) * n_fine[1] * n_fine[0];
+  for (int Z = 0; Z < n_coarse[2]; ++Z) {
+    const Children cz = children_of(in_z, Z, n_fine[2]);
+    const int k = z - cz.from;
+    if (k < cz.begin || k >= cz.end) continue;
+    for (int Y = 0; Y < n_coarse[1]; ++Y) {
+      const Children cy = children_of(in_y, Y, n_fine[1]);
+      const Four* line = coarse + (static_cast<std::int64_t>(Z) * n_coarse[1] + Y) * n_coarse[0];
+      for (int j = cy.begin; j < cy.end; ++j) {
+        const double across = in_z.weight[k] * in_y.weight[j];
+        Four* of_line = of_plane + static_cast<std::int64_t>(cy.from + j) * n_fine[0];
+        for (int X = 0; X < n_coarse[0]; ++X) {
+          const Children cx = children_of(in_x, X, n_fine[0]);
+          const Four value = across * line[X];
+          for (int i = cx.begin; i < cx.end; ++i)
+            of_line[cx.from + i] += in_x.weight[i] * value;
+        }
+      }
+    }
+  }
+}
 
 DIPTYCH_CLONES void spread_nodes(const std::int32_t* begin,
                                  const std::int32_t* end,

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace diptych::closure {
 
@@ -27,6 +28,31 @@ struct NodeSlopes {
 
 /// Of fields of one vector a node, and of those with gradients.
 inline constexpr int quadratic = 2, quartic = 4;
+
+/// The relation between two scales: a spline as a sum of those of a half or a third of its spacing.
+struct Refinement {
+  int factor = 1, first = 0;        ///< child s of spline j is spline factor * j + first + s
+  std::vector<double> weight{1.0};  ///< of its children
+};
+
+/// By direction.
+using Refinements = std::array<Refinement, 3>;
+
+/// Plane z of a coarse grid += the sums over the children of its splines.
+void restrict_plane(const Refinements& to,
+                    const SplineIndex& n_fine,
+                    const Four* fine,
+                    const SplineIndex& n_coarse,
+                    int z,
+                    Four* coarse);
+
+/// Plane z of a fine grid += what the splines of a coarse one are there.
+void refine_plane(const Refinements& to,
+                  const SplineIndex& n_coarse,
+                  const Four* coarse,
+                  const SplineIndex& n_fine,
+                  int z,
+                  Four* fine);
 
 /// grid[first...] += w r over the splines of a node, value = {x, y, z} per direction.
 void spread_nodes(const std::int32_t* begin,
