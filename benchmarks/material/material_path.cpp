@@ -109,7 +109,8 @@ class Walk {
     rate_ = rate_of(state_, q_, 0);
   }
 
-  void step(double t, double dt) {
+  /// @return what the branches have dissipated in it  [J/m^3]
+  double step(double t, double dt) {
     const PointState before = state_;
     const Mat3 rate_before = rate_;
     const double a = control(path_, t + dt);
@@ -128,10 +129,11 @@ class Walk {
       state_ = after(q_);
       rate_ = rate_of(state_, q_, t + dt);
     }
+    if (path_.update != Update::gauss) return material_.dissipation_of_step(before, state_, dt);
+    return material_.dissipation_of_step(before, state_, dt, {{rate_before, rate_}});
   }
 
   const PointState& state() const { return state_; }
-  const Mat3& rate() const { return rate_; }
 
  private:
   Unknowns residual_of(double t, const PointState& state) const {
@@ -142,9 +144,13 @@ class Walk {
   /// branches relax: K q' = -dr/dt at fixed q.
   Mat3 rate_of(const PointState& state, const Unknowns& q, double t) const {
     const double a_rate = control_rate(path_, t), a = control(path_, t);
-    double h = 1e-4 * path_.end / path_.n_steps;
-    for (const auto& b : material_.branches())
-      h = std::min({h, 1e-4 * b.tau_C, 1e-4 * b.tau_G});
+    const double dt_of_path = path_.end / path_.n_steps;
+    // differences over a time in which neither the control nor a branch goes far
+    double h = 1e-4 * dt_of_path;
+    for (const run::PointBranch& b : material_.branch_rates(state)) {
+      h = std::min(h, 1e-4 / std::max({algebra::to_eigen(b.A).norm(), algebra::to_eigen(b.S).norm(),
+                                       1e-300}));
+    }
     const auto moved = [&](double dt, const Unknowns& r) {
       PointState s = state;
       s.F = deformation(path_.loading, a + dt * a_rate, r);
@@ -164,9 +170,11 @@ class Walk {
       const Eigen::MatrixXd K = jacobian([&](const Unknowns& r) { return at(0, r); }, q);
       q_rate = -K.fullPivLu().solve(drift);
     }
-    return (deformation(path_.loading, a + h * a_rate, q + h * q_rate) -
-            deformation(path_.loading, a - h * a_rate, q - h * q_rate)) /
-           (2 * h);
+    const double fastest = std::max(std::abs(a_rate), q.size() > 0 ? q_rate.norm() : 0);
+    const double d = std::min(1e-4 * dt_of_path, 1e-4 / std::max(fastest, 1e-300));
+    return (deformation(path_.loading, a + d * a_rate, q + d * q_rate) -
+            deformation(path_.loading, a - d * a_rate, q - d * q_rate)) /
+           (2 * d);
   }
 
   const MaterialPoint& material_;
@@ -227,10 +235,9 @@ std::vector<PathPoint> follow(const run::MaterialPoint& material, const Material
   Walk walk(material, path);
   std::vector<PathPoint> points;
   const double dt = path.end / path.n_steps;
-  double power_before = 0;
   for (int n = 0; n <= path.n_steps; ++n) {
     const double t = n * dt;
-    if (n > 0) walk.step(t - dt, dt);
+    const double dissipated = n > 0 ? walk.step(t - dt, dt) : 0;
     PathPoint point;
     point.time = t;
     point.control = control(path, t);
@@ -238,13 +245,12 @@ std::vector<PathPoint> follow(const run::MaterialPoint& material, const Material
     point.P = material.stress(point.state);
     point.energy = material.energy(point.state);
     point.dissipation = material.dissipation(point.state);
-    const double power = point.P.cwiseProduct(walk.rate()).sum();
     if (n > 0) {
       const PathPoint& before = points.back();
-      point.work = before.work + 0.5 * dt * (power_before + power);
-      point.dissipated = before.dissipated + 0.5 * dt * (before.dissipation + point.dissipation);
+      point.work = before.work +
+                   0.5 * (before.P + point.P).cwiseProduct(point.state.F - before.state.F).sum();
+      point.dissipated = before.dissipated + dissipated;
     }
-    power_before = power;
     points.push_back(std::move(point));
   }
   return points;

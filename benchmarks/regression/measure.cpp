@@ -319,7 +319,7 @@ void add_asked(RegressCheck check, MethodMeasurement& now) {
 /// The bound of [bounds] on level 0.
 void ask_dissipation(const cases::Case& setup, const RunResult& run, MethodMeasurement& now) {
   if (!setup.bounds.numerical_dissipation) return;
-  add_asked(checked(dissipation_check, "numerical share", numerical_share(run.history),
+  add_asked(checked(dissipation_check, "numerical share", numerical_share(run.summary, run.history),
                     *setup.bounds.numerical_dissipation),
             now);
 }

@@ -107,7 +107,10 @@ std::vector<RegressRow> judged(const ListedCase& entry, const RegressRequest& re
   const RegressBaseline size = blesses ? blessed_size(request, entry, old) : old;
   const RegressMeasurement now = measure_regress(entry.file, size, {}, request.threads);
   if (interrupt_requested()) return {};
-  if (blesses) return rows_of(entry.name, recorded(request, old, size, now), now);
+  if (blesses) {
+    return with_expected(rows_of(entry.name, recorded(request, old, size, now), now), entry.name,
+                         as_it_stands, request.threads);
+  }
   write_measured(request, size, now);
   return with_expected(rows_of(entry.name, size, now), entry.name, as_it_stands, request.threads);
 }

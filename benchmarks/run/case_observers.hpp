@@ -56,6 +56,7 @@ class CaseObservers {
   run::Probes probes_;
   meshes::DeformedCells deformed_;
   run::Cells cells_;
+  run::EnergyUnits units_;
   run::History history_;
   run::StepProbes steps_;
   run::ExactComparison exact_;

@@ -27,16 +27,16 @@ cases::BoundCase at_most(const std::string& figure, double value) {
 
 }  // namespace
 
-double largest_energy(const std::vector<io::HistoryRow>& history) {
+double largest_energy(const std::vector<io::HistoryRow>& history, double carried) {
   double largest = 0;
   for (const io::HistoryRow& row : history)
-    largest = std::max({largest, row.energy.kinetic + std::abs(row.energy.strain),
+    largest = std::max({largest, row.energy.kinetic - carried + std::abs(row.energy.strain),
                         std::abs(row.energy.external_work)});
   return largest;
 }
 
-double numerical_share(const std::vector<io::HistoryRow>& history) {
-  const double energy = largest_energy(history);
+double numerical_share(const io::RunSummary& run, const std::vector<io::HistoryRow>& history) {
+  const double energy = largest_energy(history, run.carried_energy);
   return energy > 0 ? history.back().energy.numerical_dissipation / energy : 0;
 }
 
@@ -53,7 +53,7 @@ std::map<std::string, double> run_figures(const io::RunSummary& run,
       {"external work", run.energy.external_work},
       {"viscous dissipation", run.energy.viscous_dissipation},
       {"numerical dissipation", run.energy.numerical_dissipation},
-      {"numerical share", numerical_share(history)},
+      {"numerical share", numerical_share(run, history)},
       {"linear momentum drift", run.linear_momentum_drift},
       {"angular momentum drift", run.angular_momentum_drift},
       {"steps", static_cast<double>(run.steps)}};
@@ -74,8 +74,19 @@ const std::vector<cases::BoundCase>& guard_bounds() {
 }
 
 std::string AskedBound::text() const {
-  return fmt::format("{} {:.3g}, asked {} {:.3g}", bound.figure, measured,
-                     bound.at_most ? "<=" : ">=", bound.value);
+  const char* relation = bound.at_most ? "<=" : ">=";
+  if (std::isnan(measured)) {
+    const char* why = bound.figure == "kinetic growth" ? " (the body begins at rest)" : "";
+    return fmt::format("{} has no value here{}, asked {} {:.3g}", bound.figure, why, relation,
+                       bound.value);
+  }
+  // digits enough to tell a value from its bound
+  std::string value, limit;
+  for (int digits = 3; digits <= 17 && value == limit; ++digits) {
+    value = fmt::format("{:.{}g}", measured, digits);
+    limit = fmt::format("{:.{}g}", bound.value, digits);
+  }
+  return fmt::format("{} {}, asked {} {}", bound.figure, value, relation, limit);
 }
 
 std::vector<AskedBound> asked_of(const io::RunSummary& run,

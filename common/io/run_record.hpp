@@ -113,6 +113,7 @@ struct RunSummary {
       errors;                              ///< velocity, displacement, deformation_gradient, stress
   std::map<std::string, double> measures;  ///< asked for by who started the run, at its end
   EnergySummary energy;
+  double carried_energy = 0;  ///< J, of the centre of mass of a body that began without supports
   double linear_momentum_drift = 0, angular_momentum_drift = 0;  ///< largest over the output times
   double involution_H = 0, involution_J = 0;  ///< largest |H - cof F|, |J - det F| over them
   double min_jacobian = 1;                    ///< at the nodes, of all steps

@@ -24,12 +24,23 @@ inline double energy_of_rounding(double density, double speed, const std::vector
   return std::numeric_limits<double>::epsilon() * density * speed * speed * volume;
 }
 
+/// What energies of a body are measured with.
+struct EnergyUnits {
+  /// J, energy_of_rounding(), and what rounding makes of `carried`: a body that has held no more
+  /// has no residual.
+  double rounding = 0;
+  /// J, kinetic energy of the centre of mass that a body without supports begins with: as much as
+  /// the frame in which it is described gives it, and so no measure of what it holds.
+  double carried = 0;
+};
+
 /// Budget of a run relative to the largest energy that it has held.
 class EnergyRecord {
  public:
-  /// @param least_energy  J, energy_of_rounding(): a body that has held no more has no residual
-  explicit EnergyRecord(const scheme::Balance& initial, double least_energy = 0)
-      : initial_(initial.kinetic + initial.strain), scale_(initial_), least_energy_(least_energy) {}
+  explicit EnergyRecord(const scheme::Balance& initial, const EnergyUnits& units = {})
+      : initial_(initial.kinetic + initial.strain),
+        scale_(initial_ - units.carried),
+        units_(units) {}
 
   io::EnergySummary at(const scheme::Balance& now, const scheme::Audit& audit) {
     io::EnergySummary e;
@@ -39,14 +50,16 @@ class EnergyRecord {
     e.numerical_dissipation = audit.numerical_dissipation;
     e.viscous_dissipation = audit.viscous_dissipation;
     e.projection_work = audit.projection_work;
-    scale_ = std::max({scale_, now.kinetic + now.strain, std::abs(audit.external_work)});
+    scale_ = std::max(
+        {scale_, now.kinetic + now.strain - units_.carried, std::abs(audit.external_work)});
     const double residual = now.kinetic + now.strain - initial_ - audit.gain();
-    e.relative_residual = scale_ > least_energy_ ? residual / scale_ : 0;
+    e.relative_residual = scale_ > units_.rounding ? residual / scale_ : 0;
     return e;
   }
 
   /// The largest energy so far, to which residuals are relative  [J]
   double scale() const { return scale_; }
+  const EnergyUnits& units() const { return units_; }
 
   /// @param group  of the archive, without "/" at its end
   void archive(const std::string& group, algebra::Archive& archive) {
@@ -55,7 +68,8 @@ class EnergyRecord {
   }
 
  private:
-  double initial_, scale_, least_energy_;
+  double initial_, scale_;
+  EnergyUnits units_;
 };
 
 }  // namespace diptych::run

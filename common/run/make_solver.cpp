@@ -12,6 +12,7 @@
 #include "common/scheme/option_menus.hpp"
 #include "common/scheme/ranks/share_graph.hpp"
 
+#include <array>
 #include <fmt/format.h>
 #include <functional>
 
@@ -107,6 +108,9 @@ scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::Pair
       conditions.push_back({make(values), &boundary_group(graph, group, boundary.where)});
     }
   }
+  // at the start, at the end, and at two instants that no symmetry picks out
+  const double end = setup.time.end;
+  scheme::check_shared_nodes(graph, conditions, std::array{0.0, 0.31 * end, 0.73 * end, end});
   scheme::VectorFunction body_force;
   if (!setup.body_force.is_zero()) body_force = field_of(setup.body_force);
   return {graph, std::move(conditions), body_force, setup.body_force.depends_on_time()};

@@ -1,5 +1,6 @@
 #include "common/run/material_point.hpp"
 
+#include "common/physics/step_dissipation.hpp"
 #include "common/physics/viscous_evolution.hpp"
 #include "common/physics/wave_speeds.hpp"
 #include "common/run/model_menu.hpp"
@@ -28,6 +29,28 @@ double MaterialPoint::energy(const PointState& state) const {
 
 double MaterialPoint::dissipation(const PointState& state) const {
   return material_->dissipation(deformation(state.F), state.branches);
+}
+
+double MaterialPoint::dissipation_of_step(const PointState& begin,
+                                          const PointState& end,
+                                          double dt,
+                                          const std::optional<std::array<Mat3, 2>>& rates) const {
+  const auto F_0 = algebra::to_tensor(begin.F), F_1 = algebra::to_tensor(end.F);
+  const auto rate = [&](size_t end_of_step) {
+    return algebra::to_tensor(rates ? Mat3(dt * (*rates)[end_of_step]) : Mat3(Mat3::Zero()));
+  };
+  const auto paths =
+      physics::step_paths<true>(physics::right_tensors(F_0), physics::right_tensors(F_1),
+                                rates.has_value(), F_0, rate(0), F_1, rate(1));
+  double dissipated = 0;
+  for (size_t k = 0; k < branches().size(); ++k) {
+    const physics::MaxwellBranch& b = branches()[k];
+    dissipated += b.xi * physics::released(physics::excess_weights(dt / b.tau_C), paths.C,
+                                           begin.branches[k].A, end.branches[k].A);
+    dissipated += b.zeta * physics::released(physics::excess_weights(dt / b.tau_G), paths.G,
+                                             begin.branches[k].S, end.branches[k].S);
+  }
+  return dissipated;
 }
 
 Mat3 MaterialPoint::acoustic_tensor(const PointState& state, const Vec3& N) const {

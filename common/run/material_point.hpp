@@ -6,7 +6,9 @@
 #include "common/cases/case.hpp"
 #include "common/scheme/body/material_model.hpp"
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace diptych::run {
@@ -27,6 +29,13 @@ class MaterialPoint {
   Mat3 stress(const PointState& X) const;         ///< first Piola-Kirchhoff, Pa
   double energy(const PointState& X) const;       ///< Pa
   double dissipation(const PointState& X) const;  ///< W/m^3
+  /// What the branches dissipate over a step, whatever dt/tau (notes 6.1).
+  /// @param rates  of F at both ends  [1/s]; none: of a straight path of C and G
+  /// @return J/m^3
+  double dissipation_of_step(const PointState& begin,
+                             const PointState& end,
+                             double dt,
+                             const std::optional<std::array<Mat3, 2>>& rates = {}) const;
   /// Of incremental waves in material direction N at frozen internal variables  [Pa]
   Mat3 acoustic_tensor(const PointState& X, const Vec3& N) const;
 

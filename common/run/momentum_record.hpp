@@ -11,19 +11,27 @@
 
 namespace diptych::run {
 
+/// What rounding makes of the momenta of a body: of one that has held no more nothing drifts.
+struct MomentumUnits {
+  double linear = 0;   ///< N s
+  double angular = 0;  ///< N m s
+};
+
 class MomentumRecord {
  public:
-  explicit MomentumRecord(const scheme::Balance& initial)
-      : linear_(initial.linear_momentum), angular_(initial.angular_momentum) {}
+  explicit MomentumRecord(const scheme::Balance& initial, const MomentumUnits& rounding = {})
+      : linear_(initial.linear_momentum), angular_(initial.angular_momentum), rounding_(rounding) {}
 
   void at(const scheme::Balance& now, const scheme::Audit& audit) {
     linear_scale_ = std::max(linear_scale_, now.momentum_scale);
     angular_scale_ = std::max(angular_scale_, now.angular_scale);
-    const auto share = [](const algebra::Vec3& drift, double scale) {
-      return scale > 0 ? drift.norm() / scale : 0;
+    const auto share = [](const algebra::Vec3& drift, double scale, double rounding) {
+      return scale > rounding ? drift.norm() / scale : 0;
     };
-    linear_drift_ = share(now.linear_momentum - linear_ - audit.impulse.linear, linear_scale_);
-    angular_drift_ = share(now.angular_momentum - angular_ - audit.impulse.angular, angular_scale_);
+    linear_drift_ = share(now.linear_momentum - linear_ - audit.impulse.linear, linear_scale_,
+                          rounding_.linear);
+    angular_drift_ = share(now.angular_momentum - angular_ - audit.impulse.angular, angular_scale_,
+                           rounding_.angular);
   }
 
   /// Of the last call of at(), as a share of the largest sum over the nodes of |p| so far.
@@ -41,6 +49,7 @@ class MomentumRecord {
 
  private:
   algebra::Vec3 linear_, angular_;  ///< N s, N m s, of the start
+  MomentumUnits rounding_;
   double linear_scale_ = 0, angular_scale_ = 0;
   double linear_drift_ = 0, angular_drift_ = 0;
 };

@@ -53,6 +53,7 @@ double ssp_step(MovingBody<Dim>& moving, double t_limit) {
     const scheme::StageCombination stage = combination(i);
     audit = audit.combined(stage.alpha, audit_0, stage.beta, stage.dt, rate);
     combine_motion(body, stage);
+    audit.impulse.angular += boundary.lag_of_moment(body, stage, fraction);
     if (last) keep_angular_momentum(moving);
     book(moving, last ? boundary.constrain(body, clock.time + now.time * dt)
                       : boundary.constrain_stage(body, stage, combination(i + 1), fraction));

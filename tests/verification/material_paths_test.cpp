@@ -150,6 +150,24 @@ TEST(MaterialPath, WorkIsStoredOrDissipated) {
   }
 }
 
+// Of a branch that relaxes within a millionth of a step, and within a tenth of one.
+TEST(MaterialPath, WorkIsStoredOrDissipatedWhateverTheRelaxationTime) {
+  for (const double tau : {1e-15, 1e-10, 1e-5, 3e-4}) {
+    SCOPED_TRACE(tau);
+    MaterialPath ramp = path_of("shear-ramp", 0.05, 500);
+    ramp.rate = 10;
+    const auto sheared = followed(ve5(tau), ramp);
+    const PathPoint& end = sheared.back();
+    EXPECT_NEAR(end.work, end.energy - sheared.front().energy + end.dissipated, 1e-5 * end.work);
+    MaterialPath step = path_of("shear-step", 0.05, 500);
+    step.amplitude = 0.1;
+    const auto released = followed(ve5(tau), step);
+    const double lost = released.front().energy - released.back().energy;
+    EXPECT_GT(lost, 0);
+    EXPECT_NEAR(released.back().dissipated, lost, 1e-9 * lost);
+  }
+}
+
 TEST(MaterialPath, UpdatesConvergeAtTheirOrders) {
   MaterialPath path = path_of("uniaxial-oscillation", 6e-3, 4000);
   path.amplitude = 0.4;

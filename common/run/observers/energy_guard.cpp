@@ -37,9 +37,13 @@ void EnergyGuard::refuse_residual(const Check& check, double residual, double bo
   throw base::BreakdownError(fmt::format(
       "the energy budget does not close: residual {:.3g} of the largest energy so far, bound {:g}, "
       "{}\n"
-      "  the step is too large, or the scheme is unstable here: try a smaller time.cfl or a finer "
-      "mesh; guards.energy_residual raises the bound",
-      residual, bound, instant_of(check.step)));
+      "  {}; guards.energy_residual raises the bound",
+      residual, bound, instant_of(check.step),
+      residual < 0
+          ? "what SSP-RK steps take from short waves and fronts: try a smaller time.cfl, "
+            "time.integrator = \"leapfrog\", or a finer mesh"
+          : "the step is too large, or the scheme is unstable here: try a smaller time.cfl "
+            "or a finer mesh"));
 }
 
 void EnergyGuard::after_step(const StepReport& step) {
@@ -51,20 +55,20 @@ void EnergyGuard::after_step(const StepReport& step) {
 void EnergyGuard::at_check(const Check& check) {
   const io::EnergySummary energy = energy_.at(check.balance, check.audit);
   const double residual = energy.relative_residual;
-  const double held =
-      std::max(energy.kinetic + std::abs(energy.strain), std::abs(energy.external_work));
+  const double held = std::max(energy.kinetic - units_.carried + std::abs(energy.strain),
+                               std::abs(energy.external_work));
   const double lost = energy.numerical_dissipation, scale = energy_.scale();
-  if (-lost > threshold_ * scale + least_energy_) refuse_gain(check, -lost);
+  if (-lost > threshold_ * scale + units_.rounding) refuse_gain(check, -lost);
   if (!std::isfinite(residual)) refuse_residual(check, residual, threshold_);
-  is_at_rest_ = held <= least_energy_;
+  is_at_rest_ = held <= units_.rounding;
   if (is_at_rest_) at_rest_until_ = check.step.step;
   const std::int64_t n = check.step.step - at_rest_until_;
   const double bound = n < steps_of_start ? std::max(threshold_, bound_of_start(n)) : threshold_;
   // first what an unstable step does, which dissipates, too
-  if (std::abs(residual) * scale > bound * scale + least_energy_)
+  if (std::abs(residual) * scale > bound * scale + units_.rounding)
     refuse_residual(check, residual, bound);
   if (n < steps_of_any_loss) return;
-  if (lost > largest_loss_ * scale + least_energy_) refuse_loss(check, lost);
+  if (lost > largest_loss_ * scale + units_.rounding) refuse_loss(check, lost);
 }
 
 }  // namespace diptych::run

@@ -19,16 +19,16 @@ class EnergyGuard : public Observer {
   /// @param threshold     largest admissible |residual|, and dissipation below zero, as a share of
   ///                      the largest energy so far
   /// @param largest_loss  largest admissible numerical dissipation, the same; infinite: any
-  /// @param least_energy  J, what rounding makes of the energies: a body that holds no more is at
-  ///                      rest, and as much of any residual is not judged
+  /// @param units         a body that holds no more than rounding makes is at rest, and as much of
+  ///                      any residual is not judged
   EnergyGuard(const scheme::Balance& initial,
               double threshold,
               double largest_loss,
-              double least_energy)
-      : energy_(initial),
+              const EnergyUnits& units)
+      : energy_(initial, {0, units.carried}),
         threshold_(threshold),
         largest_loss_(largest_loss),
-        least_energy_(least_energy) {}
+        units_(units) {}
 
   /// A residual that is not finite is refused at once. Others, and what numerical dissipation took,
   /// are not judged while the body is at rest; in the first steps after it the former has a bound
@@ -70,7 +70,8 @@ class EnergyGuard : public Observer {
   void refuse_residual(const Check& check, double residual, double bound) const;
 
   EnergyRecord energy_;
-  double threshold_, largest_loss_, least_energy_;
+  double threshold_, largest_loss_;
+  EnergyUnits units_;
   std::int64_t at_rest_until_ = -steps_of_start;  // step
   bool is_at_rest_ = false;                       // since the last check
 };

@@ -5,12 +5,16 @@
 
 namespace diptych::run {
 
-History::History(Solver& solver, const Probes& probes, const Cells& cells, double least_energy)
+History::History(Solver& solver,
+                 const Probes& probes,
+                 const Cells& cells,
+                 const EnergyUnits& units,
+                 const MomentumUnits& rounding)
     : solver_(solver),
       probes_(probes),
       cells_(cells),
-      energy_(solver.balance(), least_energy),
-      momenta_(solver.balance()) {}
+      energy_(solver.balance(), units),
+      momenta_(solver.balance(), rounding) {}
 
 void History::write_to(const std::string& path, const std::vector<std::string>& columns) {
   file_ = std::make_unique<io::RowFile>(path, io::history_header(columns));
@@ -87,6 +91,7 @@ double History::energy_residual() const {
 /// Largest change of momentum beyond the impulse of loads and constraints, relative to sum |p|.
 void History::fill(io::RunSummary& summary) const {
   summary.energy = rows_.back().energy;
+  summary.carried_energy = energy_.units().carried;
   summary.linear_momentum_drift = linear_drift_;
   summary.angular_momentum_drift = angular_drift_;
   for (const io::HistoryRow& row : rows_) {

@@ -19,7 +19,11 @@ namespace diptych::run {
 class History : public Observer {
  public:
   /// @param solver, probes, cells  kept by reference; `cells` is told of an output before this one
-  History(Solver& solver, const Probes& probes, const Cells& cells, double least_energy = 0);
+  History(Solver& solver,
+          const Probes& probes,
+          const Cells& cells,
+          const EnergyUnits& units = {},
+          const MomentumUnits& rounding = {});
 
   /// The rows so far, and those from now on, go to this file too.
   /// @param columns  headers of the probes, see probe_columns

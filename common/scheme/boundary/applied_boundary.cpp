@@ -3,6 +3,7 @@
 #include "common/algebra/face_areas.hpp"
 #include "common/parallel/agreement.hpp"
 #include "common/scheme/boundary/node_vector.hpp"
+#include "common/scheme/boundary/stage_begin.hpp"
 #include "common/scheme/graph/centroid.hpp"
 
 #include <algorithm>
@@ -257,6 +258,21 @@ ConstraintAction AppliedBoundary::constrain_stage(Body<Dim>& body,
 }
 
 template <int Dim>
+Vec3 AppliedBoundary::lag_of_moment(const Body<Dim>& body,
+                                    const StageCombination& stage,
+                                    double fraction) const {
+  const auto lag = parallel::sum_over<VectorSum>(
+      body.part(), chunks_of_constrained_, [&](std::int64_t k, VectorSum& sum) {
+        const ConstrainedNode& c = constrained_[k];
+        const StageBegin begin = stage_begin(body, c.node, c.Omega, stage);
+        const Vec3 force = force_on(body, k, fraction);
+        sum.value +=
+            stage.beta * stage.dt * (begin.u - vector_at<Dim>(body.u, c.node)).cross(force);
+      });
+  return lag.value + walls_.lag_of_moment(body, stage);
+}
+
+template <int Dim>
 double AppliedBoundary::withheld(const Body<Dim>& body, const Projection& made) const {
   return parallel::sum_over<double>(
       body.part(), chunks_of_constrained_, [&](std::int64_t k, double& energy) {
@@ -386,6 +402,16 @@ double AppliedBoundary::power_against_forces(const Body<Dim>& body) const {
                                     });
 }
 
+/// What keeps the velocity of a constrained node as prescribed, at a fraction of the step  [N]
+template <int Dim>
+Vec3 AppliedBoundary::force_on(const Body<Dim>& body, std::int64_t k, double fraction) const {
+  const ConstrainedNode& c = constrained_[k];
+  Vec3 force = -vector_at<Dim>(body.T, c.node);
+  if (c.velocity && in_step_.step() > 0)
+    force += body.options.rho_R * c.Omega * in_step_.rate(k, fraction);
+  return force - c.keep * force;
+}
+
 template <int Dim>
 Vec3 AppliedBoundary::reaction(const Body<Dim>& body,
                                const std::vector<std::int32_t>& nodes) const {
@@ -393,10 +419,7 @@ Vec3 AppliedBoundary::reaction(const Body<Dim>& body,
       body.part(), chunks_of_constrained_, [&](std::int64_t k, VectorSum& sum) {
         const ConstrainedNode& c = constrained_[k];
         if (!std::binary_search(nodes.begin(), nodes.end(), c.node)) return;
-        Vec3 force = -vector_at<Dim>(body.T, c.node);
-        if (c.velocity && in_step_.step() > 0)
-          force += body.options.rho_R * c.Omega * in_step_.rate(k, 1);
-        sum.value += force - c.keep * force;
+        sum.value += force_on(body, k, 1);
       });
   return walls_.force(body, nodes) + held.value;
 }
@@ -410,6 +433,8 @@ Vec3 AppliedBoundary::reaction(const Body<Dim>& body,
   template LoadRates AppliedBoundary::add_loads(Body<Dim>&, double);                              \
   template double AppliedBoundary::power_of_loads(const Body<Dim>&) const;                        \
   template double AppliedBoundary::power_against_forces(const Body<Dim>&) const;                  \
+  template Vec3 AppliedBoundary::lag_of_moment(const Body<Dim>&, const StageCombination&, double) \
+      const;                                                                                      \
   template Vec3 AppliedBoundary::reaction(const Body<Dim>&, const std::vector<std::int32_t>&) const;
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)

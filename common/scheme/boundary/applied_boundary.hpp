@@ -8,6 +8,7 @@
 #include "common/scheme/boundary/body_loads.hpp"
 #include "common/scheme/boundary/boundary_condition.hpp"
 #include "common/scheme/boundary/rigid_wall.hpp"
+#include "common/scheme/boundary/shared_nodes.hpp"
 #include "common/scheme/boundary/velocities_in_step.hpp"
 #include "common/scheme/budget/angular_momentum.hpp"
 #include "common/scheme/budget/audit.hpp"
@@ -18,11 +19,6 @@
 namespace diptych::scheme {
 
 /// A condition with the patch it acts on.
-struct PlacedCondition {
-  std::unique_ptr<BoundaryCondition> condition;
-  const BoundaryPatch* patch = nullptr;  ///< of the graph, which outlives this
-};
-
 /// What a boundary knows of a step, apart from the state of the body.
 struct BoundaryState {
   VelocitiesInStep in_step;
@@ -99,6 +95,13 @@ class AppliedBoundary {
                                    const StageCombination& next,
                                    double fraction);
 
+  /// Moment of the stage's constraint forces about where their nodes were when it began, at which
+  /// forces have their rates, less that about where they are now, where constrain() and
+  /// constrain_stage() book it. Without it moments of supports that move are of first order in dt.
+  /// @pre  as for stage_begin()  @return N m s
+  template <int Dim>
+  Vec3 lag_of_moment(const Body<Dim>& body, const StageCombination& stage, double fraction) const;
+
   /// What held directions keep of the kinetic energy that a projection of the velocities, just
   /// made, has given: the constraints that follow it overwrite them  [J]
   template <int Dim>
@@ -171,6 +174,8 @@ class AppliedBoundary {
   double kinetic_work(const Body<Dim>& body) const;
   template <int Dim>
   Impulse overwrite(Body<Dim>& body) const;
+  template <int Dim>
+  Vec3 force_on(const Body<Dim>& body, std::int64_t k, double fraction) const;
   template <int Dim>
   std::vector<Vec3> deformed_areas(const Body<Dim>& body, const BoundaryPatch& patch) const;
   template <int Dim>

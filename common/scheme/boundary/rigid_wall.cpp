@@ -1,6 +1,7 @@
 #include "common/scheme/boundary/rigid_wall.hpp"
 
 #include "common/scheme/boundary/node_vector.hpp"
+#include "common/scheme/boundary/stage_begin.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -105,13 +106,9 @@ template <int Dim>
 void WallContacts::add_work_of_force(WallNode& w,
                                      const Body<Dim>& body,
                                      const StageCombination& stage) {
-  const std::int32_t a = w.body.node;
   const Vec3 along = w.along();
-  const double T = vector_at<Dim>(body.T, a).dot(along);
-  const double v = vector_at<Dim>(body.v, a).dot(along);
-  const double v_0 = stage.alpha == 0 ? v : vector_at<Dim>(body.v_0, a).dot(along);
-  const double change = stage.dt * T / (body.options.rho_R * w.body.Omega);
-  const double begin = v_0 + (v - v_0) / stage.beta - change;
+  const double T = vector_at<Dim>(body.T, w.body.node).dot(along);
+  const double begin = stage_begin(body, w.body.node, w.body.Omega, stage).v.dot(along);
   if (stage.first) w.work_of_force = 0;
   w.work_of_force = stage.beta * (w.work_of_force + stage.dt * T * begin);
 }
@@ -202,6 +199,20 @@ void WallContacts::hold_in_middle(Body<Dim>& body, double dt, ConstraintAction& 
 }
 
 template <int Dim>
+Vec3 WallContacts::lag_of_moment(const Body<Dim>& body, const StageCombination& stage) const {
+  const auto lag =
+      parallel::sum_over<VectorSum>(body.part(), chunks_, [&](std::int64_t k, VectorSum& sum) {
+        const WallNode& w = nodes_[k];
+        if (!w.closed) return;
+        const Vec3 force = -vector_at<Dim>(body.T, w.body.node).dot(w.wall.normal) * w.push;
+        const Vec3 begin = stage_begin(body, w.body.node, w.body.Omega, stage).u;
+        sum.value +=
+            stage.beta * stage.dt * (begin - vector_at<Dim>(body.u, w.body.node)).cross(force);
+      });
+  return lag.value;
+}
+
+template <int Dim>
 void WallContacts::settle(Body<Dim>& body, ConstraintAction& action) {
   act_on_nodes(body, action, [&](WallNode& w, ConstraintAction& of_chunk) {
     const std::int32_t a = w.body.node;
@@ -246,6 +257,7 @@ Vec3 WallContacts::force(const Body<Dim>& body, const std::vector<std::int32_t>&
   template void WallContacts::hold(Body<Dim>&, const StageCombination&, const StageCombination&, \
                                    ConstraintAction&);                                           \
   template void WallContacts::hold_in_middle(Body<Dim>&, double, ConstraintAction&);             \
+  template Vec3 WallContacts::lag_of_moment(const Body<Dim>&, const StageCombination&) const;    \
   template void WallContacts::settle(Body<Dim>&, ConstraintAction&);                             \
   template Vec3 WallContacts::force(const Body<Dim>&, const std::vector<std::int32_t>&) const;
 DIPTYCH_INSTANTIATE(2)

@@ -67,6 +67,10 @@ class WallContacts {
   template <int Dim>
   void hold_in_middle(Body<Dim>& body, double dt, ConstraintAction& action);
 
+  /// AppliedBoundary::lag_of_moment of closed nodes.
+  template <int Dim>
+  Vec3 lag_of_moment(const Body<Dim>& body, const StageCombination& stage) const;
+
   /// At the end of a step: lets go and catches. Adds impulse and work.
   template <int Dim>
   void settle(Body<Dim>& body, ConstraintAction& action);

@@ -122,6 +122,20 @@ DIPTYCH_INLINE algebra::PositiveLanes sound_after(const StrainRateSweep<Dim>& sw
   return sound;
 }
 
+/// Of nodes alone: the last block is filled up.
+template <int Dim>
+DIPTYCH_INLINE void note_least_J(const Body<Dim>& body,
+                                 std::int64_t b,
+                                 const Lanes& J,
+                                 BlockTotals& totals) {
+  if (b + 1 < body.n_blocks) {
+    totals.least_J = algebra::smaller(totals.least_J, J);
+    return;
+  }
+  const auto is_node = algebra::load(body.graph.Omega.data() + b * n_lanes) != 0;
+  totals.least_J = algebra::smaller(totals.least_J, is_node ? J : totals.least_J);
+}
+
 /// What the strain-rate sweep does with a block once its dF/dt is known: H and J (18c,d) with F,
 /// relaxation (14), stress (9), wave speeds.
 template <int Dim, class Material>
@@ -142,7 +156,7 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
   put_velocity_gradient(body, b, L);
   if (sweep.drift != 0) drift_block(body, sweep.drift, b);
   const Deformation<Lanes> X = load_deformation(body, b);
-  totals.least_J = algebra::smaller(totals.least_J, X.J);
+  note_least_J(body, b, X.J, totals);
   const bool with_dissipation = sweep.relaxation.excess_C.size() > 0;
   Lanes dissipation{};
   Response<Lanes> response = response_of_block(

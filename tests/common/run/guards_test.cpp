@@ -10,6 +10,7 @@
 #include "tests/common/run/free_cube.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
+#include <array>
 #include <cmath>
 #include <gmock/gmock.h>
 #include <limits>
@@ -36,8 +37,10 @@ struct Guarded {
                                                  : LeastCell{1, 0, 64};
         }),
         history(*scene.solver, probes, cells),
-        energy_guard(
-            scene.solver->balance(), scene.setup.guards.energy_residual, any_loss, least_energy),
+        energy_guard(scene.solver->balance(),
+                     scene.setup.guards.energy_residual,
+                     any_loss,
+                     EnergyUnits{least_energy}),
         cell_guard(cells) {}
 
   /// @param guards_cells  as guards.inverted_cells = "stop"
@@ -79,7 +82,7 @@ TEST(EnergyGuard, StopsWhereNumericalDissipationGivesEnergy) {
   Guarded run("fvm", {});
   const scheme::Balance initial = run.scene.solver->balance();
   for (const double part : {0.009, 0.011}) {
-    EnergyGuard guard(initial, 0.01, any_loss, 0);
+    EnergyGuard guard(initial, 0.01, any_loss, {});
     scheme::Balance now = initial;
     scheme::Audit audit;
     audit.numerical_dissipation = -part * initial.kinetic;
@@ -111,7 +114,7 @@ TEST(EnergyGuard, StopsWhereNumericalDissipationHasTakenMoreThanItMay) {
     step.step = number;
     guard.at_check({step, now, audit});
   };
-  EnergyGuard guard(initial, 0.01, 0.5, 1e-9), free(initial, 0.01, any_loss, 1e-9);
+  EnergyGuard guard(initial, 0.01, 0.5, {1e-9}), free(initial, 0.01, any_loss, {1e-9});
   EXPECT_NO_THROW(judge(guard, 1, 4.9));
   EXPECT_NO_THROW(judge(free, 2, 9.9));
   try {
@@ -128,7 +131,7 @@ TEST(EnergyGuard, StopsWhereNumericalDissipationHasTakenMoreThanItMay) {
 
 TEST(EnergyGuard, DoesNotJudgeLossesInTheFirstStepsOfABodyAtRest) {
   const scheme::Balance rest;
-  EnergyGuard guard(rest, 0.01, 0.5, 1e-9);
+  EnergyGuard guard(rest, 0.01, 0.5, {1e-9});
   const auto judge = [&](std::int64_t number, double work, double taken) {
     scheme::Balance now;
     now.kinetic = work - taken;
@@ -146,7 +149,7 @@ TEST(EnergyGuard, DoesNotJudgeLossesInTheFirstStepsOfABodyAtRest) {
 
 TEST(EnergyGuard, StopsEnergyOfNothingInTheFirstStepsOfABodyAtRest) {
   const auto judge = [&](std::int64_t number, double kinetic) {
-    EnergyGuard guard(scheme::Balance{}, 0.01, 0.5, 1e-9);
+    EnergyGuard guard(scheme::Balance{}, 0.01, 0.5, {1e-9});
     scheme::Balance now;
     scheme::Audit audit;
     guard.at_check({StepReport{}, now, audit});
@@ -172,7 +175,7 @@ TEST(EnergyGuard, StopsEnergyOfNothingInTheFirstStepsOfABodyAtRest) {
 // the load sets in between two checks: its first step is not the tenth
 TEST(EnergyGuard, CountsTheFirstStepsFromWhereTheBodyMoves) {
   for (const std::int64_t loaded : {1, 9}) {
-    EnergyGuard guard(scheme::Balance{}, 0.01, 0.5, 1e-9);
+    EnergyGuard guard(scheme::Balance{}, 0.01, 0.5, {1e-9});
     scheme::Balance now;
     scheme::Audit audit;
     StepReport step;
@@ -341,10 +344,42 @@ TEST(EnergyRecord, HasNoResidualOfABodyThatHoldsWhatRoundingMakes) {
   scheme::Balance initial, now;
   scheme::Audit audit;
   now.strain = 3e-10;
-  EXPECT_EQ(EnergyRecord(initial, 1e-9).at(now, audit).relative_residual, 0);
+  EXPECT_EQ(EnergyRecord(initial, {1e-9}).at(now, audit).relative_residual, 0);
   EXPECT_EQ(EnergyRecord(initial).at(now, audit).relative_residual, 1);
   now.strain = 2e-9;
-  EXPECT_EQ(EnergyRecord(initial, 1e-9).at(now, audit).relative_residual, 1);
+  EXPECT_EQ(EnergyRecord(initial, {1e-9}).at(now, audit).relative_residual, 1);
+}
+
+// A body that flies has the energy of its centre of mass in this frame and in no other.
+TEST(EnergyGuard, JudgesAFlyingBodyAsOneInPlace) {
+  scheme::Balance initial;
+  initial.kinetic = 1001;  // of which 1 turns it
+  scheme::Audit audit;
+  audit.numerical_dissipation = 0.6;
+  StepReport step;
+  step.step = 100;
+  scheme::Balance now = initial;
+  now.kinetic -= audit.numerical_dissipation;
+  EnergyGuard frame(initial, 0.01, 0.5, {1e-9}), body(initial, 0.01, 0.5, {1e-9, 1000});
+  EXPECT_NO_THROW(frame.at_check({step, now, audit}));
+  EXPECT_THROW(body.at_check({step, now, audit}), base::BreakdownError);
+  now.kinetic = 1001 - 0.02;
+  audit.numerical_dissipation = 0;
+  EXPECT_NEAR(EnergyRecord(initial, {1e-9, 1000}).at(now, audit).relative_residual, -0.02, 1e-12);
+}
+
+TEST(MomentumRecord, HasNoDriftOfABodyAtRest) {
+  scheme::Balance initial, now;
+  now.linear_momentum.x() = now.momentum_scale = 1e-13;
+  now.angular_momentum.z() = now.angular_scale = 1e-12;
+  const auto drift = [&](const MomentumUnits& rounding) {
+    MomentumRecord record(initial, rounding);
+    record.at(now, scheme::Audit{});
+    return std::array{record.linear_drift(), record.angular_drift()};
+  };
+  EXPECT_EQ(drift({}), (std::array{1.0, 1.0}));
+  EXPECT_EQ(drift({1e-9, 1e-9}), (std::array{0.0, 0.0}));
+  EXPECT_EQ(drift({1e-14, 1e-9}), (std::array{1.0, 0.0}));
 }
 
 TEST(CellGuard, StopsWhereACellIsInsideOutAndKeepsTheRow) {

@@ -1,5 +1,6 @@
 /// Prescribed velocities that jump: what they do to the body is booked whole, wherever in a step.
 
+#include "common/base/error.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/scheme/boundary/velocities_in_step.hpp"
 #include "common/time/integrator.hpp"
@@ -136,6 +137,79 @@ TEST_P(VelocityThatJumps, TakesTheKineticEnergyOfABodyThatIsHeldAtAllNodes) {
   tests::run_to(*s.solver, s.setup.time.end);
   EXPECT_NEAR(s.solver->audit().external_work, -initial, 1e-12 * initial);
   EXPECT_NEAR(s.solver->balance().kinetic, 0, 1e-12 * initial);
+}
+
+const std::string driven = R"toml(
+[mesh]
+element = "quadrilateral"
+lower = [0, 0]
+upper = [1, 1]
+cells = [5, 5]
+[material]
+model = "neo-hookean"
+density = 1000
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+[time]
+end = 0.5
+[[boundary]]
+group = "y_min"
+type = "TYPE"
+[[boundary]]
+group = "x_min"
+type = "velocity"
+value = VALUE
+)toml";
+
+Scene driven_scene(const std::string& type, const std::string& value) {
+  std::string text = driven;
+  text.replace(text.find("TYPE"), 4, type);
+  text.replace(text.find("VALUE"), 5, value);
+  return scene_of("fvm", text);
+}
+
+/// A side that is held stays where it is, or is told not to be.
+TEST(SharedNodes, AreRefusedWhereOneGroupHoldsWhatAnotherMoves) {
+  for (const char* type : {"fixed", "symmetry", "skew-symmetry"}) {
+    SCOPED_TRACE(type);
+    const bool is_skew = std::string(type) == "skew-symmetry";
+    const std::string along = is_skew ? R"(["0.1*t", 0])" : R"([0, "0.1*t"])";
+    try {
+      driven_scene(type, along);
+      ADD_FAILURE() << "not refused";
+    } catch (const base::InputError& error) {
+      EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("'y_min' and 'x_min'"),
+                                               testing::HasSubstr("(0, 0, 0)"),
+                                               testing::HasSubstr("m/s at t = ")));
+    }
+    EXPECT_NO_THROW(driven_scene(type, R"(["0.1*y", "0.1*y"])"));
+    if (std::string(type) == "fixed") continue;
+    EXPECT_NO_THROW(driven_scene(type, is_skew ? R"([0, "0.1*t"])" : R"(["0.1*t", 0])"));
+  }
+}
+
+/// The least J of a step is of nodes, not of what fills up the last block (25 nodes).
+TEST(StepReport, HasTheLeastJOfABodyThatIsStretched) {
+  const Scene scene = scene_of("fvm", R"toml(
+[mesh]
+element = "quadrilateral"
+lower = [0, 0]
+upper = [1, 1]
+cells = [4, 4]
+[material]
+model = "neo-hookean"
+density = 1000
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+[initial]
+displacement = ["0.1*x", 0]
+[[boundary]]
+group = ["x_min", "x_max", "y_min", "y_max"]
+type = "fixed"
+[time]
+end = 0.1
+)toml");
+  EXPECT_NEAR(scene.solver->step(0.1).least_J, 1.1, 1e-6);
 }
 
 }  // namespace

@@ -1,0 +1,24 @@
+#pragma once
+/// Groups that share nodes and ask different things of them.
+/// Test: tests/common/scheme/prescribed_velocity_test.cpp
+
+#include "common/scheme/boundary/boundary_condition.hpp"
+
+#include <memory>
+#include <span>
+
+namespace diptych::scheme {
+
+struct PlacedCondition {
+  std::unique_ptr<BoundaryCondition> condition;
+  const BoundaryPatch* patch = nullptr;  ///< of the graph, which outlives this
+};
+
+/// @param instants  at which prescribed velocities are looked at  [s]
+/// @throws base::InputError where one condition gives a node a velocity along a direction in which
+///         another one holds it
+void check_shared_nodes(const PairGraph& graph,
+                        std::span<const PlacedCondition> conditions,
+                        std::span<const double> instants);
+
+}  // namespace diptych::scheme
