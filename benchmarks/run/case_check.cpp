@@ -59,6 +59,7 @@ CaseCheck check_case(const cases::Case& setup, const std::string& method, int le
   check.estimated_bytes = setup.mesh.file.empty() ? estimate_memory(setup, method, level).bytes
                                                   : estimate_memory(setup, method, mesh).bytes;
   check.operators = scene.operators;
+  check.notices = scene.notices;
   check.nodes = scene.graph.n_nodes();
   check.cells = mesh.n_cells();
   check.bytes = solver.bytes();

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace diptych::harness {
 
@@ -19,7 +20,8 @@ struct CaseCheck {
   double seconds = 0;               ///< of all steps, as the first ones went; without output
   double dt = 0;                    ///< s, of the first step
   scheme::GraphQuality quality;
-  std::string operators;  ///< see CaseGraph
+  std::string operators;             ///< see CaseGraph
+  std::vector<std::string> notices;  ///< the same
 };
 
 /// Builds mesh, graph and solver, and makes steps for half a second.

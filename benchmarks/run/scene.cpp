@@ -1,8 +1,12 @@
 #include "benchmarks/run/scene.hpp"
 
 #include "benchmarks/run/memory_estimate.hpp"
+#include "common/cases/reader.hpp"
+#include "common/scheme/boundary/boundary_condition.hpp"
 #include "meshes/cavities.hpp"
+#include "meshes/curved_groups.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <utility>
 
@@ -22,6 +26,51 @@ void note_cavities(const meshes::Mesh& mesh, std::vector<std::string>& notices) 
   }
 }
 
+/// What keeps the normals of the undeformed body cannot guide one that slides along a curve.
+void note_curved_symmetries(const cases::Case& setup,
+                            const meshes::Mesh& mesh,
+                            std::vector<std::string>& notices) {
+  constexpr double rounding = 0.1;  // degrees
+  for (const cases::BoundaryCase& boundary : setup.boundaries) {
+    if (scheme::boundary_menu().at(boundary.type).acts != scheme::BoundaryKind::Acts::constrain)
+      continue;
+    for (const meshes::BoundaryGroup& group : mesh.boundary_groups) {
+      const auto& names = boundary.groups;
+      if (std::find(names.begin(), names.end(), group.name) == names.end()) continue;
+      const double bend = meshes::largest_bend(mesh, group);
+      if (bend < rounding) continue;
+      notices.push_back(fmt::format(
+          "boundary: group '{}' of type {} is curved (faces turn by up to {:.2g} degrees): its "
+          "nodes keep the normals of the undeformed body, so one that slides along it leaves it",
+          group.name, boundary.type, bend));
+    }
+  }
+}
+
+/// A single cell shears where it should bend.
+void note_single_cells(const cases::Case& setup, int level, std::vector<std::string>& notices) {
+  if (!setup.mesh.file.empty() || level > 0) return;
+  const auto is_free = [&](const std::string& side) {
+    return std::none_of(setup.boundaries.begin(), setup.boundaries.end(),
+                        [&](const cases::BoundaryCase& boundary) {
+                          return scheme::boundary_menu().at(boundary.type).acts !=
+                                     scheme::BoundaryKind::Acts::load &&
+                                 std::find(boundary.groups.begin(), boundary.groups.end(), side) !=
+                                     boundary.groups.end();
+                        });
+  };
+  for (int i = 0; i < cases::dimension_of(setup.mesh); ++i) {
+    const std::string axis(1, "xyz"[i]);
+    if (setup.mesh.cells[static_cast<size_t>(i)] != 1 || !is_free(axis + "_min") ||
+        !is_free(axis + "_max"))
+      continue;
+    notices.push_back(fmt::format(
+        "mesh: one cell along {}, whose sides are free: a body of one cell across bends up to four "
+        "times as stiffly as it should; two are enough",
+        axis));
+  }
+}
+
 }  // namespace
 
 CaseGraph graph_of(const cases::Case& setup,
@@ -38,6 +87,8 @@ CaseGraph graph_of(const cases::Case& setup,
   scene.operators = std::move(operators.text);
   scene.notices = std::move(operators.notices);
   if (!setup.mesh.file.empty()) note_cavities(scene.mesh.mesh, scene.notices);
+  note_curved_symmetries(setup, scene.mesh.mesh, scene.notices);
+  note_single_cells(setup, level, scene.notices);
   if (made) made(ScenePart::graph, scene);
   return scene;
 }

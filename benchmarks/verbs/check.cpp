@@ -47,6 +47,8 @@ int check(const CaseArguments& arguments) {
             harness::duration_text(check.setup_seconds)),
         5));
     if (!check.operators.empty()) print(base::folded("     " + check.operators + "\n", 5));
+    for (const std::string& notice : check.notices)
+      print(base::folded("     note: " + notice + "\n", 5));
   }
   print(setup.name + ": the case is sound\n");
   return 0;

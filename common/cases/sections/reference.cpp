@@ -19,17 +19,30 @@ namespace fs = std::filesystem;
 
 constexpr size_t most_bytes = size_t{16} << 20;  // 400 000 points
 
-std::vector<std::string_view> cells_of(std::string_view line) {
-  std::vector<std::string_view> cells;
-  while (true) {
+/// Without the blanks around them; in quotes a cell may hold commas, and quotes twice (RFC 4180).
+std::vector<std::string> cells_of(std::string_view line) {
+  constexpr const char* blanks = " \t\r";
+  std::vector<std::string> cells;
+  for (bool is_last = false; !is_last;) {
+    std::string cell;
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+    if (line.starts_with('"')) {
+      for (line.remove_prefix(1); !line.empty(); line.remove_prefix(1)) {
+        if (line.front() == '"') {
+          line.remove_prefix(1);
+          if (!line.starts_with('"')) break;
+        }
+        cell += line.front();
+      }
+    }
     const size_t comma = line.find(',');
-    const std::string_view cell = line.substr(0, comma);
-    const size_t first = cell.find_first_not_of(" \t\r"), last = cell.find_last_not_of(" \t\r");
-    cells.push_back(first == std::string_view::npos ? std::string_view()
-                                                    : cell.substr(first, last + 1 - first));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
+    cell += line.substr(0, comma);
+    cell.erase(cell.find_last_not_of(blanks) + 1);
+    cells.push_back(std::move(cell));
+    is_last = comma == std::string_view::npos;
+    if (!is_last) line.remove_prefix(comma + 1);
   }
+  return cells;
 }
 
 /// @return false where the cell holds no finite number
@@ -47,9 +60,7 @@ struct FileColumns {
 FileColumns columns_of(const std::string& heading, const SectionValues& section) {
   if (!section.has("column")) return {};
   const std::string wanted = section.text("column");
-  std::vector<std::string> names;
-  for (const std::string_view name : cells_of(heading))
-    names.emplace_back(name);
+  const std::vector<std::string> names = cells_of(heading);
   const auto found = std::find(names.begin() + 1, names.end(), wanted);
   if (found == names.end()) {
     section.fail("column", fmt::format("= '{}' is no column of the file behind its first{}",
@@ -60,7 +71,7 @@ FileColumns columns_of(const std::string& heading, const SectionValues& section)
 
 /// The time and the value of one line. @return false where it does not hold them
 bool read_pair(std::string_view line, const FileColumns& columns, std::array<double, 2>& pair) {
-  const std::vector<std::string_view> cells = cells_of(line);
+  const std::vector<std::string> cells = cells_of(line);
   return cells.size() == columns.n && read_number(cells[0], pair[0]) &&
          read_number(cells[columns.value], pair[1]);
 }

@@ -55,7 +55,12 @@ TEST_F(CaseReferences, AreAColumnOfAFileByItsName) {
   const Case read_case =
       read("probe = 'tip'\nfile = 'values.csv'\ncolumn = 'x1 [m]'\nsource = 's'\n", csv);
   EXPECT_THAT(read_case.references[0].points, ElementsAre(Point{0, 2}, Point{1, -4}));
+  const std::string quoted = "t,\"x, mid [m]\",\"a \"\"b\"\"\"\n0,1,2\n1,3,-4\n";
   const std::string file = "probe = 'tip'\nfile = 'values.csv'\nsource = 's'\n";
+  EXPECT_THAT(read(file + "column = 'x, mid [m]'\n", quoted).references[0].points,
+              ElementsAre(Point{0, 1}, Point{1, 3}));
+  EXPECT_THAT(read(file + "column = 'a \"b\"'\n", quoted).references[0].points,
+              ElementsAre(Point{0, 2}, Point{1, -4}));
   EXPECT_THAT(refusal(file + "column = 'x2 [m]'\n", csv), HasSubstr("is no column of the file"));
   EXPECT_THAT(refusal(file + "column = 't'\n", csv), HasSubstr("is no column of the file"));
   EXPECT_THAT(refusal(file + "column = 'x1 [m]'\n", "t,x0 [m],x1 [m]\n0,1\n"),

@@ -1,0 +1,13 @@
+#pragma once
+/// Whether a boundary group stands for a curved surface. Test: tests/meshes/curved_groups_test.cpp
+
+#include "meshes/mesh.hpp"
+
+namespace diptych::meshes {
+
+/// Faces that meet at a node of a curved group turn a little, those that meet at an edge between
+/// planes by much.  @return largest turn of less than 50 degrees at a node of the group, in degrees
+/// @pre mesh.boundary_faces are filled and outward
+double largest_bend(const Mesh& mesh, const BoundaryGroup& group);
+
+}  // namespace diptych::meshes
