@@ -21,7 +21,7 @@ struct CaseCheck {
   double dt = 0;                    ///< s, of the first step
   scheme::GraphQuality quality;
   std::string operators;             ///< see CaseGraph
-  std::vector<std::string> notices;  ///< the same
+  std::vector<std::string> notices;  ///< see CaseGraph
 };
 
 /// Builds mesh, graph and solver, and makes steps for half a second.

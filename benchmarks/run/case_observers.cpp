@@ -2,17 +2,12 @@
 
 #include "common/run/quantities.hpp"
 #include "common/run/references.hpp"
-#include "common/scheme/boundary/boundary_condition.hpp"
-#include "common/scheme/graph/centroid.hpp"
 #include "meshes/cell_checks.hpp"
 #include "meshes/incidence.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <optional>
 
 namespace diptych::harness {
@@ -45,44 +40,6 @@ run::LeastCell least_cell(const meshes::Mesh& mesh, const meshes::DeformedCells:
           mesh.cell(least.cell)[0]};
 }
 
-/// Nothing holds it, and no wall stops it.
-bool is_free(const cases::Case& setup) {
-  return std::all_of(
-      setup.boundaries.begin(), setup.boundaries.end(), [](const cases::BoundaryCase& boundary) {
-        return scheme::boundary_menu().at(boundary.type).acts == scheme::BoundaryKind::Acts::load;
-      });
-}
-
-run::EnergyUnits energy_units(const cases::Case& setup, const Scene& scene) {
-  const std::vector<double>& Omega = scene.graph.Omega;
-  run::EnergyUnits units{
-      run::energy_of_rounding(setup.material.density, scene.solver->undeformed_speed(), Omega)};
-  if (!is_free(setup)) return units;
-  const double mass = setup.material.density * std::accumulate(Omega.begin(), Omega.end(), 0.0);
-  const double momentum = scene.solver->balance().linear_momentum.norm();
-  units.carried = 0.5 * momentum * momentum / mass;
-  const double eps = setup.scheme.precision == "single" ? std::numeric_limits<float>::epsilon()
-                                                        : std::numeric_limits<double>::epsilon();
-  constexpr double steps = 1e4;  // of which each rounds once, the same way
-  units.rounding = std::max(units.rounding, steps * eps * units.carried);
-  return units;
-}
-
-/// Those of a body all of which moves with the energy that rounding makes, as far from the centroid
-/// as its farthest node.
-run::MomentumUnits momentum_units(const cases::Case& setup,
-                                  const Scene& scene,
-                                  const run::EnergyUnits& energies) {
-  const std::vector<double>& Omega = scene.graph.Omega;
-  const double mass = setup.material.density * std::accumulate(Omega.begin(), Omega.end(), 0.0);
-  const algebra::Vec3 centroid = scheme::centroid_of(scene.graph);
-  double reach = 0;
-  for (const algebra::Vec3& X : scene.graph.X)
-    reach = std::max(reach, (X - centroid).norm());
-  const double momentum = std::sqrt(2 * mass * energies.rounding);
-  return {momentum, momentum * reach};
-}
-
 }  // namespace
 
 CaseObservers::CaseObservers(const cases::Case& setup,
@@ -98,8 +55,10 @@ CaseObservers::CaseObservers(const cases::Case& setup,
             return least_cell(scene_.mesh.mesh, deformed_.least(u));
           },
           [this](std::int64_t step) { return cell_watch_ ? cell_watch_->seen(step) : nullptr; }),
-      units_(energy_units(setup, scene)),
-      history_(*scene.solver, probes_, cells_, units_, momentum_units(setup, scene, units_)),
+      units_(run::energy_basis(setup, scene.graph, scene.solver->undeformed_speed())
+                 .at(scene.solver->balance())),
+      history_(
+          *scene.solver, probes_, cells_, units_, run::momentum_units(setup, scene.graph, units_)),
       steps_(*scene.solver, probes_),
       exact_(setup, scene.graph, *scene.solver, probes_),
       fields_(scene.mesh.order, run::probe_columns(setup.probes, false), history_),

@@ -37,7 +37,10 @@ double largest_energy(const std::vector<io::HistoryRow>& history, double carried
 
 double numerical_share(const io::RunSummary& run, const std::vector<io::HistoryRow>& history) {
   const double energy = largest_energy(history, run.carried_energy);
-  return energy > 0 ? history.back().energy.numerical_dissipation / energy : 0;
+  const double rounding = run.precision == "single" ? 1e-5 : 1e-13;
+  return energy > rounding * run.carried_energy && energy > 0
+             ? history.back().energy.numerical_dissipation / energy
+             : 0;
 }
 
 std::map<std::string, double> run_figures(const io::RunSummary& run,

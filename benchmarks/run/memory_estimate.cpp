@@ -41,7 +41,7 @@ constexpr double volume_corner = 70;      ///< of a cell that carries pressure
 constexpr double volume_node = 60;        ///< of a node of such
 constexpr double volume_line_node = 400;  ///< of a node whose lines carry pressure
 constexpr double class_pair = 650;        ///< of rows that stand for many
-constexpr double solve_node = 600;        ///< while operators of any nodes are made to sum by parts
+constexpr double solve_node = 740;        ///< while operators of any nodes are made to sum by parts
 constexpr double solve_pair = 8;
 
 struct Lattice {

@@ -22,7 +22,7 @@ struct CaseGraph {
   CaseMesh mesh;
   scheme::PairGraph graph;
   std::string operators;             ///< what the method made of the mesh (scheme::Operators)
-  std::vector<std::string> notices;  ///< the same
+  std::vector<std::string> notices;  ///< of them, of cavities, curved symmetries, single cells
 };
 
 /// Told when a part stands: for who counts what each costs, or looks at the pairs.

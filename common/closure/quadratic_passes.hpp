@@ -1,8 +1,8 @@
 #pragma once
-/// The two passes over the pairs that S of quadratic_correction.hpp is made of, a record of a
-/// neighbour each. With K = 1/2 y, K_i = 1/2 Y_i:
-///   fit    t_ab = k_ab (K_a - K_b + K_b,i X_i); rho_a, and what the row gives to its closure,
-///          sum_b dC_ab = sum_b t_ab - rho_a . sum_b k_ab q(X)
+/// The passes over the pairs of quadratic_correction.hpp, a record of a neighbour each; S is the
+/// first two. With K = 1/2 y, K_i = 1/2 Y_i:
+///   fit    t_ab = K_a - K_b + K_b,i X_i; rho_a, and what the row gives to its closure,
+///          sum_b dC_ab = sum_b k_ab t_ab - rho_a . sum_b k_ab q(X)
 ///   apply  what the neighbours' rows give, dC_ba = k_ab (K_b - K_a - K_a,i X_i - q(-X) . rho_b)
 /// Factors of vectors are registers of four equal numbers from the load on.
 /// Test: tests/graphs/summation_by_parts_test.cpp

@@ -3,6 +3,7 @@
 /// errs most where a body sets off: from velocities without strain, or at a wall. What its budget
 /// has lost there it never gets back. Test: tests/common/run/budget_of_start_test.cpp
 
+#include "common/run/energy_units.hpp"
 #include "common/scheme/budget/audit.hpp"
 
 #include <algorithm>
@@ -23,16 +24,17 @@ class BudgetOfStart {
   static constexpr std::int64_t n_steps = 20;
 
   struct Bounds {
-    double opening = 0;       ///< of the budget by the first steps together, as a share of the
-                              ///< energy
-    double least_energy = 0;  ///< J: a body that holds no more at t = 0 is at rest. It is not
-                              ///< judged: what a load brings in its first steps is less than any
-                              ///< step errs by
+    double opening = 0;  ///< of the budget by the first steps together, as a share of the
+                         ///< energy
+    /// A body that holds no more than rounding makes at t = 0 is at rest. It is not judged: what a
+    /// load brings in its first steps is less than any step errs by.
+    EnergyBasis energies;
   };
 
   BudgetOfStart(const scheme::Balance& initial, const Bounds& bounds)
-      : share_(held(initial) > bounds.least_energy ? bounds.opening / static_cast<double>(n_steps)
-                                                   : 0) {}
+      : units_(bounds.energies.at(initial)),
+        share_(held(initial) > units_.rounding ? bounds.opening / static_cast<double>(n_steps)
+                                               : 0) {}
 
   /// @param step  steps made before
   bool judges(std::int64_t step) const { return share_ > 0 && step < n_steps; }
@@ -44,10 +46,11 @@ class BudgetOfStart {
   }
 
  private:
-  static double held(const scheme::Balance& balance) {
-    return balance.kinetic + std::abs(balance.strain);
+  double held(const scheme::Balance& balance) const {
+    return balance.kinetic - units_.carried + std::abs(balance.strain);
   }
 
+  EnergyUnits units_;
   double share_;
 };
 

@@ -3,6 +3,7 @@
 /// loads and supports since then, relative to what the nodes have held.
 
 #include "common/algebra/archive.hpp"
+#include "common/run/energy_units.hpp"
 #include "common/scheme/budget/audit.hpp"
 #include "common/scheme/budget/balance.hpp"
 
@@ -10,12 +11,6 @@
 #include <string>
 
 namespace diptych::run {
-
-/// What rounding makes of the momenta of a body: of one that has held no more nothing drifts.
-struct MomentumUnits {
-  double linear = 0;   ///< N s
-  double angular = 0;  ///< N m s
-};
 
 class MomentumRecord {
  public:

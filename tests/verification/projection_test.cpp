@@ -210,5 +210,49 @@ TEST(MovingSupport, HasTheMomentsOfItsReactionsWithEveryIntegrator) {
   }
 }
 
+// A block that slides along a wall, pressed on it by its weight.
+const std::string sliding = R"toml(
+[mesh]
+element = "quadrilateral"
+lower = [0, 0]
+upper = [1, 0.5]
+cells = [8, 4]
+[material]
+model = "neo-hookean"
+density = 1000
+youngs_modulus = 1e7
+poissons_ratio = 0.3
+[initial]
+velocity = [50, 0]
+[load]
+body_force = [0, -2e5]
+[[boundary]]
+group = "y_min"
+type = "rigid-wall"
+point = [0, 0]
+normal = [0, 1]
+[time]
+end = 0.02
+)toml";
+
+TEST(MovingSupport, HasTheMomentsOfAWallAlongWhichABodySlides) {
+  for (const char* method : {"sph", "fvm"}) {
+    const auto drift = [&](const char* integrator, int n) {
+      parallel::set_threads(1);
+      Scene scene = tests::scene_of(method, sliding,
+                                    {tests::any_step, text_of("time.integrator", integrator)});
+      const scheme::Balance start = scene.solver->balance();
+      tests::make_steps(*scene.solver, 0.02, n);
+      const double missing = scene.solver->balance().angular_momentum.z() -
+                             start.angular_momentum.z() - scene.solver->audit().impulse.angular.z();
+      return missing / start.angular_scale;
+    };
+    const double reference = drift("leapfrog", 400);
+    for (const char* integrator : {"ssp-rk3", "ssp-rk43"}) {
+      EXPECT_NEAR(drift(integrator, 100), reference, 2e-4) << method << ' ' << integrator;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace diptych

@@ -10,7 +10,9 @@ SectionEntry guards_section() {
               {"-", above(0),
                "The run is stopped (code 3) where the energy that the budget does not account for, "
                "or that numerical dissipation has given to the body, is more than this share of "
-               "the largest energy so far, at an output instant or "
+               "the largest energy so far (of a body without supports without what its centre of "
+               "mass "
+               "begins with), at an output instant or "
                "50 steps after the last judgement. For what the budget "
                "does not account for the bound is 8/n^2 or 0.5/n, where these are larger, in step "
                "n < 50 "
@@ -20,7 +22,7 @@ SectionEntry guards_section() {
           .key("numerical_dissipation", &GuardsCase::numerical_dissipation,
                optional({"-", Range{0, 1, false, true},
                          "The run is stopped (code 3) where numerical dissipation has taken more "
-                         "than this share of the largest energy so far, at the same steps but for "
+                         "than this share of the same energy, at the same steps but for "
                          "the first 20 after a state of rest: what is left is no solution of the "
                          "equations. 1: no bound.",
                          "0.05",

@@ -40,8 +40,8 @@ void EnergyGuard::refuse_residual(const Check& check, double residual, double bo
       "  {}; guards.energy_residual raises the bound",
       residual, bound, instant_of(check.step),
       residual < 0
-          ? "what SSP-RK steps take from short waves and fronts: try a smaller time.cfl, "
-            "time.integrator = \"leapfrog\", or a finer mesh"
+          ? "the step takes energy from short waves and fronts: try a smaller time.cfl, "
+            "time.integrator = \"leapfrog\" in place of SSP-RK, or a finer mesh"
           : "the step is too large, or the scheme is unstable here: try a smaller time.cfl "
             "or a finer mesh"));
 }

@@ -18,7 +18,6 @@
 
 namespace diptych::scheme {
 
-/// A condition with the patch it acts on.
 /// What a boundary knows of a step, apart from the state of the body.
 struct BoundaryState {
   VelocitiesInStep in_step;
@@ -98,7 +97,7 @@ class AppliedBoundary {
   /// Moment of the stage's constraint forces about where their nodes were when it began, at which
   /// forces have their rates, less that about where they are now, where constrain() and
   /// constrain_stage() book it. Without it moments of supports that move are of first order in dt.
-  /// @pre  as for stage_begin()  @return N m s
+  /// @pre  as for stage_begin(): before projection and constraints  @return N m s
   template <int Dim>
   Vec3 lag_of_moment(const Body<Dim>& body, const StageCombination& stage, double fraction) const;
 

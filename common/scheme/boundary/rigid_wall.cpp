@@ -203,8 +203,10 @@ Vec3 WallContacts::lag_of_moment(const Body<Dim>& body, const StageCombination& 
   const auto lag =
       parallel::sum_over<VectorSum>(body.part(), chunks_, [&](std::int64_t k, VectorSum& sum) {
         const WallNode& w = nodes_[k];
-        if (!w.closed) return;
-        const Vec3 force = -vector_at<Dim>(body.T, w.body.node).dot(w.wall.normal) * w.push;
+        const bool is_let_go = stage.last && vector_at<Dim>(body.v, w.body.node).dot(w.push) > 0;
+        if (!w.closed || is_let_go) return;
+        const Vec3 along = w.along();
+        const Vec3 force = -vector_at<Dim>(body.T, w.body.node).dot(along) * along;
         const Vec3 begin = stage_begin(body, w.body.node, w.body.Omega, stage).u;
         sum.value +=
             stage.beta * stage.dt * (begin - vector_at<Dim>(body.u, w.body.node)).cross(force);

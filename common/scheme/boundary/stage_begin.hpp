@@ -13,7 +13,7 @@ struct StageBegin {
 };
 
 /// @pre the stage has updated u and v by the forces of its beginning, which still stand in body.T,
-///      and nothing has changed v since
+///      and nothing has changed v since in the directions of v that are read
 template <int Dim>
 StageBegin stage_begin(const Body<Dim>& body,
                        std::int32_t a,

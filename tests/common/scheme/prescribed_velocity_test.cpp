@@ -183,9 +183,21 @@ TEST(SharedNodes, AreRefusedWhereOneGroupHoldsWhatAnotherMoves) {
                                                testing::HasSubstr("m/s at t = ")));
     }
     EXPECT_NO_THROW(driven_scene(type, R"(["0.1*y", "0.1*y"])"));
+    // zero but for rounding at the shared node
+    EXPECT_NO_THROW(driven_scene(type, R"x(["sin(pi*(1 + y))", "sin(pi*(1 + y))"])x"));
     if (std::string(type) == "fixed") continue;
     EXPECT_NO_THROW(driven_scene(type, is_skew ? R"([0, "0.1*t"])" : R"(["0.1*t", 0])"));
   }
+}
+
+TEST(SharedNodes, AreRefusedWhereTwoVelocitiesPartLater) {
+  const std::string other = R"(["0.1*t", 0]
+[[boundary]]
+group = "y_max"
+type = "velocity"
+value = )";
+  EXPECT_NO_THROW(driven_scene("symmetry", other + R"(["0.1*t", 0])"));
+  EXPECT_THROW(driven_scene("symmetry", other + R"(["0.2*t", 0])"), base::InputError);
 }
 
 /// The least J of a step is of nodes, not of what fills up the last block (25 nodes).

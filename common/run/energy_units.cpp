@@ -1,0 +1,58 @@
+#include "common/run/energy_units.hpp"
+
+#include "common/scheme/boundary/boundary_condition.hpp"
+#include "common/scheme/graph/centroid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace diptych::run {
+
+namespace {
+
+/// No velocity is prescribed, and no wall stops it.
+bool has_no_support(const cases::Case& setup) {
+  return std::all_of(
+      setup.boundaries.begin(), setup.boundaries.end(), [](const cases::BoundaryCase& boundary) {
+        return scheme::boundary_menu().at(boundary.type).acts == scheme::BoundaryKind::Acts::load;
+      });
+}
+
+double volume_of(const scheme::PairGraph& graph) {
+  return std::accumulate(graph.Omega.begin(), graph.Omega.end(), 0.0);
+}
+
+}  // namespace
+
+EnergyUnits EnergyBasis::at(const scheme::Balance& initial) const {
+  EnergyUnits units{rounding};
+  if (free_mass == 0) return units;
+  constexpr double steps = 1e4;  // each of which rounds once, this way or that
+  units.carried = 0.5 * initial.linear_momentum.squaredNorm() / free_mass;
+  units.rounding = std::max(rounding, std::sqrt(steps) * eps * units.carried);
+  return units;
+}
+
+EnergyBasis energy_basis(const cases::Case& setup, const scheme::PairGraph& graph, double speed) {
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  const double mass = setup.material.density * volume_of(graph);
+  const bool is_single = setup.scheme.precision == "single";
+  return {eps * mass * speed * speed, has_no_support(setup) ? mass : 0,
+          is_single ? std::numeric_limits<float>::epsilon() : eps};
+}
+
+MomentumUnits momentum_units(const cases::Case& setup,
+                             const scheme::PairGraph& graph,
+                             const EnergyUnits& energies) {
+  const scheme::Vec3 centroid = scheme::centroid_of(graph);
+  double reach = 0;
+  for (const scheme::Vec3& X : graph.X)
+    reach = std::max(reach, (X - centroid).norm());
+  const double mass = setup.material.density * volume_of(graph);
+  const double momentum = std::sqrt(2 * mass * energies.rounding);
+  return {momentum, momentum * reach};
+}
+
+}  // namespace diptych::run
