@@ -133,9 +133,10 @@ struct RunSummary {
 
 /// JSON text with the key names of the contract: method, case, level, ..., steps, stages,
 /// rejected_steps, restarts, interventions{projections,resynchronisations,limited_pairs}, ...,
-/// dt{min,max}, errors{field{l1,l2,linf}}, energy{...}, carried_energy, momentum{linear_drift,angular_drift},
-/// involution{H,J}, min_jacobian, cells{least_J,most_inverted,inverted_from}, state_hash,
-/// provenance{...}; where the case has values from elsewhere references{name{probe,source,times,
+/// dt{min,max}, errors{field{l1,l2,linf}}, energy{...}, carried_energy,
+/// momentum{linear_drift,angular_drift}, involution{H,J}, min_jacobian,
+/// cells{least_J,most_inverted,inverted_from}, state_hash, provenance{...}; where the case has
+/// values from elsewhere references{name{probe,source,times,
 /// until,greatest,greatest_at,rms,at_end,uncertainty}}; where the run was not finished,
 /// failure{message,time,step,node,place}; where pass numbers of the case do not hold, unmet; of a
 /// variant its name.
