@@ -2,6 +2,7 @@
 /// A vector field at one node.
 
 #include "common/algebra/field.hpp"
+#include "common/algebra/lanes.hpp"
 #include "common/algebra/vectors.hpp"
 #include "common/scheme/body/node_chunks.hpp"
 
@@ -10,7 +11,7 @@ namespace diptych::scheme {
 /// In plane strain the third component is zero.
 /// @param field  block field or node table
 template <int Dim, class Field>
-algebra::Vec3 vector_at(const Field& field, std::int64_t node) {
+DIPTYCH_INLINE algebra::Vec3 vector_at(const Field& field, std::int64_t node) {
   algebra::Vec3 r = algebra::Vec3::Zero();
   for (int i = 0; i < Dim; ++i)
     r[i] = field.at(node, i);

@@ -15,10 +15,8 @@ struct StageBegin {
 /// @pre the stage has updated u and v by the forces of its beginning, which still stand in body.T,
 ///      and nothing has changed v since in the directions of v that are read
 template <int Dim>
-StageBegin stage_begin(const Body<Dim>& body,
-                       std::int32_t a,
-                       double Omega,
-                       const StageCombination& stage) {
+DIPTYCH_INLINE StageBegin
+stage_begin(const Body<Dim>& body, std::int32_t a, double Omega, const StageCombination& stage) {
   const auto before = [&](const Vec3& now, const BlockField& begin_of_step, const Vec3& rate) {
     const Vec3 old = stage.alpha == 0 ? Vec3(Vec3::Zero()) : vector_at<Dim>(begin_of_step, a);
     return Vec3((now - stage.alpha * old) / stage.beta - stage.dt * rate);
