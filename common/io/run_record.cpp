@@ -293,7 +293,7 @@ void read_quality(const Section& file, RunSummary& summary) {
   for (const std::string& name : measures.keys())
     summary.measures[name] = measures.number(name.c_str());
   summary.energy = read_energy(file.section("energy"));
-  if (file.has("carried_energy")) summary.carried_energy = file.number("carried_energy");
+  summary.carried_energy = file.number("carried_energy");
   const Section momentum = file.section("momentum");
   summary.linear_momentum_drift = momentum.number("linear_drift");
   summary.angular_momentum_drift = momentum.number("angular_drift");

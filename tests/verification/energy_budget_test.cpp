@@ -34,7 +34,7 @@ const std::string moving = R"toml(
 [[boundary]]
 group = "x_min"
 type = "velocity"
-value = ["3*sin(400*t)", "0", "2*t*400*y"]
+value = ["12*z*(1 - z)*sin(400*t)", "0", "2*t*400*y*(1 - z)"]
 )toml";
 const std::string traction = R"toml(
 [[boundary]]

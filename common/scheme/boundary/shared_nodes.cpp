@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -22,6 +23,15 @@ struct Prescribed {
 
 using OfNodes = std::map<std::int32_t, Prescribed>;
 
+/// NaN where it has no value, of which a run that gets there tells.
+std::vector<Vec3> values_at(const PlacedField<Vec3>& field, double t, size_t n) {
+  try {
+    return field.at(t);
+  } catch (const base::Error&) {
+    return std::vector<Vec3>(n, Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+  }
+}
+
 /// Of a condition; nodes of one patch have one function.
 std::vector<std::pair<std::int32_t, Prescribed>> velocities_of(const PairGraph& graph,
                                                                const PlacedCondition& placed,
@@ -38,7 +48,7 @@ std::vector<std::pair<std::int32_t, Prescribed>> velocities_of(const PairGraph& 
   if (all.empty()) return all;
   const auto field = velocity.placed(X);
   for (const double t : instants) {
-    const std::vector<Vec3> values = field->at(t);
+    const std::vector<Vec3> values = values_at(*field, t, all.size());
     for (size_t k = 0; k < all.size(); ++k)
       all[k].second.values.push_back(values[k]);
   }
@@ -71,7 +81,7 @@ void check_shared_nodes(const PairGraph& graph,
   for (const auto& [node, second] : again) {
     const Prescribed& first = prescribed.at(node);
     for (size_t i = 0; i < instants.size(); ++i) {
-      if ((first.values[i] - second.values[i]).norm() <= rounding * largest) continue;
+      if (!((first.values[i] - second.values[i]).norm() > rounding * largest)) continue;
       throw base::InputError(fmt::format(
           "two boundary conditions prescribe different velocities at the node at {}: those of "
           "groups '{}' and '{}' at t = {:g} s; let only one of them hold the nodes that they share",
@@ -88,8 +98,8 @@ void check_shared_nodes(const PairGraph& graph,
         const Vec3& v = found->second.values[i];
         for (const Vec3& direction : c.directions) {
           const double speed = std::abs(v.dot(direction.normalized()));
-          if (speed <= rounding * largest || (!holds_all && speed <= along_normal * v.norm()))
-            continue;
+          const double least = holds_all ? 0 : along_normal * v.norm();
+          if (!(speed > std::max(rounding * largest, least))) continue;
           throw base::InputError(fmt::format(
               "groups '{}' and '{}' share the node at {}: the first holds it in a direction in "
               "which the second moves it with {:.6g} m/s at t = {:g} s; give the second a velocity "
