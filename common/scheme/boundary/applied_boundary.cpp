@@ -261,6 +261,7 @@ template <int Dim>
 Vec3 AppliedBoundary::lag_of_moment(const Body<Dim>& body,
                                     const StageCombination& stage,
                                     double fraction) const {
+  if (constrained_.empty() && walls_.empty()) return Vec3::Zero();  // on all ranks
   const auto lag = parallel::sum_over<VectorSum>(
       body.part(), chunks_of_constrained_, [&](std::int64_t k, VectorSum& sum) {
         const ConstrainedNode& c = constrained_[k];
@@ -269,7 +270,7 @@ Vec3 AppliedBoundary::lag_of_moment(const Body<Dim>& body,
         sum.value +=
             stage.beta * stage.dt * (begin.u - vector_at<Dim>(body.u, c.node)).cross(force);
       });
-  return lag.value + walls_.lag_of_moment(body, stage);
+  return walls_.empty() ? lag.value : Vec3(lag.value + walls_.lag_of_moment(body, stage));
 }
 
 template <int Dim>
