@@ -110,9 +110,11 @@ scheme::Operators chosen_on(const meshes::Mesh& mesh, const Options& options) {
   if (const std::string because = unsure_because(mesh, options.order); !because.empty())
     return edge_because(mesh, because);
   if (meshes::is_undistorted_block(mesh)) return sbp_on_box(mesh, options.order);
-  if (options.strong_pressure)
-    return edge_because(mesh, "cells carry the pressure of this nearly incompressible material");
+  if (!options.strong_pressure_because.empty())
+    return edge_because(mesh, options.strong_pressure_because);
   const std::vector<meshes::LatticeBlock> blocks = smooth_blocks(mesh);
+  if (is_too_small(blocks))
+    return edge_because(mesh, "curved lines of three nodes along several directions");
   if (gives_energy(blocks, options.order)) {
     return edge_because(
         mesh,

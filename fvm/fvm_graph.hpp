@@ -19,8 +19,9 @@ struct Options {
   std::string stencil = "edge";
   int order = 4;                          ///< of sbp on blocks
   std::string second_order_because = {};  ///< auto: edge, for this reason, unless empty
-  /// auto: off boxes those alone that bear any bulk pressure, in volumes of cells (notes 10.1)
-  bool strong_pressure = false;
+  /// auto: off boxes, for this reason unless empty, those alone that bear any bulk pressure, in
+  /// volumes of cells (notes 10.1)
+  std::string strong_pressure_because = {};
 };
 
 /// What Options::stencil may be.

@@ -139,6 +139,15 @@ std::string blocks_text(const std::vector<LatticeBlock>& blocks, int order) {
   return text;
 }
 
+bool is_too_small(const std::vector<LatticeBlock>& blocks) {
+  return std::any_of(blocks.begin(), blocks.end(), [](const LatticeBlock& block) {
+    int n_short = 0;
+    for (int d = 0; d < block.dimension; ++d)
+      n_short += block.n_nodes[d] <= 3 ? 1 : 0;
+    return n_short > 1;
+  });
+}
+
 bool gives_energy(const std::vector<LatticeBlock>& blocks, int order) {
   const int most = std::min(order, highest_order);
   if (most == 2) return false;

@@ -34,6 +34,10 @@ scheme::PairGraph sbp_blocks_graph(const meshes::Mesh& mesh,
 /// "sbp: 3 blocks glued at their nodes, order 4 on lines of 9 to 17 nodes"
 std::string blocks_text(const std::vector<meshes::LatticeBlock>& blocks, int order);
 
+/// Whether a block has lines of three nodes along more than one direction: what D_ab gives energy
+/// to there breaks bodies (2 x 2 x 2 cells moved by 20 %: 3 of 16 meshes; notes 4.6).
+bool is_too_small(const std::vector<meshes::LatticeBlock>& blocks);
+
 /// Whether D_ab of unlimited reconstructions feeds some motions faster than others of its pairs
 /// brake them: on lines of six nodes, whose Q_14 > 0 (notes 4.6).
 bool gives_energy(const std::vector<meshes::LatticeBlock>& blocks, int order);

@@ -169,10 +169,8 @@ scheme::Operators chosen_on(const meshes::Mesh& mesh, const Options& options) {
   const Kernel kernel = kernels().at(options.kernel);
   if (const std::string because = unsure_because(mesh, kernel, options.kappa); !because.empty())
     return corrected_because(mesh, options, because);
-  if (options.strong_pressure && !meshes::is_undistorted_block(mesh)) {
-    return corrected_because(mesh, options,
-                             "cells carry the pressure of this nearly incompressible material");
-  }
+  if (!options.strong_pressure_because.empty() && !meshes::is_undistorted_block(mesh))
+    return corrected_because(mesh, options, options.strong_pressure_because);
   try {
     return sbp_on(mesh, options);
   } catch (const base::InputError& refusal) {

@@ -16,8 +16,9 @@ struct Options {
   bool closure = true;                  ///< repair the closure
   std::string gradient = "corrected";   ///< corrected, sbp or auto: sbp where it is sure to do
   std::string second_order_because = {};  ///< auto: corrected, for this reason, unless empty
-  /// auto: off boxes those alone that bear any bulk pressure, in volumes of cells (notes 10.1)
-  bool strong_pressure = false;
+  /// auto: off boxes, for this reason unless empty, those alone that bear any bulk pressure, in
+  /// volumes of cells (notes 10.1)
+  std::string strong_pressure_because = {};
 };
 
 /// What Options::gradient may be.

@@ -1,5 +1,6 @@
 #include "benchmarks/run/backends.hpp"
 
+#include "benchmarks/run/strong_pressure.hpp"
 #include "common/base/error.hpp"
 #include "common/run/solver.hpp"
 #include "common/scheme/option_menus.hpp"
@@ -7,6 +8,7 @@
 #include "meshes/structured_block.hpp"
 #include "sph/sph_graph.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace diptych::harness {
@@ -23,40 +25,60 @@ std::string second_order_because(const cases::Case& setup, const std::string& me
   return setup.scheme.volumes == "cells" ? "volumes of cells carry the pressure" : "";
 }
 
-scheme::Operators sph_operators(const meshes::Mesh& mesh, const cases::Case& setup) {
+scheme::Operators sph_operators(const meshes::Mesh& mesh,
+                                const cases::Case& setup,
+                                const std::string& strong_pressure) {
   scheme::Operators operators = sph::operators_on(
       mesh, {setup.sph.kernel, setup.sph.kappa, setup.sph.closure, setup.sph.gradient,
-             second_order_because(setup, "sph"), run::wants_safe_volumes(setup)});
+             second_order_because(setup, "sph"), strong_pressure});
   // its lines have slopes, with which the sign is known
   if (!operators.graph.slopes.empty() && run::wants_line_slopes(setup)) operators.notices.clear();
   return operators;
 }
 
-scheme::Operators fvm_operators(const meshes::Mesh& mesh, const cases::Case& setup) {
-  return fvm::operators_on(mesh,
-                           {setup.fvm.stencil, setup.fvm.order, second_order_because(setup, "fvm"),
-                            run::wants_safe_volumes(setup)});
+scheme::Operators fvm_operators(const meshes::Mesh& mesh,
+                                const cases::Case& setup,
+                                const std::string& strong_pressure) {
+  return fvm::operators_on(mesh, {setup.fvm.stencil, setup.fvm.order,
+                                  second_order_because(setup, "fvm"), strong_pressure});
 }
 
-/// Of operators that sum by parts but do not commute, in bodies whose pressure volumes of cells
-/// would have to carry (notes 10.1).
+/// Of operators that do not commute and have no volumes of cells, in bodies under strong pressure
+/// (notes 10.1).
 constexpr const char* pressure_notice =
-    "sbp: nodes carry the bulk pressure of this nearly incompressible material; above some shear "
-    "moduli it turns cells inside out (the run is then stopped); the default operators bear it "
-    "(notes 10.1)";
+    "nodes carry the bulk pressure, which can be strong here; above some shear moduli it turns "
+    "cells inside out (the run is then stopped); scheme.volumes = \"cells\" bears it (notes 3.9)";
 
-/// Of the same: jumps that lose their sign were found to harm bodies under such pressure alone.
+/// Of those that sum by parts: jumps that lose their sign were found to harm bodies under such
+/// pressure alone.
 constexpr const char* sign_notice =
     "sbp: on these nodes the sign of the numerical dissipation is known with scheme.limiter = "
     "\"sign-preserving\" alone; without it a body under strong pressure may come apart (notes 4.5)";
 
+bool is_of_tetrahedra(const meshes::Mesh& mesh) {
+  return std::all_of(mesh.cell_types.begin(), mesh.cell_types.end(),
+                     [](meshes::CellType type) { return type == meshes::CellType::tetrahedron; });
+}
+
 /// In the precision of the case, with what its other options make of them.
-scheme::Operators finished(scheme::Operators operators, const cases::Case& setup) {
-  if (operators.loses_sign && run::wants_safe_volumes(setup)) {
-    if (setup.scheme.limiter == "none") operators.notices.emplace_back(sign_notice);
-    operators.notices.emplace_back(pressure_notice);
+/// @param cells_err_less  than nodes where nothing presses (notes 3.9)
+scheme::Operators finished(scheme::Operators operators,
+                           const cases::Case& setup,
+                           const std::string& strong_pressure,
+                           bool cells_err_less) {
+  scheme::PairGraph& graph = operators.graph;
+  const bool presses = !strong_pressure.empty();
+  const bool may_press = presses || is_nearly_incompressible(setup.material);
+  if (setup.scheme.volumes == "auto") {
+    // where little presses lines err as nodes do and cost a sixth more
+    if (!may_press) graph.lines = {};
+    if (!presses && !cells_err_less) graph.cells = {};
   }
-  set_precision(operators.graph, scheme::precision_menu().at(setup.scheme.precision));
+  if (operators.loses_sign && presses && setup.scheme.limiter == "none")
+    operators.notices.emplace_back(sign_notice);
+  if (may_press && !graph.commutes && graph.cells.empty() && graph.lines.empty())
+    operators.notices.emplace_back(pressure_notice);
+  set_precision(graph, scheme::precision_menu().at(setup.scheme.precision));
   return operators;
 }
 
@@ -95,16 +117,20 @@ void check_fvm(const cases::Case& setup) {
 }  // namespace
 
 const base::Registry<GraphMaker>& method_menu() {
-  static const auto menu = base::Registry<GraphMaker>("method")
-                               .add("sph",
-                                    [](const meshes::Mesh& mesh, const cases::Case& setup) {
-                                      check_sph(setup);
-                                      return finished(sph_operators(mesh, setup), setup);
-                                    })
-                               .add("fvm", [](const meshes::Mesh& mesh, const cases::Case& setup) {
-                                 check_fvm(setup);
-                                 return finished(fvm_operators(mesh, setup), setup);
-                               });
+  static const auto menu =
+      base::Registry<GraphMaker>("method")
+          .add("sph",
+               [](const meshes::Mesh& mesh, const cases::Case& setup) {
+                 check_sph(setup);
+                 const std::string strong = strong_pressure_because(setup, mesh);
+                 return finished(sph_operators(mesh, setup, strong), setup, strong, false);
+               })
+          .add("fvm", [](const meshes::Mesh& mesh, const cases::Case& setup) {
+            check_fvm(setup);
+            const std::string strong = strong_pressure_because(setup, mesh);
+            return finished(fvm_operators(mesh, setup, strong), setup, strong,
+                            is_of_tetrahedra(mesh));
+          });
   return menu;
 }
 

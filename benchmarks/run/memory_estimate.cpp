@@ -2,6 +2,7 @@
 
 #include "benchmarks/run/case_mesh.hpp"
 #include "benchmarks/run/memory.hpp"
+#include "benchmarks/run/strong_pressure.hpp"
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 #include "common/closure/sbp_operator.hpp"
@@ -154,7 +155,7 @@ bool sums_anywhere(const cases::Case& setup, const std::string& method) {
   const std::string& asked = is_sph ? setup.sph.gradient : setup.fvm.stencil;
   if (asked != "auto") return asked == "sbp";
   const bool is_open = setup.scheme.face_correction == 0 && setup.scheme.volumes != "cells" &&
-                       !run::wants_safe_volumes(setup);
+                       !may_press_strongly(setup);
   return is_open && (is_sph ? setup.sph.closure && support_radius(setup.sph) > 2 &&
                                   support_radius(setup.sph) <= 4
                             : setup.fvm.order > 2);
@@ -258,15 +259,17 @@ double bytes_of(const cases::Case& setup,
   const double stored = scheme.precision == "mixed" ? of_mixed : costs.stored_pair;
   const bool commutes = method != "sph" && !is_simplex(setup.mesh.element) &&
                         setup.mesh.perturbation == 0 && setup.fvm.stencil != "integral";
-  const bool sums = (method == "sph" ? setup.sph.gradient : setup.fvm.stencil) == "sbp";
-  const bool has_volumes = scheme.volumes == "cells" || scheme.volumes == "lines" ||
-                           (run::wants_safe_volumes(setup) && !commutes &&
-                            (!sums || (method == "sph" && sums_on_lattice(setup))));
+  const bool on_lines = method == "sph" && sums_on_lattice(setup);
+  const bool wants_volumes = may_press_strongly(setup) ||
+                             (on_lines ? is_nearly_incompressible(setup.material)
+                                       : method != "sph" && setup.mesh.element == "tetrahedron");
+  const bool has_volumes =
+      scheme.volumes == "cells" || scheme.volumes == "lines" ||
+      (scheme.volumes == "auto" && wants_volumes && !commutes && !sums_anywhere(setup, method));
   const double corners = size.cells * corners_of_cell(setup.mesh);
   const double volumes = !has_volumes ? 0
-                         : method == "sph" && sums_on_lattice(setup)
-                             ? volume_line_node * size.nodes
-                             : volume_corner * corners + volume_node * size.nodes;
+                         : on_lines   ? volume_line_node * size.nodes
+                                      : volume_corner * corners + volume_node * size.nodes;
   const double geometry = n_class_pairs > 0 ? class_pair * n_class_pairs : stored * size.pairs;
   const double solve =
       sums_anywhere(setup, method) ? solve_node * size.nodes + solve_pair * size.pairs : 0;

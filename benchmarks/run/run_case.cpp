@@ -18,6 +18,8 @@
 #include "common/parallel/for_chunks.hpp"
 #include "common/parallel/thread_count.hpp"
 #include "common/run/simulation.hpp"
+#include "common/run/solver.hpp"
+#include "common/scheme/option_menus.hpp"
 #include "meshes/dual_measure.hpp"
 
 #include <chrono>
@@ -200,6 +202,7 @@ void CaseRun::identify() {
   s.level = options_.level;
   s.threads = parallel::running_threads();
   s.integrator = setup_.time.integrator;
+  s.volumes = scheme::name_of(run::volumes_of(setup_, scene_->graph));
   s.precision = setup_.scheme.precision;
   s.unknowns_per_node = scene_->solver->unknowns_per_node();
   s.arrangement = scene_->solver->arrangement();

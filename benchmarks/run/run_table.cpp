@@ -1,6 +1,7 @@
 #include "benchmarks/run/run_table.hpp"
 
 #include "benchmarks/terminal/reference_table.hpp"
+#include "common/base/text.hpp"
 
 #include <fmt/format.h>
 
@@ -38,8 +39,9 @@ std::string inverted_cells_warning(const io::RunSummary& s) {
 
 std::string run_table(const io::RunSummary& s) {
   std::string text =
-      fmt::format("{} level {}: {} nodes, {} pairs ({:.3g} a node), {} unknowns a node\n",
-                  s.column(), s.level, s.nodes, s.pairs, s.mean_neighbours, s.unknowns_per_node);
+      fmt::format("{} level {}: {} nodes, {} pairs ({:.3g} a node), {} unknowns a node{}\n",
+                  s.column(), s.level, s.nodes, s.pairs, s.mean_neighbours, s.unknowns_per_node,
+                  s.volumes == "nodes" ? "" : ", volumes of " + s.volumes);
   text += fmt::format(
       "  {} steps of {}, dt {:.3g} to {:.3g} s; {:.3g} s in the loop of {:.3g} s with set-up and "
       "output, {:.3g} ns per node and stage ({}{} {})\n",
@@ -88,7 +90,7 @@ std::string run_table(const io::RunSummary& s) {
   }
   text += fmt::format("  status {}, least J {} (cells {}), state {}\n", s.status,
                       least_text(s.min_jacobian), least_text(s.least_cell_J), s.state_hash);
-  return text + inverted_cells_warning(s);
+  return base::folded(text + inverted_cells_warning(s), 4);
 }
 
 }  // namespace diptych::harness

@@ -15,6 +15,7 @@
 #include "common/parallel/thread_count.hpp"
 #include "common/run/references.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
@@ -73,8 +74,12 @@ cases::Case CaseArguments::read() const {
 }
 
 std::vector<std::string> CaseArguments::methods() const {
-  if (method == "both") return harness::method_menu().names();
-  harness::method_menu().at(method);
+  const std::vector<std::string> names = harness::method_menu().names();
+  if (method == "both") return names;
+  if (std::find(names.begin(), names.end(), method) == names.end()) {
+    throw base::InputError(
+        fmt::format("unknown method '{}'; known: {}, both", method, base::joined(names)));
+  }
   return {method};
 }
 

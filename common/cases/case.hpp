@@ -75,8 +75,8 @@ struct InitialCase {
 
 /// [time]
 struct TimeCase {
-  double end = 0;                      ///< s, > 0
-  std::string integrator = "ssp-rk3";  ///< entry of the integrator menu
+  double end = 0;                       ///< s, > 0
+  std::string integrator = "leapfrog";  ///< entry of the integrator menu
   double cfl = 0;                     ///< fraction of the graph bound; 0: default of the integrator
   std::string speeds = "exact";       ///< of the time step: exact, bound or linearised
   std::int64_t max_steps = 0;         ///< 0: none

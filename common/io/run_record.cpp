@@ -355,6 +355,7 @@ std::string to_json(const RunSummary& summary) {
       {"precision", summary.precision},
       {"arrangement", summary.arrangement},
       {"integrator", summary.integrator},
+      {"volumes", summary.volumes},
       {"status", summary.status},
       {"end_time", summary.end_time},
       {"setup_seconds", summary.setup_seconds},
@@ -406,6 +407,7 @@ RunSummary summary_from_json(const std::string& text, const std::string& path) {
   summary.precision = file.text("precision");
   summary.arrangement = file.text("arrangement");
   summary.integrator = file.text("integrator");
+  summary.volumes = file.text("volumes");
   summary.status = file.text("status");
   summary.end_time = file.number("end_time");
   read_size_and_cost(file, summary);

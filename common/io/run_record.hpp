@@ -85,6 +85,7 @@ struct RunSummary {
   std::int64_t projections = 0, resynchronisations = 0, limited_pairs = 0;
   int threads = 1, ranks = 1;
   std::string precision = "double", integrator;
+  std::string volumes = "nodes";  ///< what carries the bulk pressure: nodes, cells or lines
   /// running, done, unmet, unsound, step limit, interrupted, breakdown, failed. Unmet: it came to
   /// its end, and something that its case asks ([expect]) does not hold. Unsound: the same with
   /// cells inside out on the way, which the case allows (guards.inverted_cells = "warn").

@@ -249,11 +249,6 @@ std::unique_ptr<Solver> given_solver_in(const cases::Case& setup,
 
 }  // namespace
 
-/// Bulk over shear modulus from which pressure can destroy a body whose nodes carry it: at J = 0.6
-/// it is then the shear modulus, and the least critical one that was found is above that (notes
-/// 10.1).
-constexpr double least_bulk = 2.5;
-
 bool wants_line_slopes(const cases::Case& setup) {
   using Choice = scheme::ReconstructionChoice;
   const Choice asked = scheme::reconstruction_menu().at(setup.scheme.reconstruction);
@@ -279,17 +274,10 @@ bool is_symmetric(const cases::Case& setup) {
          scheme::ReconstructionChoice::symmetric;
 }
 
-bool wants_safe_volumes(const cases::Case& setup) {
-  if (scheme::volumes_menu().at(setup.scheme.volumes) != scheme::Volumes::automatic) return false;
-  const cases::MaterialCase& m = setup.material;
-  return m.lame + 2.0 / 3 * m.shear_modulus > least_bulk * m.shear_modulus;
-}
-
 scheme::Volumes volumes_of(const cases::Case& setup, const scheme::PairGraph& graph) {
   using scheme::Volumes;
   const Volumes asked = scheme::volumes_menu().at(setup.scheme.volumes);
-  if (asked == Volumes::automatic)
-    return wants_safe_volumes(setup) ? scheme::safe_volumes(graph) : Volumes::nodes;
+  if (asked == Volumes::automatic) return scheme::safe_volumes(graph);
   if (asked == Volumes::cells && graph.cells.empty()) {
     throw base::InputError(
         "scheme.volumes = \"cells\" is not for this graph: faces of the boundary are no "

@@ -17,9 +17,14 @@ class MomentumRecord {
   explicit MomentumRecord(const scheme::Balance& initial, const MomentumUnits& rounding = {})
       : linear_(initial.linear_momentum), angular_(initial.angular_momentum), rounding_(rounding) {}
 
-  void at(const scheme::Balance& now, const scheme::Audit& audit) {
+  /// What the nodes hold now counts for what drifts are measured with.
+  void note_scales(const scheme::Balance& now) {
     linear_scale_ = std::max(linear_scale_, now.momentum_scale);
     angular_scale_ = std::max(angular_scale_, now.angular_scale);
+  }
+
+  void at(const scheme::Balance& now, const scheme::Audit& audit) {
+    note_scales(now);
     const auto share = [](const algebra::Vec3& drift, double scale, double rounding) {
       return scale > rounding ? drift.norm() / scale : 0;
     };

@@ -105,10 +105,6 @@ class Solver {
   }
 };
 
-/// Whether the bulk pressure of a case can destroy a body whose nodes carry it, and the case leaves
-/// the choice (scheme.volumes = "auto"): its material is nearly incompressible.
-bool wants_safe_volumes(const cases::Case& setup);
-
 /// Whether a case has jumps reconstructed with slopes along lines of nodes, where a graph has them.
 bool wants_line_slopes(const cases::Case& setup);
 
@@ -120,6 +116,8 @@ bool has_line_slopes(const cases::Case& setup, const scheme::PairGraph& graph);
 bool is_symmetric(const cases::Case& setup);
 
 /// What carries the pressure of this case on this graph (scheme.volumes), never "automatic".
+/// @pre graph comes from the program's method menu: its lines and cells are left out where "auto"
+/// leaves the pressure to nodes
 /// @throws base::InputError where the graph lacks the cells or lines that the case asks for
 scheme::Volumes volumes_of(const cases::Case& setup, const scheme::PairGraph& graph);
 

@@ -45,6 +45,13 @@ const base::Registry<Volumes>& volumes_menu() {
   return menu;
 }
 
+std::string name_of(Volumes volumes) {
+  for (const std::string& name : volumes_menu().names()) {
+    if (volumes_menu().at(name) == volumes) return name;
+  }
+  __builtin_unreachable();
+}
+
 const base::Registry<Speeds>& speeds_menu() {
   static const auto menu = base::Registry<Speeds>("time.speeds")
                                .add("exact", Speeds::exact)

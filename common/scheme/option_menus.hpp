@@ -15,6 +15,8 @@ const base::Registry<ReconstructionChoice>& reconstruction_menu();
 const base::Registry<Impedance>& impedance_menu();
 const base::Registry<Precision>& precision_menu();
 const base::Registry<Volumes>& volumes_menu();
+/// The name of an entry of it.
+std::string name_of(Volumes volumes);
 const base::Registry<Speeds>& speeds_menu();
 
 }  // namespace diptych::scheme

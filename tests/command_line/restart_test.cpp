@@ -261,6 +261,23 @@ TEST_F(Restarted, GoesOnToALaterEnd) {
   EXPECT_EQ(io::read_series((out("fvm") / "run.hdf.series").string()).size(), 7u);
 }
 
+// The shear modulus is 6.5e6 Pa: the ramp passes 1.5 of it before the later end.
+TEST_F(Restarted, IsRefusedWhereALaterEndMakesTheDefaultsCarryAStrongPressure) {
+  folder.write("case.toml", scene + R"([[boundary]]
+group = "x_max"
+type = "pressure"
+value = "1e8*t"
+)");
+  const auto first = command(run + "out --method sph --set time.checkpoint_every=1000");
+  ASSERT_EQ(first.exit_code, 0) << first.text;
+  EXPECT_EQ(summary_in(out("sph")).volumes, "nodes");
+  const auto later = command(run + "out --method sph --restart latest --set time.end=0.15");
+  EXPECT_EQ(later.exit_code, 2) << later.text;
+  EXPECT_THAT(later.text, AllOf(HasSubstr("leapfrog, pressure carried by nodes"),
+                                HasSubstr("leapfrog, pressure carried by lines"),
+                                HasSubstr("before one time.end and not before the other")));
+}
+
 TEST_F(Restarted, WritesACheckpointWhenASignalAsksForIt) {
   const auto outcome = shell(
       folder,

@@ -73,7 +73,7 @@ TEST(Scene, TakesOperatorsThatSumByPartsByDefaultWhereTheyAreSure) {
     SCOPED_TRACE(method);
     EXPECT_THAT(operators(method, {"mesh.perturbation=0.1"}), testing::StartsWith("sbp"));
     EXPECT_THAT(operators(method, {"mesh.perturbation=0.1", "material.poissons_ratio=0.45"}),
-                testing::HasSubstr("nearly incompressible"));
+                testing::StartsWith("sbp"));
     EXPECT_THAT(operators(method, {"scheme.face_correction=\"1/6\""}),
                 testing::HasSubstr("face correction"));
     EXPECT_THAT(operators(method, {"scheme.volumes=cells"}),

@@ -60,6 +60,7 @@ SectionKeys<BoundaryCase> boundary_keys() {
 void read_values(const SectionValues& section, bool has_motion, BoundaryCase& boundary) {
   const Takes takes = kind_of(boundary).takes;
   if (takes == Takes::scalar) {
+    if (!section.has("value")) section.fail("value", "is missing; write value = \"5e4*sin(t)\"");
     boundary.pressure = section.scalar_field("value");
   } else if (takes == Takes::vector && section.is_word("value", "manufactured")) {
     if (!has_motion)

@@ -50,11 +50,13 @@ SectionKeys<SchemeCase> scheme_keys() {
                scheme::volumes_menu().names(),
                "What carries the bulk pressure: J of the nodes, or volumes that keep bodies under "
                "pressure whole: of deformed cells, or by derivatives along the lines of nodes of a "
-               "box (lines: SPH that sums by parts). auto, where the bulk modulus is more than 2.5 "
-               "times the shear modulus: nodes for fvm on boxes of hexahedra, where they are as "
-               "safe; lines where the operators have them; else cells, but on hexahedra with "
-               "distorted faces on the boundary and with operators that sum by parts, whose "
-               "boundary areas are not those of cells.",
+               "box (lines: SPH that sums by parts). auto, where a follower pressure or a dead "
+               "traction presses with more than 1.5 shear moduli or a nearly incompressible body "
+               "(bulk modulus above 2.5 shear moduli) is held on all sides: nodes for fvm on boxes "
+               "of hexahedra, where they are as safe; lines where the operators have them; else "
+               "cells, with operators of second order, but on hexahedra with distorted faces on "
+               "the boundary. Elsewhere nodes, but lines for SPH on boxes of nearly incompressible "
+               "material, and for fvm of second order on tetrahedra cells, which err less there.",
                "\"cells\""))
       .key("precision", &SchemeCase::precision,
            one_of(scheme::precision_menu().names(),

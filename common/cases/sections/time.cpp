@@ -10,13 +10,14 @@ SectionEntry time_section() {
           .key("end", &TimeCase::end,
                {"s", above(0), "Final time; the run starts at t = 0.", "\"1.25*2*pi/omega\"",
                 "required"})
-          .key("integrator", &TimeCase::integrator,
-               one_of(time::integrator_menu().names(),
-                      "Time integrator. ssp-rk3: third order, branches by GEXP; leapfrog: one "
-                      "evaluation a step, second order but for its dissipation, which lags half a "
-                      "step; ssp-rk43: four stages of third order, the cheapest with slope "
-                      "limiters and strong dissipation.",
-                      "\"leapfrog\""))
+          .key(
+              "integrator", &TimeCase::integrator,
+              one_of(time::integrator_menu().names(),
+                     "Time integrator. leapfrog: one evaluation a step, second order but for its "
+                     "dissipation, which lags half a step; ssp-rk3: third order, branches by GEXP, "
+                     "takes energy from short waves; ssp-rk43: the same with four stages, the "
+                     "cheapest of third order with limiters of shocks and strong dissipation.",
+                     "\"ssp-rk3\""))
           .key("cfl", &TimeCase::cfl,
                optional({"-", Range{0, 10, false, true},
                          "Time step as a fraction of the bound of the graph.", "0.5",

@@ -40,10 +40,30 @@ void EnergyGuard::refuse_residual(const Check& check, double residual, double bo
       "  {}; guards.energy_residual raises the bound",
       residual, bound, instant_of(check.step),
       residual < 0
-          ? "the step takes energy from short waves and fronts: try a smaller time.cfl, "
-            "time.integrator = \"leapfrog\" in place of SSP-RK, or a finer mesh"
+          ? "the step takes energy from short waves and fronts: try a smaller time.cfl, a finer "
+            "mesh, "
+            "or, with SSP-RK, time.integrator = \"leapfrog\""
           : "the step is too large, or the scheme is unstable here: try a smaller time.cfl "
             "or a finer mesh"));
+}
+
+void EnergyGuard::note_growth(double scale, std::int64_t step) {
+  if (doubled_ <= 0) doubled_ = scale;
+  for (; doubled_ > 0 && scale >= 2 * doubled_; doubled_ *= 2) {
+    doubled_at_.push_back(step);
+    if (doubled_at_.size() > n_doublings) doubled_at_.erase(doubled_at_.begin());
+  }
+}
+
+double EnergyGuard::bound_at(std::int64_t step) const {
+  double bound = threshold_;
+  const std::int64_t n = step - at_rest_until_;
+  if (n < steps_of_start) bound = std::max(bound, bound_of_start(n));
+  if (doubled_at_.size() < n_doublings) return bound;
+  const std::int64_t n_grown = step - doubled_at_.front();
+  if (n_grown < steps_of_start)
+    bound = std::max(bound, std::min(most_of_growth, bound_of_start(n_grown)));
+  return bound;
 }
 
 void EnergyGuard::after_step(const StepReport& step) {
@@ -62,12 +82,12 @@ void EnergyGuard::at_check(const Check& check) {
   if (!std::isfinite(residual)) refuse_residual(check, residual, threshold_);
   is_at_rest_ = held <= units_.rounding;
   if (is_at_rest_) at_rest_until_ = check.step.step;
-  const std::int64_t n = check.step.step - at_rest_until_;
-  const double bound = n < steps_of_start ? std::max(threshold_, bound_of_start(n)) : threshold_;
+  note_growth(scale, check.step.step);
+  const double bound = bound_at(check.step.step);
   // first what an unstable step does, which dissipates, too
   if (std::abs(residual) * scale > bound * scale + units_.rounding)
     refuse_residual(check, residual, bound);
-  if (n < steps_of_any_loss) return;
+  if (check.step.step - at_rest_until_ < steps_of_any_loss) return;
   if (lost > largest_loss_ * scale + units_.rounding) refuse_loss(check, lost);
 }
 

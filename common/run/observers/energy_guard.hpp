@@ -48,6 +48,8 @@ class EnergyGuard : public Observer {
     std::int64_t at_rest = is_at_rest_ ? 1 : 0;
     archive.integer("energy guard/at rest", at_rest);
     is_at_rest_ = at_rest != 0;
+    archive.real("energy guard/doubled energy", "J", doubled_);
+    archive.integers("energy guard/doubled at step", doubled_at_);
   }
 
   /// A load on a body at rest brings, in its first steps, less energy than a step errs by. Beyond
@@ -60,10 +62,19 @@ class EnergyGuard : public Observer {
     const auto real_n = static_cast<double>(n);
     return std::max(8 / (real_n * real_n), 0.5 / real_n);
   }
+  /// A pulse begins in the midst of a run: so do steps count from where the energy was less than
+  /// 2^-n_doublings of what it is, with a bound of no more than this: what is unstable makes all of
+  /// what it grows by of nothing.
+  static constexpr size_t n_doublings = 7;
+  static constexpr double most_of_growth = 0.5;
   /// Steps from rest in which what numerical dissipation takes is not judged.
   static constexpr std::int64_t steps_of_any_loss = 20;
 
  private:
+  /// Notes where the largest energy so far has doubled.
+  void note_growth(double scale, std::int64_t step);
+  /// Of the residual, at a step.
+  double bound_at(std::int64_t step) const;
   /// @throws base::BreakdownError
   void refuse_gain(const Check& check, double gained) const;
   void refuse_loss(const Check& check, double lost) const;
@@ -74,6 +85,8 @@ class EnergyGuard : public Observer {
   EnergyUnits units_;
   std::int64_t at_rest_until_ = -steps_of_start;  // step
   bool is_at_rest_ = false;                       // since the last check
+  double doubled_ = 0;                            // J, the energy when it had last doubled
+  std::vector<std::int64_t> doubled_at_;          // steps of the last n_doublings doublings
 };
 
 }  // namespace diptych::run

@@ -36,8 +36,9 @@ void InvolutionGuard::at_check(const Check& check) {
   const std::string message = fmt::format(
       "H and J have left F at node {}: |H - cof F| up to {:.3g}, |J - det F| up to {:.3g}, bound "
       "{:g}, step {}, time {:.6g} s, dt {:.4g} s\n"
-      "  the time step errs too much in strain: try a smaller time.cfl, time.integrator = "
-      "\"leapfrog\", whose H and J are exact, or scheme.unknowns = \"F\"; guards.involution raises "
+      "  the time step errs too much in strain: try a smaller time.cfl, with SSP-RK "
+      "time.integrator = \"leapfrog\", whose H and J are exact, or scheme.unknowns = \"F\"; "
+      "guards.involution raises "
       "the bound",
       node, H, J, threshold_, check.step.step, check.step.time, check.step.dt);
   throw base::BreakdownError(message, node);

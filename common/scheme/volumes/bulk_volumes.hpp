@@ -16,11 +16,12 @@
 namespace diptych::scheme {
 
 /// What carries the bulk pressure: J of the nodes; volumes of cells; volumes by derivatives along
-/// lines of nodes; or what is safe (volumes_for).
+/// lines of nodes; or what is safe (safe_volumes).
 enum class Volumes { automatic, nodes, cells, lines };
 
-/// What is safe for the bulk pressure of a nearly incompressible body: J of the nodes where the
-/// derivatives of a graph commute, else volumes of lines, else of cells, else nothing: nodes.
+/// What is safe for bulk pressure: J of the nodes where the derivatives of a graph commute, else
+/// volumes of lines, else of cells, else nothing: nodes. A graph of a scene in which little presses
+/// comes without lines and cells that would not err less.
 Volumes safe_volumes(const PairGraph& graph);
 
 class MaterialModel;

@@ -8,6 +8,7 @@
 #include "tests/common/io/scratch.hpp"
 
 #include <bit>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <limits>
 
@@ -143,7 +144,8 @@ TEST(CheckpointFile, RefusesFilesThatAreNone) {
   later.write("index", std::span<const std::int64_t>(format));
   write_sealed_file(folder / "later", later.take_image());
   EXPECT_THAT(message_of<base::InputError>([&] { CheckpointReader{folder / "later"}; }),
-              AllOf(HasSubstr("has the format 2"), HasSubstr("this program reads 1")));
+              AllOf(HasSubstr(fmt::format("has the format {}", checkpoint_format + 1)),
+                    HasSubstr(fmt::format("this program reads {}", checkpoint_format))));
 }
 
 TEST(CheckpointFile, IsNotThereBeforeItIsWhole) {

@@ -30,7 +30,7 @@ RunSummary full_summary() {
   s.steps = 77, s.stages = 154, s.threads = 3, s.ranks = 5;
   s.imbalance = 1.25, s.exchanged_bytes = 4711, s.communication_seconds = 0.5;
   s.arrangement = "rows";
-  s.precision = "single", s.integrator = "ssp-rk3", s.status = "interrupted";
+  s.precision = "single", s.integrator = "ssp-rk3", s.volumes = "cells", s.status = "interrupted";
   s.end_time = 0.1, s.setup_seconds = 1.0 / 3, s.wall_seconds = 12.5, s.loop_seconds = 11.7;
   s.nanoseconds_per_node_crossing = 777.1;
   s.nanoseconds_per_node_stage = 451.3, s.peak_rss_bytes = 1'234'567'890'123;
@@ -140,6 +140,7 @@ TEST(RunRecord, HasTheKeysOfTheContract) {
                               "/communication/seconds",
                               "/precision",
                               "/arrangement",
+                              "/volumes",
                               "/status",
                               "/wall_seconds",
                               "/loop_seconds",

@@ -35,7 +35,11 @@ using scheme::Volumes;
 
 /// "sph lines" is SPH that sums by parts, whose lines carry the pressure.
 scheme::PairGraph graph_for(const std::string& method, const meshes::Mesh& mesh) {
-  if (method != "sph lines") return tests::graph_of(method, mesh);
+  if (method != "sph lines") {
+    cases::Case setup = tests::second_order();
+    setup.scheme.volumes = "cells";
+    return tests::graph_of(method, mesh, setup);
+  }
   sph::Options options;
   options.gradient = "sbp";
   return sph::build_graph(mesh, options);

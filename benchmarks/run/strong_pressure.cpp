@@ -1,0 +1,166 @@
+#include "benchmarks/run/strong_pressure.hpp"
+
+#include "common/base/error.hpp"
+#include "common/cases/reader.hpp"
+#include "common/functions/placed_values.hpp"
+#include "meshes/cell_shares.hpp"
+#include "meshes/shape_integrals.hpp"
+#include "meshes/structured_block.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <span>
+#include <vector>
+
+namespace diptych::harness {
+
+namespace {
+
+using functions::Expression;
+using meshes::Vec3;
+
+/// Bulk over shear modulus.
+constexpr double least_bulk = 2.5;
+
+/// Shear moduli of pressure that nodes bear: moulds on nodes moved by 20 and 30 % are stable under
+/// 1.5 and not under 2, at nu from 0.3 to 0.49 (notes 3.9).
+constexpr double borne = 1.5;
+
+constexpr int n_intervals = 64;
+
+/// Corners of faces with their outward unit normals.
+struct Corners {
+  std::vector<Vec3> X, normal;
+};
+
+Corners corners_of(const meshes::Mesh& mesh, const meshes::BoundaryGroup& group) {
+  Corners corners;
+  for (const std::int32_t f : group.faces) {
+    const meshes::BoundaryFace& face = mesh.boundary_faces[f];
+    const auto shares = meshes::face_area_shares(face, mesh.nodes, meshes::Quadrature::vertex);
+    for (int k = 0; k < face.n_nodes; ++k) {
+      corners.X.push_back(mesh.nodes[face.nodes[k]]);
+      corners.normal.push_back(shares[k].normalized());
+    }
+  }
+  return corners;
+}
+
+/// The expressions that load a boundary: a pressure, the components of a traction, or none.
+std::vector<Expression> load_of(const cases::BoundaryCase& boundary) {
+  if (!boundary.pressure.is_zero()) return {boundary.pressure};
+  if (boundary.type != "traction" || boundary.value.is_zero()) return {};
+  return {boundary.value.component.begin(), boundary.value.component.end()};
+}
+
+/// Largest pressure over the corners and the instants of a run. An instant at which the load has no
+/// value is left out, of which a run that gets there tells.  [Pa]
+double largest_pressure(const std::vector<Expression>& load, const Corners& corners, double end) {
+  const auto any = [&](auto depends) { return std::any_of(load.begin(), load.end(), depends); };
+  const bool moves = any([](const Expression& e) { return e.depends_on_position(); });
+  const int n = any([](const Expression& e) { return e.depends_on_time(); }) ? n_intervals : 0;
+  const std::span<const Vec3> X(corners.X.data(), moves ? corners.X.size() : 1);
+  const functions::PlacedExpressions placed(load, X);
+  double largest = 0;
+  for (int i = 0; i <= n; ++i) {
+    std::vector<double> values;
+    try {
+      values = placed.at(n == 0 ? 0 : end * i / n);
+    } catch (const base::Error&) {
+      continue;
+    }
+    for (size_t k = 0; k < corners.X.size(); ++k) {
+      const double* value = &values[moves ? load.size() * k : 0];
+      const Vec3& N = corners.normal[k];
+      largest =
+          std::max(largest, load.size() == 1 ? *value : -N.dot(Vec3(value[0], value[1], value[2])));
+    }
+  }
+  return largest;
+}
+
+bool holds_the_normal(const cases::BoundaryCase& boundary) {
+  return boundary.type == "fixed" || boundary.type == "velocity" || boundary.type == "symmetry";
+}
+
+/// Of the mesh; nothing where there is none of that name, of which the solver tells.
+const meshes::BoundaryGroup* group_of(const meshes::Mesh& mesh, const std::string& name) {
+  for (const meshes::BoundaryGroup& group : mesh.boundary_groups) {
+    if (group.name == name) return &group;
+  }
+  return nullptr;
+}
+
+bool is_held_on_all_sides(const cases::Case& setup, const meshes::Mesh& mesh) {
+  std::vector<char> is_free(mesh.boundary_faces.size(), 1);
+  for (const cases::BoundaryCase& boundary : setup.boundaries) {
+    if (!holds_the_normal(boundary)) continue;
+    for (const std::string& name : boundary.groups) {
+      const meshes::BoundaryGroup* group = group_of(mesh, name);
+      if (group == nullptr) continue;
+      for (const std::int32_t f : group->faces)
+        is_free[f] = 0;
+    }
+  }
+  return std::find(is_free.begin(), is_free.end(), 1) == is_free.end();
+}
+
+}  // namespace
+
+bool is_nearly_incompressible(const cases::MaterialCase& material) {
+  return material.lame + 2.0 / 3 * material.shear_modulus > least_bulk * material.shear_modulus;
+}
+
+std::string strong_pressure_because(const cases::Case& setup, const meshes::Mesh& mesh) {
+  if (setup.scheme.volumes != "auto") return "";
+  if (!meshes::is_undistorted_block(mesh) &&
+      !meshes::areas_are_of_cells(mesh, meshes::Quadrature::vertex))
+    return "";
+  if (is_nearly_incompressible(setup.material) && is_held_on_all_sides(setup, mesh)) {
+    return "cells carry the pressure of this nearly incompressible body, which is held on all "
+           "sides";
+  }
+  for (const cases::BoundaryCase& boundary : setup.boundaries) {
+    const std::vector<Expression> load = load_of(boundary);
+    if (load.empty()) continue;
+    for (const std::string& name : boundary.groups) {
+      const meshes::BoundaryGroup* group = group_of(mesh, name);
+      if (group == nullptr) continue;
+      const double ratio = largest_pressure(load, corners_of(mesh, *group), setup.time.end) /
+                           setup.material.shear_modulus;
+      if (ratio > borne) {
+        return fmt::format("cells carry the pressure on \"{}\", which comes to {:.3g} shear moduli",
+                           name, ratio);
+      }
+    }
+  }
+  return "";
+}
+
+bool may_press_strongly(const cases::Case& setup) {
+  if (setup.scheme.volumes != "auto") return false;
+  size_t n_held = 0;
+  for (const cases::BoundaryCase& boundary : setup.boundaries) {
+    if (holds_the_normal(boundary)) n_held += boundary.groups.size();
+    const std::vector<Expression> load = load_of(boundary);
+    if (load.empty()) continue;
+    if (std::any_of(load.begin(), load.end(),
+                    [](const Expression& e) { return e.depends_on_position(); }))
+      return true;
+    // the normal that the traction presses most on
+    const functions::PlacedExpressions placed(load, std::vector<Vec3>{Vec3::Zero()});
+    for (int i = 0; i <= n_intervals; ++i) {
+      try {
+        const std::vector<double> p = placed.at(setup.time.end * i / n_intervals);
+        const double most = p.size() == 1 ? p[0] : Vec3(p[0], p[1], p[2]).norm();
+        if (most > borne * setup.material.shear_modulus) return true;
+      } catch (const base::Error&) {
+        continue;
+      }
+    }
+  }
+  const size_t n_sides = 2 * static_cast<size_t>(cases::dimension_of(setup.mesh));
+  return is_nearly_incompressible(setup.material) && n_held >= n_sides;
+}
+
+}  // namespace diptych::harness

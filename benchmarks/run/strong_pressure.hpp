@@ -1,0 +1,27 @@
+#pragma once
+/// Whether a scene can be under more bulk pressure than nodes bear that carry it (notes 3.9, 10.1).
+/// Test: tests/harness/strong_pressure_test.cpp
+
+#include "common/cases/case.hpp"
+#include "meshes/mesh.hpp"
+
+#include <string>
+
+namespace diptych::harness {
+
+/// Whether the bulk modulus is more than 2.5 shear moduli (nu above 0.32): at J = 0.6 the pressure
+/// is then the shear modulus.
+bool is_nearly_incompressible(const cases::MaterialCase& material);
+
+/// Why `auto` takes operators that bear any bulk pressure, for the record: a follower pressure or a
+/// dead traction presses with more than 1.5 shear moduli at a node and one of 65 instants, or a
+/// nearly incompressible body is held on all sides, and the mesh has what bears it. What walls,
+/// impacts and supports press is not seen. Empty where nothing presses so, or where the case says
+/// what carries the pressure (scheme.volumes).
+std::string strong_pressure_because(const cases::Case& setup, const meshes::Mesh& mesh);
+
+/// Before there is a mesh: loads that depend on the place may be strong, groups may be all there
+/// are.
+bool may_press_strongly(const cases::Case& setup);
+
+}  // namespace diptych::harness

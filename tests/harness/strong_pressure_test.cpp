@@ -1,0 +1,142 @@
+/// What carries the pressure of a scene by default: nodes where little presses on it, and where a
+/// load is strong or a nearly incompressible body is held on all sides, what bears it.
+
+#include "benchmarks/run/strong_pressure.hpp"
+
+#include "benchmarks/run/case_mesh.hpp"
+#include "benchmarks/run/scene.hpp"
+#include "common/cases/reader.hpp"
+#include "common/run/solver.hpp"
+#include "common/scheme/option_menus.hpp"
+
+#include <gmock/gmock.h>
+
+namespace diptych::harness {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+const std::string pressed = R"([[boundary]]
+group = "x_max"
+type = "pressure"
+value = "0"
+)";
+
+/// Shear modulus 1, nu = 0.3.
+cases::Case block(const std::vector<std::string>& overrides,
+                  const std::string& boundary = pressed) {
+  return cases::case_from_text(R"([mesh]
+element = "hexahedron"
+cells = [4, 4, 4]
+[material]
+model = "neo-hookean"
+density = 1
+shear_modulus = 1
+lame = 1.5
+[time]
+end = 1
+)" + boundary,
+                               "block", overrides);
+}
+
+CaseGraph made(const std::string& method, const std::vector<std::string>& overrides) {
+  return graph_of(block(overrides), method, 0);
+}
+
+std::string because(const std::vector<std::string>& overrides,
+                    const std::string& boundary = pressed) {
+  const cases::Case setup = block(overrides, boundary);
+  return strong_pressure_because(setup, mesh_of(setup, 0).mesh);
+}
+
+TEST(StrongPressure, IsAFollowerPressureAboveWhatNodesBear) {
+  EXPECT_THAT(because({}), IsEmpty());
+  EXPECT_THAT(because({"boundary.0.value=1.4"}), IsEmpty());
+  EXPECT_THAT(because({"boundary.0.value=3"}), HasSubstr("\"x_max\", which comes to 3 shear"));
+  EXPECT_THAT(because({"boundary.0.value=2*y"}), HasSubstr("2 shear moduli"));  // at y = 1
+  EXPECT_THAT(because({"boundary.0.value=2*x*(1 - y)"}), HasSubstr("2 shear moduli"));
+  EXPECT_THAT(because({"boundary.0.value=2*(1 - x)"}), IsEmpty());  // strong elsewhere
+  EXPECT_THAT(because({"boundary.0.value=-3"}), IsEmpty());         // it pulls
+  // a pulse of a tenth of the run
+  EXPECT_THAT(because({"boundary.0.value=(t > 0.4 && t < 0.5) ? 5 : 0"}), HasSubstr("5 shear"));
+  // it has no value from t = 0.5 on: a run that gets there tells
+  EXPECT_THAT(because({"boundary.0.value=4*sqrt(0.5 - t)"}), HasSubstr("2.83 shear"));
+  EXPECT_THAT(because({"boundary.0.value=3", "scheme.volumes=nodes"}), IsEmpty());
+  // the solver tells that there is no such group
+  EXPECT_THAT(because({"boundary.0.value=3", "boundary.0.group=x_mx"}), IsEmpty());
+}
+
+TEST(StrongPressure, IsADeadTractionThatPressesAsMuch) {
+  const std::string text = "[[boundary]]\ngroup = [\"x_max\", \"y_max\"]\ntype = \"traction\"\n";
+  EXPECT_THAT(because({}, text + "value = [0, \"-3*t\", 0]"),
+              HasSubstr("\"y_max\", which comes to 3"));
+  EXPECT_THAT(because({}, text + "value = [0, \"3*t\", \"-3\"]"), IsEmpty()) << "pulls, and shears";
+}
+
+TEST(StrongPressure, IsThatOfANearlyIncompressibleBodyHeldOnAllSides) {
+  const std::string rollers =
+      "[[boundary]]\ngroup = [\"x_min\", \"x_max\", \"y_min\", \"y_max\", \"z_min\"]\n"
+      "type = \"symmetry\"\n";
+  const std::string piston =
+      "[[boundary]]\ngroup = \"z_max\"\ntype = \"velocity\"\nvalue = [0, 0, \"-0.1\"]\n";
+  EXPECT_THAT(because({"material.lame=4"}, rollers + piston), HasSubstr("held on all sides"));
+  EXPECT_THAT(because({"material.lame=4"}, rollers), IsEmpty()) << "a free side gives way";
+  EXPECT_THAT(because({}, rollers + piston), IsEmpty());
+}
+
+/// What carries the pressure.
+std::string carrier(const std::string& method, const std::vector<std::string>& overrides) {
+  return scheme::name_of(run::volumes_of(block(overrides), made(method, overrides).graph));
+}
+
+TEST(StrongPressure, IsLeftToNodesWhereNothingPresses) {
+  const std::string press = "boundary.0.value=3", rubber = "material.lame=4",
+                    moved = "mesh.perturbation=0.2";
+  const std::string quads = "mesh.element=quadrilateral", square = "mesh.cells=[6, 6]";
+  for (const char* method : {"sph", "fvm"}) {
+    SCOPED_TRACE(method);
+    EXPECT_EQ(carrier(method, {}), "nodes");
+    EXPECT_EQ(carrier(method, {moved}), "nodes");
+    EXPECT_THAT(made(method, {moved}).operators, StartsWith("sbp"));
+    EXPECT_EQ(carrier(method, {moved, press}), "cells");
+    EXPECT_THAT(made(method, {moved, press}).operators, HasSubstr("3 shear moduli"));
+    EXPECT_EQ(carrier(method, {quads, square}), "nodes");
+    EXPECT_EQ(carrier(method, {quads, square, moved, press}), "cells");
+    EXPECT_EQ(carrier(method, {"mesh.element=triangle", square, "scheme.face_correction=1/8"}),
+              "nodes");
+  }
+  // rubber that nothing presses sums by parts, but off boxes with nodes
+  EXPECT_EQ(carrier("sph", {rubber}), "lines");
+  for (const char* method : {"sph", "fvm"}) {
+    EXPECT_EQ(carrier(method, {rubber, moved}), "nodes");
+    EXPECT_THAT(made(method, {rubber, moved}).operators, StartsWith("sbp"));
+    EXPECT_THAT(made(method, {rubber, moved}).notices, Contains(HasSubstr("nodes carry the bulk")));
+  }
+  EXPECT_EQ(carrier("sph", {press}), "lines");
+  EXPECT_THAT(made("sph", {press}).operators, StartsWith("sbp"));
+  EXPECT_EQ(carrier("fvm", {press}), "nodes") << "whose derivatives commute";
+  EXPECT_THAT(made("fvm", {press}).operators, StartsWith("sbp"));
+}
+
+TEST(StrongPressure, IsToldOfWhereTheOperatorsAskedForLeaveItToNodes) {
+  const std::vector<std::string> asked{"boundary.0.value=3", "mesh.perturbation=0.2",
+                                       "sph.gradient=sbp", "fvm.stencil=sbp"};
+  for (const char* method : {"sph", "fvm"}) {
+    EXPECT_EQ(carrier(method, asked), "nodes");
+    EXPECT_THAT(made(method, asked).notices, Contains(HasSubstr("nodes carry the bulk pressure")));
+  }
+}
+
+// In smooth motion cells err half as much as nodes there; with SPH they creep at contacts.
+TEST(StrongPressure, IsThatOfCellsForFiniteVolumesOfSecondOrderOnTetrahedra) {
+  const std::string tetrahedra = "mesh.element=tetrahedron";
+  EXPECT_EQ(carrier("sph", {tetrahedra, "sph.gradient=corrected"}), "nodes");
+  EXPECT_EQ(carrier("fvm", {tetrahedra, "fvm.stencil=edge"}), "cells");
+  EXPECT_EQ(carrier("fvm", {tetrahedra}), "nodes") << "they sum by parts";
+}
+
+}  // namespace
+}  // namespace diptych::harness
