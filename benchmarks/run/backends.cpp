@@ -8,7 +8,6 @@
 #include "meshes/structured_block.hpp"
 #include "sph/sph_graph.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace diptych::harness {
@@ -47,7 +46,8 @@ scheme::Operators fvm_operators(const meshes::Mesh& mesh,
 /// (notes 10.1).
 constexpr const char* pressure_notice =
     "nodes carry the bulk pressure, which can be strong here; above some shear moduli it turns "
-    "cells inside out (the run is then stopped); scheme.volumes = \"cells\" bears it (notes 3.9)";
+    "cells inside out (the run is then stopped), which scheme.volumes = \"cells\" bears where the "
+    "mesh and the operators have them (notes 3.9)";
 
 /// Of those that sum by parts: jumps that lose their sign were found to harm bodies under such
 /// pressure alone.
@@ -55,28 +55,22 @@ constexpr const char* sign_notice =
     "sbp: on these nodes the sign of the numerical dissipation is known with scheme.limiter = "
     "\"sign-preserving\" alone; without it a body under strong pressure may come apart (notes 4.5)";
 
-bool is_of_tetrahedra(const meshes::Mesh& mesh) {
-  return std::all_of(mesh.cell_types.begin(), mesh.cell_types.end(),
-                     [](meshes::CellType type) { return type == meshes::CellType::tetrahedron; });
-}
-
 /// In the precision of the case, with what its other options make of them.
-/// @param cells_err_less  than nodes where nothing presses (notes 3.9)
 scheme::Operators finished(scheme::Operators operators,
                            const cases::Case& setup,
-                           const std::string& strong_pressure,
-                           bool cells_err_less) {
+                           const std::string& strong_pressure) {
   scheme::PairGraph& graph = operators.graph;
   const bool presses = !strong_pressure.empty();
   const bool may_press = presses || is_nearly_incompressible(setup.material);
-  if (setup.scheme.volumes == "auto") {
-    // where little presses lines err as nodes do and cost a sixth more
-    if (!may_press) graph.lines = {};
-    if (!presses && !cells_err_less) graph.cells = {};
+  if (setup.scheme.volumes == "auto" && !may_press) {
+    // they err as nodes do in smooth motion and cost a sixth more
+    graph.lines = {};
+    graph.cells = {};
   }
   if (operators.loses_sign && presses && setup.scheme.limiter == "none")
     operators.notices.emplace_back(sign_notice);
-  if (may_press && !graph.commutes && graph.cells.empty() && graph.lines.empty())
+  if (setup.scheme.volumes == "auto" && may_press && !graph.commutes && graph.cells.empty() &&
+      graph.lines.empty())
     operators.notices.emplace_back(pressure_notice);
   set_precision(graph, scheme::precision_menu().at(setup.scheme.precision));
   return operators;
@@ -123,13 +117,12 @@ const base::Registry<GraphMaker>& method_menu() {
                [](const meshes::Mesh& mesh, const cases::Case& setup) {
                  check_sph(setup);
                  const std::string strong = strong_pressure_because(setup, mesh);
-                 return finished(sph_operators(mesh, setup, strong), setup, strong, false);
+                 return finished(sph_operators(mesh, setup, strong), setup, strong);
                })
           .add("fvm", [](const meshes::Mesh& mesh, const cases::Case& setup) {
             check_fvm(setup);
             const std::string strong = strong_pressure_because(setup, mesh);
-            return finished(fvm_operators(mesh, setup, strong), setup, strong,
-                            is_of_tetrahedra(mesh));
+            return finished(fvm_operators(mesh, setup, strong), setup, strong);
           });
   return menu;
 }

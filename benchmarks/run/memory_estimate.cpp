@@ -260,9 +260,7 @@ double bytes_of(const cases::Case& setup,
   const bool commutes = method != "sph" && !is_simplex(setup.mesh.element) &&
                         setup.mesh.perturbation == 0 && setup.fvm.stencil != "integral";
   const bool on_lines = method == "sph" && sums_on_lattice(setup);
-  const bool wants_volumes = may_press_strongly(setup) ||
-                             (on_lines ? is_nearly_incompressible(setup.material)
-                                       : method != "sph" && setup.mesh.element == "tetrahedron");
+  const bool wants_volumes = may_press_strongly(setup) || is_nearly_incompressible(setup.material);
   const bool has_volumes =
       scheme.volumes == "cells" || scheme.volumes == "lines" ||
       (scheme.volumes == "auto" && wants_volumes && !commutes && !sums_anywhere(setup, method));

@@ -73,6 +73,7 @@ TEST(StrongPressure, IsADeadTractionThatPressesAsMuch) {
   const std::string text = "[[boundary]]\ngroup = [\"x_max\", \"y_max\"]\ntype = \"traction\"\n";
   EXPECT_THAT(because({}, text + "value = [0, \"-3*t\", 0]"),
               HasSubstr("\"y_max\", which comes to 3"));
+  EXPECT_THAT(because({}, text + "value = [0, \"-4*z*(t > 0.5)\", 0]"), HasSubstr("comes to 4"));
   EXPECT_THAT(because({}, text + "value = [0, \"3*t\", \"-3\"]"), IsEmpty()) << "pulls, and shears";
 }
 
@@ -130,12 +131,13 @@ TEST(StrongPressure, IsToldOfWhereTheOperatorsAskedForLeaveItToNodes) {
   }
 }
 
-// In smooth motion cells err half as much as nodes there; with SPH they creep at contacts.
-TEST(StrongPressure, IsThatOfCellsForFiniteVolumesOfSecondOrderOnTetrahedra) {
-  const std::string tetrahedra = "mesh.element=tetrahedron";
-  EXPECT_EQ(carrier("sph", {tetrahedra, "sph.gradient=corrected"}), "nodes");
-  EXPECT_EQ(carrier("fvm", {tetrahedra, "fvm.stencil=edge"}), "cells");
-  EXPECT_EQ(carrier("fvm", {tetrahedra}), "nodes") << "they sum by parts";
+TEST(StrongPressure, IsThatOfCellsWhereRubberHasOperatorsOfSecondOrder) {
+  const std::string rubber = "material.lame=4", moved = "mesh.perturbation=0.2";
+  for (const auto& [method, asked] :
+       {std::pair{"sph", "sph.gradient=corrected"}, std::pair{"fvm", "fvm.stencil=edge"}}) {
+    EXPECT_EQ(carrier(method, {moved, asked}), "nodes");
+    EXPECT_EQ(carrier(method, {moved, asked, rubber}), "cells");
+  }
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ SectionEntry guards_section() {
                "does not account for the bound is 8/n^2 or 0.5/n, where these are larger, in step "
                "n < 50 "
                "after "
-               "a state of rest.",
+               "a state of rest, or, at most 0.5, after the energy has passed a 64th of what it "
+               "is.",
                "0.02"})
           .key("numerical_dissipation", &GuardsCase::numerical_dissipation,
                optional({"-", Range{0, 1, false, true},

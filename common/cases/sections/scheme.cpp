@@ -55,8 +55,8 @@ SectionKeys<SchemeCase> scheme_keys() {
                "(bulk modulus above 2.5 shear moduli) is held on all sides: nodes for fvm on boxes "
                "of hexahedra, where they are as safe; lines where the operators have them; else "
                "cells, with operators of second order, but on hexahedra with distorted faces on "
-               "the boundary. Elsewhere nodes, but lines for SPH on boxes of nearly incompressible "
-               "material, and for fvm of second order on tetrahedra cells, which err less there.",
+               "the boundary. Elsewhere nodes, but of nearly incompressible material lines for SPH "
+               "on boxes, and cells where operators of second order are asked for.",
                "\"cells\""))
       .key("precision", &SchemeCase::precision,
            one_of(scheme::precision_menu().names(),

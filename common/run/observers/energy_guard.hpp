@@ -62,9 +62,9 @@ class EnergyGuard : public Observer {
     const auto real_n = static_cast<double>(n);
     return std::max(8 / (real_n * real_n), 0.5 / real_n);
   }
-  /// A pulse begins in the midst of a run: so do steps count from where the energy was less than
-  /// 2^-n_doublings of what it is, with a bound of no more than this: what is unstable makes all of
-  /// what it grows by of nothing.
+  /// A pulse begins in the midst of a run: so do steps count from the check at which the energy
+  /// passed a 64th to a 128th of what it is, with a bound of no more than this: what is unstable
+  /// makes all of what it grows by of nothing, and a residual that stays is judged later as any.
   static constexpr size_t n_doublings = 7;
   static constexpr double most_of_growth = 0.5;
   /// Steps from rest in which what numerical dissipation takes is not judged.

@@ -172,6 +172,32 @@ TEST(EnergyGuard, StopsEnergyOfNothingInTheFirstStepsOfABodyAtRest) {
   EXPECT_NO_THROW(judge(10, 1e-10 + 1));
 }
 
+// A pulse in the midst of a run: the steps in which the energy grows 128-fold are first steps, too,
+// but what makes all of its growth of nothing is not.
+TEST(EnergyGuard, CountsTheFirstStepsFromWhereTheEnergyGrows) {
+  const auto judge = [&](double grown, double share, std::int64_t number) {
+    scheme::Balance now;
+    now.kinetic = 1;
+    EnergyGuard guard(now, 0.01, 0.5, {1e-9});
+    scheme::Audit audit;
+    StepReport step;
+    step.step = 100;
+    guard.at_check({step, now, audit});
+    step.step = 104;
+    now.kinetic = grown;
+    audit.external_work = (grown - 1) * (1 - share);
+    guard.at_check({step, now, audit});
+    step.step = number;
+    guard.at_check({step, now, audit});
+  };
+  EXPECT_NO_THROW(judge(200, 0.3, 105));
+  EXPECT_THROW(judge(200, 0.6, 105), base::BreakdownError);
+  EXPECT_THROW(judge(200, 0.3, 110), base::BreakdownError) << "6 steps on, 8/36";
+  EXPECT_NO_THROW(judge(200, 0.05, 110));
+  EXPECT_THROW(judge(200, 0.05, 154), base::BreakdownError);
+  EXPECT_THROW(judge(30, 0.3, 105), base::BreakdownError);
+}
+
 // the load sets in between two checks: its first step is not the tenth
 TEST(EnergyGuard, CountsTheFirstStepsFromWhereTheBodyMoves) {
   for (const std::int64_t loaded : {1, 9}) {
