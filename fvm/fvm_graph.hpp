@@ -20,7 +20,7 @@ struct Options {
   int order = 4;                          ///< of sbp on blocks
   std::string second_order_because = {};  ///< auto: edge, for this reason, unless empty
   /// auto: off boxes, for this reason unless empty, those alone that bear any bulk pressure, in
-  /// volumes of cells (notes 10.1)
+  /// volumes of cells (notes 3.9)
   std::string strong_pressure_because = {};
 };
 

@@ -17,7 +17,7 @@ struct Options {
   std::string gradient = "corrected";   ///< corrected, sbp or auto: sbp where it is sure to do
   std::string second_order_because = {};  ///< auto: corrected, for this reason, unless empty
   /// auto: off boxes, for this reason unless empty, those alone that bear any bulk pressure, in
-  /// volumes of cells (notes 10.1)
+  /// volumes of cells (notes 3.9)
   std::string strong_pressure_because = {};
 };
 

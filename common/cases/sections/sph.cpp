@@ -31,11 +31,11 @@ SectionEntry sph_section() {
                   "by its least change to operators that sum by parts (sbp), exact for quadratics "
                   "up to the boundary, with kappa above 1: on boxes of hexahedra or quadrilaterals "
                   "with three nodes a line or more, in spacings of each line, and on any nodes of "
-                  "a body with plane sides. auto: sbp where the nodes take it, on boxes with five "
+                  "a body with plane sides. auto: sbp where the nodes take it, on boxes with three "
                   "nodes a line or more, supports of at most four spacings and boundary groups "
                   "that cover whole sides or end far from their edges, but with a face correction "
-                  "or scheme.volumes = \"cells\" and, off boxes, where cells carry the pressure; "
-                  "else corrected.",
+                  "or scheme.volumes = \"cells\" and, off boxes, where a scene presses hard "
+                  "(scheme.volumes); else corrected.",
                   "\"sbp\""}));
   return {
       {"sph", false, "What only SPH needs."}, keys.keys(), [keys](Reading& reading, Case& setup) {
