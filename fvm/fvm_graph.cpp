@@ -114,7 +114,7 @@ scheme::Operators chosen_on(const meshes::Mesh& mesh, const Options& options) {
     return edge_because(mesh, options.strong_pressure_because);
   const std::vector<meshes::LatticeBlock> blocks = smooth_blocks(mesh);
   if (is_too_small(blocks))
-    return edge_because(mesh, "curved lines of three nodes along several directions");
+    return edge_because(mesh, "lines of three nodes along several directions");
   if (gives_energy(blocks, options.order)) {
     return edge_because(
         mesh,

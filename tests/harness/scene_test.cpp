@@ -86,6 +86,20 @@ TEST(Scene, TakesOperatorsThatSumByPartsByDefaultWhereTheyAreSure) {
               testing::StartsWith("sbp"));
 }
 
+// On which D_ab breaks bodies; explicit ones are what was asked for.
+TEST(Scene, TakesEdgesOnMovedBlocksOfThreeNodesAlongSeveralDirections) {
+  const auto operators = [](const std::vector<std::string>& overrides) {
+    return graph_with("fvm", overrides).operators;
+  };
+  const std::string moved = "mesh.perturbation=0.2";
+  EXPECT_THAT(operators({"mesh.cells=[2, 2]", moved}),
+              testing::HasSubstr("lines of three nodes along several directions"));
+  EXPECT_THAT(operators({"mesh.cells=[3, 3]", moved}), testing::StartsWith("sbp"));
+  EXPECT_THAT(operators({"mesh.cells=[2, 2]"}), testing::StartsWith("sbp"));
+  EXPECT_THAT(operators({"mesh.cells=[2, 2]", moved, "fvm.stencil=sbp"}),
+              testing::StartsWith("sbp"));
+}
+
 TEST(Scene, SaysThatNodesCarryThePressureOfOperatorsThatSumByParts) {
   std::vector<std::string> asked{"sph.gradient=\"sbp\"", "fvm.stencil=\"sbp\"",
                                  "material.poissons_ratio=0.45"};
