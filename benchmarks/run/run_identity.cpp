@@ -21,7 +21,7 @@ void RunIdentity::archive(algebra::Archive& archive) {
   archive.text("identity/method", method);
   archive.integer("identity/level", level);
   archive.text("identity/settings", settings);
-  archive.text("identity/choices", choices);
+  archive.text("identity/volumes", volumes);
   archive.text("identity/nodes", nodes);
   archive.text("identity/program", program);
   archive.text("identity/version", version);
@@ -35,7 +35,7 @@ RunIdentity identity_of(const cases::Case& setup,
   identity.method = summary.method;
   identity.level = summary.level;
   identity.settings = cases::settings_text(cases::lasting_settings(setup));
-  identity.choices = fmt::format("{}, pressure carried by {}", summary.integrator, summary.volumes);
+  identity.volumes = summary.volumes;
   identity.nodes = cases::case_hash(bytes_of(graph.X) + bytes_of(graph.Omega), {});
   identity.program = summary.provenance.program;
   identity.version = summary.provenance.version + " " + summary.provenance.commit;
@@ -53,12 +53,11 @@ std::string difference_of(const RunIdentity& before, const RunIdentity& now) {
     return "is of another case: " + changed +
            "; only time.end, time.max_steps, time.checkpoint_* and [output] may change";
   }
-  if (before.choices != now.choices) {
+  if (before.volumes != now.volumes) {
     return fmt::format(
-        "is of a run with {}; the defaults come to {} now: a load presses strongly before "
-        "one time.end and not before the other, or the program is another; give "
-        "scheme.volumes and time.integrator in the case and begin anew",
-        before.choices, now.choices);
+        "is of a run whose pressure {} carry, scheme.volumes = \"auto\" comes to {} now: a load "
+        "presses strongly before one time.end and not before the other; begin anew",
+        before.volumes, now.volumes);
   }
   if (before.nodes != now.nodes)
     return "is of other nodes: the mesh file, or the gmsh that meshed it, has changed";
