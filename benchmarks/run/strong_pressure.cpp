@@ -3,6 +3,7 @@
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 #include "common/functions/placed_values.hpp"
+#include "common/scheme/boundary/boundary_condition.hpp"
 #include "meshes/cell_shares.hpp"
 #include "meshes/shape_integrals.hpp"
 #include "meshes/structured_block.hpp"
@@ -87,7 +88,8 @@ double largest_pressure(const std::vector<Expression>& load, const Corners& corn
 }
 
 bool holds_the_normal(const cases::BoundaryCase& boundary) {
-  return boundary.type == "fixed" || boundary.type == "velocity" || boundary.type == "symmetry";
+  const scheme::BoundaryKind::Acts acts = scheme::boundary_menu().at(boundary.type).acts;
+  return acts == scheme::BoundaryKind::Acts::hold || boundary.type == "symmetry";
 }
 
 /// Of the mesh; nothing where there is none of that name, of which the solver tells.
