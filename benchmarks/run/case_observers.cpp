@@ -2,6 +2,7 @@
 
 #include "common/run/quantities.hpp"
 #include "common/run/references.hpp"
+#include "common/scheme/dissipation/limiters/limiter_menu.hpp"
 #include "meshes/cell_checks.hpp"
 #include "meshes/incidence.hpp"
 
@@ -21,8 +22,7 @@ double largest_loss(const cases::Case& setup) {
   constexpr double all = std::numeric_limits<double>::infinity();
   const double given = setup.guards.numerical_dissipation;
   if (given > 0) return given < 1 ? given : all;
-  const std::string& limiter = setup.scheme.limiter;
-  return limiter == "none" || limiter == "sign-preserving" ? 0.5 : all;
+  return scheme::limits_slopes(scheme::limiter_menu().at(setup.scheme.limiter)) ? all : 0.5;
 }
 
 /// Nothing is made before something asks.

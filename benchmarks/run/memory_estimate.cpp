@@ -40,6 +40,7 @@ constexpr double lines = 250;            ///< a node of the graph, of slopes alo
 constexpr double cell_bytes = 30;
 constexpr double volume_corner = 70;      ///< of a cell that carries pressure
 constexpr double volume_node = 60;        ///< of a node of such
+constexpr double shear_pair = 12;         ///< of nodes of a cell that carries shear
 constexpr double volume_line_node = 400;  ///< of a node whose lines carry pressure
 constexpr double class_pair = 650;        ///< of rows that stand for many
 constexpr double solve_node = 740;        ///< while operators of any nodes are made to sum by parts
@@ -82,6 +83,13 @@ double simplices_of_cell(const cases::MeshCase& mesh) {
 double corners_of_cell(const cases::MeshCase& mesh) {
   const int d = cases::dimension_of(mesh);
   return is_simplex(mesh.element) ? d + 1 : std::ldexp(1, d);
+}
+
+/// Of a node inside, those that share a cell with it.
+double neighbours_by_cells(const cases::MeshCase& mesh) {
+  const bool in_space = cases::dimension_of(mesh) == 3;
+  if (is_simplex(mesh.element)) return in_space ? 14 : 6;
+  return in_space ? 26 : 8;
 }
 
 /// Directed pairs that share an edge, or a cell where `all`.
@@ -265,9 +273,10 @@ double bytes_of(const cases::Case& setup,
       scheme.volumes == "cells" || scheme.volumes == "lines" ||
       (scheme.volumes == "auto" && wants_volumes && !commutes && !sums_anywhere(setup, method));
   const double corners = size.cells * corners_of_cell(setup.mesh);
+  const double shear = scheme.cell_shear == 0 ? 0 : shear_pair * neighbours_by_cells(setup.mesh);
   const double volumes = !has_volumes ? 0
                          : on_lines   ? volume_line_node * size.nodes
-                                      : volume_corner * corners + volume_node * size.nodes;
+                                    : volume_corner * corners + (volume_node + shear) * size.nodes;
   const double geometry = n_class_pairs > 0 ? class_pair * n_class_pairs : stored * size.pairs;
   const double solve =
       sums_anywhere(setup, method) ? solve_node * size.nodes + solve_pair * size.pairs : 0;

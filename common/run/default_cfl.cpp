@@ -17,7 +17,8 @@ namespace {
 
 /// With the branches at once (notes 1.4).
 /// @param volumetric  modulus that volumes of cells carry  [Pa]
-ElasticRatios ratios_of(const cases::MaterialCase& m, double volumetric) {
+/// @param cell_shear  and that their gradients do
+ElasticRatios ratios_of(const cases::MaterialCase& m, double volumetric, double cell_shear) {
   const double half = 0.5 * m.shear_modulus;
   const double zeta = m.zeta_ratio * half, xi = half - zeta;
   double shear = m.shear_modulus, pressure = m.lame + 2 * m.shear_modulus;
@@ -25,7 +26,7 @@ ElasticRatios ratios_of(const cases::MaterialCase& m, double volumetric) {
     shear += 2 * (b.beta_C * xi + b.beta_G * zeta);
     pressure += 4 * b.beta_C * xi + 8 * b.beta_G * zeta;
   }
-  return {std::sqrt(shear / pressure), volumetric / pressure};
+  return {std::sqrt(shear / pressure), volumetric / pressure, cell_shear / pressure};
 }
 
 /// What leapfrog takes of its limit at most, where the fastest and the most damped modes meet.
@@ -89,7 +90,7 @@ double sampled_cfl(const cases::Case& setup,
   if (!part) return 0;
   scheme::Body<Dim> body(part->graph, scheme::BodyOptions{});
   return factor_of(setup, geometric_rate) *
-         step_of<Dim>(setup, ratios_of(setup.material, 0), {body, 0, part->moves}, integrator);
+         step_of<Dim>(setup, ratios_of(setup.material, 0, 0), {body, 0, part->moves}, integrator);
 }
 
 template <int Dim>
@@ -98,8 +99,8 @@ double default_cfl(const cases::Case& setup,
                    scheme::Body<Dim>& body,
                    double geometric_rate,
                    const time::Integrator& integrator) {
-  const ElasticRatios ratios =
-      ratios_of(setup.material, body.bulk ? material.volumetric_modulus() : 0);
+  const ElasticRatios ratios = ratios_of(
+      setup.material, body.bulk ? material.volumetric_modulus() : 0, body.options.cell_shear);
   return factor_of(setup, geometric_rate) *
          step_of<Dim>(setup, ratios, {body, setup.scheme.face_correction}, integrator);
 }
@@ -119,6 +120,7 @@ double default_cfl(const cases::Case& setup,
   scheme::BodyOptions options;
   options.face_correction = setup.scheme.face_correction != 0;
   options.volumes = volumes_of(setup, graph);
+  options.cell_shear = cell_shear_of(setup, options.volumes);
   options.has_moments = is_symmetric(setup);
   const auto material = model_menu().at(setup.material.model).model(setup.material);
   const double rate = scheme::geometric_rate(graph);

@@ -74,7 +74,8 @@ void LargestRates<Dim>::clear_stresses() {
 /// Stresses of the velocity gradients in the records, for c_p = 1 and rho_R = 1.
 template <int Dim>
 void LargestRates<Dim>::put_stresses(const ElasticRatios& ratios) {
-  const double mu = ratios.shear * ratios.shear, lambda = 1 - 2 * mu - ratios.cells;
+  const double mu = ratios.shear * ratios.shear - ratios.cell_shear,
+               lambda = 1 - 2 * ratios.shear * ratios.shear - ratios.cells + ratios.cell_shear;
   parallel::for_chunks(body_.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
     for (std::int64_t b = begin; b < end; ++b) {
       const auto L = scheme::velocity_gradient(body_, b);
@@ -117,7 +118,7 @@ void LargestRates<Dim>::apply(const Vectors& u,
   scheme::velocity_gradients(body_, kappa_f_);
   put_stresses(ratios);
   sum_forces(strength);
-  if (ratios.cells != 0) body_.bulk->add_linear_forces(body_, ratios.cells);
+  if (ratios.cells != 0) body_.bulk->add_linear_forces(body_, ratios.cells, ratios.cell_shear);
   divide_forces(out);
 }
 

@@ -58,6 +58,11 @@ SectionKeys<SchemeCase> scheme_keys() {
                "the boundary. Elsewhere nodes, but of nearly incompressible material lines for SPH "
                "on boxes, and cells where operators of second order are asked for.",
                "\"cells\""))
+      .key("cell_shear", &SchemeCase::cell_shear,
+           {"-", between(0, 1),
+            "Share of the shear modulus that gradients of cells carry instead of those of nodes, "
+            "where their volumes carry the bulk pressure: what holds waves that nodes see badly.",
+            "0"})
       .key("precision", &SchemeCase::precision,
            one_of(scheme::precision_menu().names(),
                   "Precision of what the sweeps keep. mixed: pseudo-areas C_ab in single, half the "

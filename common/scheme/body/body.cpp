@@ -18,7 +18,7 @@ Body<Dim>::Body(const PairGraph& whole, const BodyOptions& what, SweepGraph<Dim>
       centroid(centroid_of(whole)) {
   list_fields();
   allocate();
-  bulk = make_bulk_volumes<Dim>(whole, options.volumes);
+  bulk = make_bulk_volumes<Dim>(whole, options.volumes, options.cell_shear != 0);
 }
 
 template <int Dim>

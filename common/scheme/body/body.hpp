@@ -93,6 +93,7 @@ struct BodyOptions {
   bool keeps_L_0 = false;    ///< dF/dt at the beginning of the step, for GEXP (notes 5.3)
   bool face_correction = false;
   Volumes volumes = Volumes::nodes;  ///< what carries the pressure, resolved
+  double cell_shear = 0;  ///< Pa, shear modulus that gradients of cells carry (notes 3.11)
 };
 
 /// What of a body is worked where it is divided among ranks (ranks/division.hpp).

@@ -174,8 +174,13 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
               algebra::put_S<Dim>(body.S, b, k * Layout::n_S, branch.S);
             }
           });
-  if (body.bulk) response.Sigma_J -= model.material.volumetric_stress(X.J);
-  const Tensor<Lanes> P = physics::piola_stress<has_H>(response, X);
+  const double s = body.options.cell_shear;
+  if (body.bulk) response.Sigma_J -= model.material.volumetric_stress(X.J) - s;
+  Tensor<Lanes> P = physics::piola_stress<has_H>(response, X);
+  if (s != 0) {
+    for (int k = 0; k < Dim * Dim; ++k)
+      P(k / Dim, k % Dim) -= s * X.F(k / Dim, k % Dim);
+  }
   if (__builtin_expect(!sound_after<Dim>(sweep, b, L, X.J, P, dissipation).all(), 0))
     totals.is_sound = false;
   if (__builtin_expect(!was_sound.all(), 0)) {
@@ -204,6 +209,8 @@ DIPTYCH_CLONES void add_energies_of(const Model<Material>& model,
     const Deformation<Lanes> X = load_deformation(body, b);
     Lanes W = model.material.energy(X);
     if (body.bulk) W -= model.material.volumetric_energy(X.J);
+    if (const double s = body.options.cell_shear; s != 0)
+      W -= s * (0.5 * (algebra::contract(X.F, X.F) - 3.0) - (X.J - 1.0));
     for (int k = 0; k < body.options.n_branches; ++k) {
       const auto branch = stored_branch<Dim, Material::has_H>(body, b, k);
       W += physics::branch_energy<Material::has_H>(model.branches[k], branch, X);

@@ -101,14 +101,17 @@ double BulkVolumes<Dim>::power(const Body<Dim>& body) const {
 }
 
 template <int Dim>
-std::unique_ptr<BulkVolumes<Dim>> make_bulk_volumes(const PairGraph& graph, Volumes volumes) {
-  if (volumes == Volumes::cells) return std::make_unique<CellVolumes<Dim>>(graph.cells, graph.X);
+std::unique_ptr<BulkVolumes<Dim>> make_bulk_volumes(const PairGraph& graph,
+                                                    Volumes volumes,
+                                                    bool with_shear) {
+  if (volumes == Volumes::cells)
+    return std::make_unique<CellVolumes<Dim>>(graph.cells, graph.X, with_shear);
   if (volumes == Volumes::lines) return std::make_unique<LineVolumes<Dim>>(graph);
   return nullptr;
 }
 
-template std::unique_ptr<BulkVolumes<2>> make_bulk_volumes(const PairGraph&, Volumes);
-template std::unique_ptr<BulkVolumes<3>> make_bulk_volumes(const PairGraph&, Volumes);
+template std::unique_ptr<BulkVolumes<2>> make_bulk_volumes(const PairGraph&, Volumes, bool);
+template std::unique_ptr<BulkVolumes<3>> make_bulk_volumes(const PairGraph&, Volumes, bool);
 template class BulkVolumes<2>;
 template class BulkVolumes<3>;
 

@@ -48,15 +48,19 @@ class BulkVolumes {
                                         std::vector<char>& read) const = 0;
 
   /// Adds the forces of the pressure U'(J_a) of the material to body.T, for the displacements as
-  /// they stand.
+  /// they stand, and those of what cells carry of the shear (BodyOptions::cell_shear).
   virtual void add_forces(Body<Dim>& body, const MaterialModel& material) = 0;
 
   /// The same linearised: adds the forces of modulus (dV_a/V_a), dV_a the change of volume with the
-  /// body's velocities in the place of a change of displacement. For the frequencies of set-up.
-  virtual void add_linear_forces(Body<Dim>& body, double modulus) = 0;
+  /// body's velocities in the place of a change of displacement, and those of the modulus `shear`
+  /// by gradients of cells. For the frequencies of set-up.
+  virtual void add_linear_forces(Body<Dim>& body, double modulus, double shear) = 0;
 
   /// Power of the forces that were added last with the velocities as they are now  [W]
   double power(const Body<Dim>& body) const;
+
+  /// What cells carry of the shear energy: by chunks of nodes, added to `sums`  [J]
+  virtual void add_shear_energies(const Body<Dim>&, std::vector<double>&) const {}
 
   /// J of the nodes by these volumes, among ranks of the own ones  [n_nodes]
   virtual std::vector<double> ratios(const Body<Dim>& body) const = 0;
@@ -89,9 +93,12 @@ class BulkVolumes {
 };
 
 /// Of a graph; null where nodes carry the pressure.
+/// @param with_shear  cells carry a part of the shear, too (notes 3.11)
 /// @pre volumes is resolved, and the graph has what it takes
 template <int Dim>
-std::unique_ptr<BulkVolumes<Dim>> make_bulk_volumes(const PairGraph& graph, Volumes volumes);
+std::unique_ptr<BulkVolumes<Dim>> make_bulk_volumes(const PairGraph& graph,
+                                                    Volumes volumes,
+                                                    bool with_shear);
 
 extern template class BulkVolumes<2>;
 extern template class BulkVolumes<3>;

@@ -90,6 +90,15 @@ CellGroup group_of(const VolumeCells& cells,
   return group;
 }
 
+/// work(first, last, chunk) of the nodes of each chunk of a rank.
+template <int Dim, class Work>
+void for_nodes(const Body<Dim>& body, const Work& work) {
+  parallel::for_chunks(body.part(), body.n_blocks,
+                       [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
+                         work(begin * n_lanes, std::min(end * n_lanes, body.n_owned), chunk);
+                       });
+}
+
 /// Of group g; null where it is all of it.
 template <int Dim>
 const CellWork* work_in(const Body<Dim>* body, size_t g) {
@@ -127,7 +136,9 @@ std::vector<CellWork> CellVolumes<Dim>::work_of(const parallel::Part& part,
 }
 
 template <int Dim>
-CellVolumes<Dim>::CellVolumes(const VolumeCells& cells, const std::vector<algebra::Vec3>& X)
+CellVolumes<Dim>::CellVolumes(const VolumeCells& cells,
+                              const std::vector<algebra::Vec3>& X,
+                              bool with_shear)
     : Base(static_cast<std::int64_t>(X.size())) {
   const std::int64_t length = segment_length(cells);
   n_segments_ = (n_nodes() + length - 1) / length;
@@ -166,6 +177,7 @@ CellVolumes<Dim>::CellVolumes(const VolumeCells& cells, const std::vector<algebr
   put_ratios(parallel::Part(), of_cells_, around_.weight);
   for (std::int64_t a = 0; a < n_nodes(); ++a)
     inverse_V_0_[a] = 1 / V_0_[a];
+  if (with_shear) laplacian_ = CellLaplacian(cells, X, Dim);
 }
 
 template <int Dim>
@@ -216,7 +228,8 @@ template <int Dim>
 std::int64_t CellVolumes<Dim>::bytes() const {
   std::int64_t sum = V_0_.bytes() + inverse_V_0_.bytes() + x_.bytes() + of_cells_.bytes() +
                      pressure_.bytes() + force_.bytes() + around_.first.bytes() +
-                     around_.cell.bytes() + around_.share.bytes() + around_.weight.bytes();
+                     around_.cell.bytes() + around_.share.bytes() + around_.weight.bytes() +
+                     laplacian_.bytes();
   for (const CellGroup& group : groups_)
     sum += group.corner.bytes() + group.share.bytes() + group.weight.bytes();
   return sum;
@@ -268,13 +281,32 @@ void CellVolumes<Dim>::add_forces(Body<Dim>& body, const MaterialModel& material
       body.part(), body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
         const std::int64_t first = begin * n_lanes, last = std::min(end * n_lanes, n_nodes());
         material.put_volumetric_stresses(&pressure_[first], last - first);
+        for (std::int64_t a = first; a < last; ++a)
+          pressure_[a] -= body.options.cell_shear;
       });
   sharpen(body, pressure_, of_cells_);
-  sum_forces(body);
+  put_forces(body);
+  if (const double s = body.options.cell_shear; s != 0) {
+    for_nodes(body, [&](auto begin, auto end, auto) {
+      laplacian_.add_forces(x_, s, begin, end, force_);
+    });
+  }
+  this->add_rows(body);
 }
 
 template <int Dim>
-void CellVolumes<Dim>::add_linear_forces(Body<Dim>& body, double modulus) {
+void CellVolumes<Dim>::add_shear_energies(const Body<Dim>& body, std::vector<double>& sums) const {
+  const double s = body.options.cell_shear;
+  if (s == 0) return;
+  Array x(x_.size());
+  put_positions(body, x);
+  for_nodes(body, [&](auto begin, auto end, auto chunk) {
+    sums[chunk] += laplacian_.energy(x, body.X, s, begin, end);
+  });
+}
+
+template <int Dim>
+void CellVolumes<Dim>::add_linear_forces(Body<Dim>& body, double modulus, double shear) {
   put_positions(body, x_);
   Array rate(x_.size());
   for (std::int64_t a = 0; a < n_nodes(); ++a) {
@@ -287,7 +319,19 @@ void CellVolumes<Dim>::add_linear_forces(Body<Dim>& body, double modulus) {
   for (std::int64_t a = 0; a < n_nodes(); ++a)
     pressure_[a] *= modulus;
   sharpen(body, pressure_, of_cells_);
-  sum_forces(body);
+  put_forces(body);
+  this->add_rows(body);
+  if (shear == 0) return;
+  // a pressure -s in volumes whose gradients are quadratic in x: differences are their derivatives
+  for (const double side : {1.0, -1.0}) {
+    for (std::int64_t k = 0; k < x_.size(); ++k)
+      x_[k] += (side > 0 ? 1 : -2) * rate[k];
+    for (std::int64_t a = 0; a < n_nodes(); ++a)
+      pressure_[a] = -0.5 * side * shear;
+    put_forces(body);
+    if (side < 0) laplacian_.add_forces(rate, shear, 0, n_nodes(), force_);
+    this->add_rows(body);
+  }
 }
 
 template <int Dim>
@@ -304,7 +348,7 @@ void CellVolumes<Dim>::clear_forces(const Body<Dim>& body) {
 }
 
 template <int Dim>
-void CellVolumes<Dim>::sum_forces(Body<Dim>& body) {
+void CellVolumes<Dim>::put_forces(Body<Dim>& body) {
   exchange(body, pressure_, 1);
   clear_forces(body);
   for (size_t g = 0; g < groups_.size(); ++g) {
@@ -327,7 +371,6 @@ void CellVolumes<Dim>::sum_forces(Body<Dim>& body) {
       });
     }
   }
-  this->add_rows(body);
 }
 
 template <int Dim>

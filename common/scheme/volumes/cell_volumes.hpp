@@ -11,6 +11,7 @@
 /// tests/common/scheme/volumes_test.cpp
 
 #include "common/scheme/volumes/bulk_volumes.hpp"
+#include "common/scheme/volumes/cell_laplacian.hpp"
 
 namespace diptych::scheme {
 
@@ -41,12 +42,13 @@ template <int Dim>
 class CellVolumes : public BulkVolumes<Dim> {
  public:
   /// @param X  [n_nodes] m, reference positions
-  CellVolumes(const VolumeCells& cells, const std::vector<algebra::Vec3>& X);
+  CellVolumes(const VolumeCells& cells, const std::vector<algebra::Vec3>& X, bool with_shear);
 
   std::int64_t bytes() const override;
   std::vector<CellWork> work_of(const parallel::Part& part, std::vector<char>& read) const override;
   void add_forces(Body<Dim>& body, const MaterialModel& material) override;
-  void add_linear_forces(Body<Dim>& body, double modulus) override;
+  void add_linear_forces(Body<Dim>& body, double modulus, double shear) override;
+  void add_shear_energies(const Body<Dim>& body, std::vector<double>& sums) const override;
   std::vector<double> ratios(const Body<Dim>& body) const override;
   /// Those of the deformed faces.
   std::vector<algebra::Vec3> deformed_areas(const Body<Dim>& body,
@@ -70,11 +72,13 @@ class CellVolumes : public BulkVolumes<Dim> {
   /// values <- M values.  @param of_cells  [n_cells + 8] of no more use
   void sharpen(const Body<Dim>& body, Array& values, Array& of_cells) const;
   void clear_forces(const Body<Dim>& body);
-  void sum_forces(Body<Dim>& body);
+  /// force_ <- that of the pressures.
+  void put_forces(Body<Dim>& body);
   void list_cells_of_nodes(const VolumeCells& cells, const std::vector<std::int64_t>& place);
 
   std::vector<CellGroup> groups_;
   CellsOfNodes around_;
+  CellLaplacian laplacian_;                    ///< empty where nodes carry all of the shear
   std::int64_t n_cells_ = 0, n_segments_ = 0;  ///< cells: whole blocks
   Array inverse_V_0_;                          ///< [n_nodes, padded] m^-Dim
   // of a sweep

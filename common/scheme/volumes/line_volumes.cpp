@@ -273,7 +273,7 @@ void LineVolumes<Dim>::add_forces(Body<Dim>& body, const MaterialModel& material
 }
 
 template <int Dim>
-void LineVolumes<Dim>::add_linear_forces(Body<Dim>& body, double modulus) {
+void LineVolumes<Dim>::add_linear_forces(Body<Dim>& body, double modulus, double) {
   put_positions(body, x_);
   Array rate(x_.size());
   for (std::int64_t a = 0; a < n_nodes(); ++a) {

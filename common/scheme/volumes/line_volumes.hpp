@@ -34,7 +34,7 @@ class LineVolumes : public BulkVolumes<Dim> {
   std::int64_t bytes() const override;
   std::vector<CellWork> work_of(const parallel::Part& part, std::vector<char>& read) const override;
   void add_forces(Body<Dim>& body, const MaterialModel& material) override;
-  void add_linear_forces(Body<Dim>& body, double modulus) override;
+  void add_linear_forces(Body<Dim>& body, double modulus, double) override;
   std::vector<double> ratios(const Body<Dim>& body) const override;
   /// Cofactors of the nodes' own derivatives along lines times A_aN_a.
   std::vector<algebra::Vec3> deformed_areas(const Body<Dim>& body,

@@ -1,6 +1,6 @@
 /// Volumes that carry the pressure, of deformed cells and by derivatives along lines (notes 3.9,
-/// 3.10): what they are, what their forces keep, and that a uniformly compressed body is a strict
-/// minimum of its energy.
+/// 3.10), and gradients of cells that carry a part of the shear (notes 3.11): what they are, what
+/// their forces keep, and that a uniformly compressed body is a strict minimum of its energy.
 
 #include "common/algebra/face_areas.hpp"
 #include "common/run/model_menu.hpp"
@@ -49,13 +49,24 @@ Volumes safe_for(const std::string& method) {
   return method == "sph lines" ? Volumes::lines : Volumes::cells;
 }
 
+/// Share of the shear modulus that gradients of cells carry by default, where they are.
+double shear_for(Volumes volumes) {
+  return volumes == Volumes::cells ? cases::SchemeCase().cell_shear * rubber(0).shear_modulus : 0;
+}
+
 /// A body at given displacements, without velocities.
 class StaticBody {
  public:
   StaticBody(const meshes::Mesh& mesh, const std::string& method, double nu, Volumes volumes)
+      : StaticBody(mesh, method, nu, volumes, shear_for(volumes)) {}
+  StaticBody(const meshes::Mesh& mesh,
+             const std::string& method,
+             double nu,
+             Volumes volumes,
+             double cell_shear)
       : graph(graph_for(method, mesh)),
         material(run::model_menu().at("mooney-rivlin").model(rubber(nu))),
-        body(graph, options(*material, volumes)),
+        body(graph, options(*material, volumes, cell_shear)),
         sweeps_(body, material, quiet(), 1) {}
 
   /// Internal forces  [N]
@@ -84,11 +95,14 @@ class StaticBody {
     options.dissipation_factor = 0;
     return options;
   }
-  static scheme::BodyOptions options(const scheme::MaterialModel& material, Volumes volumes) {
+  static scheme::BodyOptions options(const scheme::MaterialModel& material,
+                                     Volumes volumes,
+                                     double cell_shear) {
     scheme::BodyOptions options;
     options.rho_R = material.rho_R();
     options.unknowns = scheme::Unknowns::F;
     options.volumes = volumes;
+    options.cell_shear = cell_shear;
     return options;
   }
   /// u, and F as its discrete gradient.
@@ -227,8 +241,8 @@ TEST_P(BulkVolumes, KeepMomenta) {
     size += T[a].norm();
   }
   EXPECT_LT(force.norm(), 1e-14 * size);
-  // of this pressure alone: a second body with another modulus of it
-  StaticBody softer(mesh, GetParam().method, 0.45, safe_for(GetParam().method));
+  // of this pressure alone, and of the shear of cells: a second body with other moduli of both
+  StaticBody softer(mesh, GetParam().method, 0.45, safe_for(GetParam().method), 0);
   const auto soft = softer.forces(u);
   for (size_t a = 0; a < T.size(); ++a)
     moment += (body.graph.X[a] + u[a]).cross(T[a] - soft[a]);
@@ -252,6 +266,20 @@ TEST_P(BulkVolumes, ForceIsTheDerivativeOfTheEnergy) {
   const double h = 1e-5;
   const double slope = (8 * (energy(h) - energy(-h)) - (energy(2 * h) - energy(-2 * h))) / (12 * h);
   EXPECT_NEAR(slope, expected, 1e-8 * std::abs(expected));
+}
+
+// What cells carry of the shear is taken from the nodes: nothing is changed where the deformation
+// is affine, turned bodies included.
+TEST_P(CellVolumes, ShearOfCellsHasNoPartInAffineMotions) {
+  StaticBody without(mesh, GetParam().method, 0.49, Volumes::cells, 0);
+  const Mat3 turn = Eigen::AngleAxisd(2.1, Vec3(1, 2, -1).normalized()).toRotationMatrix();
+  for (const Mat3& F : {sheared(), turn, Mat3(turn * sheared())}) {
+    const Displacements u = affine(body.graph, F);
+    const auto T = body.forces(u), expected = without.forces(u);
+    for (size_t a = 0; a < T.size(); ++a)
+      EXPECT_LT((T[a] - expected[a]).norm(), 1e-13) << a;
+    EXPECT_NEAR(body.energy(u), without.energy(u), 1e-12);
+  }
 }
 
 enum class Support { rollers, none };
@@ -327,6 +355,19 @@ TEST_P(UniformPressure, LeavesAFreeBodyAtRestStable) {
   const Mould& m = GetParam();
   StaticBody body(block(m.type, m.moved, {3, 3, 3}), m.method, m.nu, safe_for(m.method));
   EXPECT_GT(least_stiffness(body, 1, Support::none), 1e-4);
+}
+
+// What gradients of cells are there for: waves that the F of nodes sees badly, which a pressure
+// that varies from cell to cell pushes.
+TEST(ShearOfCells, HoldsTheSoftestMotions) {
+  for (const Kind& kind : {Kind{hexahedron, 0.25, "sph"}, Kind{tetrahedron, 0.2, "fvm"}}) {
+    const meshes::Mesh mesh = block(kind.type, kind.moved, {3, 3, 3});
+    StaticBody with(mesh, kind.method, 0.45, Volumes::cells);
+    StaticBody without(mesh, kind.method, 0.45, Volumes::cells, 0);
+    EXPECT_GT(least_stiffness(with, 1, Support::none),
+              2 * least_stiffness(without, 1, Support::none))
+        << kind.method;
+  }
 }
 
 // What these volumes are there for: with J of the nodes these bodies turn inside out.
