@@ -101,27 +101,64 @@ const std::vector<ShapePoint>& points_of(int dimension, std::int64_t n_corners) 
 
 using CellMatrix = std::array<std::array<double, most_corners>, most_corners>;
 
-/// -int grad N_a . grad N_b dV of the corners a, b of a cell.
+/// How much narrower than long a cell is, squared: of its mean Jacobian.
+double squared_aspect(const algebra::Mat3& jacobian, int dimension, std::int64_t n_corners) {
+  algebra::Mat3 regular = algebra::Mat3::Identity();  // reference cells are boxes
+  if (dimension == 3 && n_corners == 6) {             // or right triangles times two
+    regular(0, 1) = 0.5;
+    regular(1, 1) = std::sqrt(0.75);
+    regular(2, 2) = 0.5;
+  }
+  const algebra::Mat3 J = jacobian * regular.inverse();
+  const Eigen::SelfAdjointEigenSolver<algebra::Mat3> squares(J.transpose() * J,
+                                                             Eigen::EigenvaluesOnly);
+  const auto& values = squares.eigenvalues();
+  return values[0] / values[2];
+}
+
+/// k_ab of notes 3.11: -int grad N_a . grad N_b dV of the corners a, b of a cell. Of what is left
+/// of it beside the mean gradients, which holds the modes in which a cell has none, cells that are
+/// longer than they are wide count less: all of it would be too stiff in bending by the square of
+/// that ratio.
 void put_matrix_of_cell(std::span<const std::int32_t> corners,
                         const std::vector<Vec3>& X,
                         int dimension,
                         CellMatrix& matrix) {
   const auto n = corners.size();
+  const auto& points = points_of(dimension, std::ssize(corners));
   for (auto& row : matrix)
     row.fill(0);
-  for (const ShapePoint& point : points_of(dimension, std::ssize(corners))) {
+  std::array<Vec3, most_corners> mean;
+  mean.fill(Vec3::Zero());
+  algebra::Mat3 mean_jacobian = algebra::Mat3::Zero();
+  double total = 0;
+  for (const ShapePoint& point : points) {
     algebra::Mat3 jacobian = algebra::Mat3::Zero();
-    if (dimension == 2) jacobian(2, 2) = 1;
     for (size_t k = 0; k < n; ++k)
       jacobian += (X[corners[k]] - X[corners[0]]) * point.derivative[k].transpose();
+    if (dimension == 2) jacobian(2, 2) = std::sqrt(jacobian.topLeftCorner<2, 2>().determinant());
     const algebra::Mat3 to_space = jacobian.inverse().transpose();
-    const double volume = point.weight * jacobian.determinant();
+    const double volume =
+        point.weight *
+        (dimension == 2 ? jacobian.topLeftCorner<2, 2>().determinant() : jacobian.determinant());
     std::array<Vec3, most_corners> gradient;
-    for (size_t k = 0; k < n; ++k)
+    for (size_t k = 0; k < n; ++k) {
       gradient[k] = to_space * point.derivative[k];
+      mean[k] += volume * gradient[k];
+    }
     for (size_t a = 0; a < n; ++a) {
       for (size_t b = 0; b < n; ++b)
         matrix[a][b] -= volume * gradient[a].dot(gradient[b]);
+    }
+    mean_jacobian += jacobian / static_cast<double>(points.size());
+    total += volume;
+  }
+  if (points.size() == 1) return;  // simplices have one gradient
+  const double aspect = squared_aspect(mean_jacobian, dimension, std::ssize(corners));
+  for (size_t a = 0; a < n; ++a) {
+    for (size_t b = 0; b < n; ++b) {
+      const double of_mean = -mean[a].dot(mean[b]) / total;
+      matrix[a][b] = of_mean + aspect * (matrix[a][b] - of_mean);
     }
   }
 }

@@ -6,7 +6,8 @@
 /// waves that nodal F sees badly. Here the first term: with k_ab = -int grad N_a . grad N_b dV its
 /// forces are
 ///   T_a = s sum_b k_ab (x_b - x_a),
-/// linear in the positions, so momentum and angular momentum are kept. The determinant is that of
+/// linear in the positions, so momentum and angular momentum are kept. Of long cells k_ab has less
+/// than that beside the mean gradients (put_matrix_of_cell). The determinant is that of
 /// the volumes of cells, the second sum is in the stress of the nodes. Test:
 /// tests/common/scheme/volumes_test.cpp
 
