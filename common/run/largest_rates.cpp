@@ -118,7 +118,7 @@ void LargestRates<Dim>::apply(const Vectors& u,
   scheme::velocity_gradients(body_, kappa_f_);
   put_stresses(ratios);
   sum_forces(strength);
-  if (ratios.cells != 0) body_.bulk->add_linear_forces(body_, ratios.cells, ratios.cell_shear);
+  if (body_.bulk) body_.bulk->add_linear_forces(body_, ratios.cells, ratios.cell_shear);
   divide_forces(out);
 }
 

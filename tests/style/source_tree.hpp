@@ -55,7 +55,7 @@ inline const std::map<std::string, std::set<std::string>>& permitted_rooms() {
         {"common/mpi", with(algebra, {"common/parallel"})},
         {"common/physics", algebra},
         {"common/io", algebra},
-        {"common/scheme", scheme},
+        {"common/scheme", with(scheme, {"meshes"})},
         {"common/closure", above},
         {"common/time", above},
         {"common/functions", with(algebra, {"common/parallel"})},

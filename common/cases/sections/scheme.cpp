@@ -61,7 +61,8 @@ SectionKeys<SchemeCase> scheme_keys() {
       .key("cell_shear", &SchemeCase::cell_shear,
            {"-", between(0, 1),
             "Share of the shear modulus that gradients of cells carry instead of those of nodes, "
-            "where their volumes carry the bulk pressure: what holds waves that nodes see badly.",
+            "where their volumes carry the bulk pressure: what holds waves that nodes see badly. "
+            "What is left to the nodes is polyconvex up to 1 - zeta_ratio.",
             "0"})
       .key("precision", &SchemeCase::precision,
            one_of(scheme::precision_menu().names(),
@@ -94,6 +95,10 @@ void check(const SectionValues& section, const SchemeCase& scheme) {
     section.fail("reconstruction",
                  "= \"symmetric\" has neither limiters nor the face correction; use limiter = "
                  "\"none\" and face_correction = 0, or reconstruction = \"linear\"");
+  }
+  if (scheme.volumes == "nodes" || scheme.volumes == "lines") {
+    section.refuse("cell_shear", fmt::format("has no effect with volumes = \"{}\"; it is for cells",
+                                             scheme.volumes));
   }
   if (scheme.precision == "single" && scheme.impedance == "exact") {
     section.fail("precision",

@@ -4,6 +4,7 @@
 #include "common/scheme/ranks/division.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace diptych::scheme {
 
@@ -16,6 +17,8 @@ Body<Dim>::Body(const PairGraph& whole, const BodyOptions& what, SweepGraph<Dim>
       n_blocks(graph.n_blocks),
       X(whole.X),
       centroid(centroid_of(whole)) {
+  if (options.cell_shear != 0 && options.volumes != Volumes::cells)
+    throw std::logic_error("gradients of cells carry shear beside volumes of cells alone");
   list_fields();
   allocate();
   bulk = make_bulk_volumes<Dim>(whole, options.volumes, options.cell_shear != 0);

@@ -161,7 +161,7 @@ struct Body {
   NodeTable gradients;  ///< uncorrected dF/dt
   NodeTable stresses;   ///< P
   /// What carries the pressure in place of J of the nodes (notes 3.9); P of the records is then
-  /// without it. Null: nodes carry it.
+  /// without it, and without what gradients of cells carry of the shear (3.11). Null: nodes do.
   std::unique_ptr<BulkVolumes<Dim>> bulk;
   /// Among ranks; null: this one works all of it.
   std::shared_ptr<Division> division;

@@ -53,7 +53,7 @@ class BulkVolumes {
 
   /// The same linearised: adds the forces of modulus (dV_a/V_a), dV_a the change of volume with the
   /// body's velocities in the place of a change of displacement, and those of the modulus `shear`
-  /// by gradients of cells. For the frequencies of set-up.
+  /// by gradients of cells [both moduli in the same unit]. For the frequencies of set-up.
   virtual void add_linear_forces(Body<Dim>& body, double modulus, double shear) = 0;
 
   /// Power of the forces that were added last with the velocities as they are now  [W]

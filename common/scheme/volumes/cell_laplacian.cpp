@@ -3,6 +3,7 @@
 #include "common/algebra/four.hpp"
 #include "common/algebra/lanes.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "meshes/shape_integrals.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,103 +18,28 @@ using algebra::Vec3;
 namespace {
 
 constexpr std::int64_t stride = 4;
-constexpr int most_corners = 8;
 
-/// A point of a quadrature over a reference cell: derivatives of its shape functions there.
-struct ShapePoint {
-  ShapePoint() { derivative.fill(Vec3::Zero()); }
-  double weight = 0;
-  std::array<Vec3, most_corners> derivative;  ///< of each corner, by reference coordinates
-};
-
-/// Simplices: the gradients of their linear functions are the same everywhere.
-std::vector<ShapePoint> simplex_points(int dimension) {
-  ShapePoint point;
-  point.weight = dimension == 2 ? 1.0 / 2 : 1.0 / 6;
-  for (int i = 0; i < dimension; ++i) {
-    point.derivative[0][i] = -1;
-    point.derivative[static_cast<size_t>(i) + 1][i] = 1;
-  }
-  return {point};
+const meshes::ReferenceCell& reference_of(int dimension, std::int64_t n_corners) {
+  using enum meshes::CellType;
+  if (dimension == 2) return meshes::reference_cell(n_corners == 3 ? triangle : quadrilateral);
+  return meshes::reference_cell(n_corners == 4 ? tetrahedron : n_corners == 6 ? prism : hexahedron);
 }
 
-/// Corners of the squares and cubes [-1, 1]^Dim in the order of Gmsh.
-constexpr std::array<std::array<double, 3>, 8> box_corner{{{-1, -1, -1},
-                                                           {1, -1, -1},
-                                                           {1, 1, -1},
-                                                           {-1, 1, -1},
-                                                           {-1, -1, 1},
-                                                           {1, -1, 1},
-                                                           {1, 1, 1},
-                                                           {-1, 1, 1}}};
-
-/// Two points of Gauss along each side, which is exact for the flux through a bilinear face.
-std::vector<ShapePoint> box_points(int dimension) {
-  const double g = 1 / std::sqrt(3.0);
-  std::vector<ShapePoint> points;
-  const int n = dimension == 2 ? 4 : 8;
-  for (int q = 0; q < n; ++q) {
-    ShapePoint point;
-    point.weight = 1;
-    for (int k = 0; k < n; ++k) {
-      for (int i = 0; i < dimension; ++i) {
-        double d = 1;
-        for (int j = 0; j < dimension; ++j) {
-          const double side = box_corner[k][j];
-          d *= j == i ? 0.5 * side : 0.5 * (1 + side * g * box_corner[q][j]);
-        }
-        point.derivative[k][i] = d;
-      }
-    }
-    points.push_back(point);
-  }
-  return points;
-}
-
-/// Three points in the triangle, two along the third direction.
-std::vector<ShapePoint> prism_points() {
-  const double g = 1 / std::sqrt(3.0);
-  std::vector<ShapePoint> points;
-  constexpr std::array<std::array<double, 2>, 3> middle{{{0.5, 0}, {0.5, 0.5}, {0, 0.5}}};
-  for (const double z : {-g, g}) {
-    for (const auto& [r, s] : middle) {
-      ShapePoint point;
-      point.weight = 1.0 / 6;
-      const std::array<double, 3> N{1 - r - s, r, s};
-      constexpr std::array<std::array<double, 2>, 3> dN{{{-1, -1}, {1, 0}, {0, 1}}};
-      for (int k = 0; k < 6; ++k) {
-        const double side = k < 3 ? -1 : 1, along = 0.5 * (1 + side * z);
-        point.derivative[k] = {along * dN[k % 3][0], along * dN[k % 3][1], 0.5 * side * N[k % 3]};
-      }
-      points.push_back(point);
-    }
-  }
-  return points;
-}
-
-const std::vector<ShapePoint>& points_of(int dimension, std::int64_t n_corners) {
-  static const auto triangle = simplex_points(2), tetrahedron = simplex_points(3),
-                    quadrilateral = box_points(2), hexahedron = box_points(3),
-                    prism = prism_points();
-  if (dimension == 2) return n_corners == 3 ? triangle : quadrilateral;
-  return n_corners == 4 ? tetrahedron : n_corners == 6 ? prism : hexahedron;
-}
-
-using CellMatrix = std::array<std::array<double, most_corners>, most_corners>;
+using CellMatrix = std::array<std::array<double, meshes::max_cell_nodes>, meshes::max_cell_nodes>;
 
 /// How much narrower than long a cell is, squared: of its mean Jacobian.
-double squared_aspect(const algebra::Mat3& jacobian, int dimension, std::int64_t n_corners) {
-  algebra::Mat3 regular = algebra::Mat3::Identity();  // reference cells are boxes
-  if (dimension == 3 && n_corners == 6) {             // or right triangles times two
+double squared_aspect(algebra::Mat3 J, const meshes::ReferenceCell& cell) {
+  if (cell.n_nodes == 6) {  // its triangle is a right one, of half the size of the squares
+    algebra::Mat3 regular = algebra::Mat3::Identity();
     regular(0, 1) = 0.5;
     regular(1, 1) = std::sqrt(0.75);
     regular(2, 2) = 0.5;
+    J = J * regular.inverse();
   }
-  const algebra::Mat3 J = jacobian * regular.inverse();
-  const Eigen::SelfAdjointEigenSolver<algebra::Mat3> squares(J.transpose() * J,
-                                                             Eigen::EigenvaluesOnly);
-  const auto& values = squares.eigenvalues();
-  return values[0] / values[2];
+  const auto d = cell.dimension;
+  const Eigen::MatrixXd squares = J.topLeftCorner(d, d).transpose() * J.topLeftCorner(d, d);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(squares, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[0] / solver.eigenvalues()[d - 1];
 }
 
 /// k_ab of notes 3.11: -int grad N_a . grad N_b dV of the corners a, b of a cell. Of what is left
@@ -124,37 +50,31 @@ void put_matrix_of_cell(std::span<const std::int32_t> corners,
                         const std::vector<Vec3>& X,
                         int dimension,
                         CellMatrix& matrix) {
+  const meshes::ReferenceCell& cell = reference_of(dimension, std::ssize(corners));
   const auto n = corners.size();
-  const auto& points = points_of(dimension, std::ssize(corners));
   for (auto& row : matrix)
     row.fill(0);
-  std::array<Vec3, most_corners> mean;
+  std::array<Vec3, meshes::max_cell_nodes> gradient, mean;
   mean.fill(Vec3::Zero());
   algebra::Mat3 mean_jacobian = algebra::Mat3::Zero();
   double total = 0;
-  for (const ShapePoint& point : points) {
-    algebra::Mat3 jacobian = algebra::Mat3::Zero();
-    for (size_t k = 0; k < n; ++k)
-      jacobian += (X[corners[k]] - X[corners[0]]) * point.derivative[k].transpose();
-    if (dimension == 2) jacobian(2, 2) = std::sqrt(jacobian.topLeftCorner<2, 2>().determinant());
+  for (const meshes::QuadraturePoint& point : cell.exact) {
+    const algebra::Mat3 jacobian = meshes::jacobian(cell, point, corners, X);
     const algebra::Mat3 to_space = jacobian.inverse().transpose();
-    const double volume =
-        point.weight *
-        (dimension == 2 ? jacobian.topLeftCorner<2, 2>().determinant() : jacobian.determinant());
-    std::array<Vec3, most_corners> gradient;
+    const double volume = point.weight * jacobian.determinant();
     for (size_t k = 0; k < n; ++k) {
-      gradient[k] = to_space * point.derivative[k];
+      gradient[k] = to_space * point.dN[k];
       mean[k] += volume * gradient[k];
     }
     for (size_t a = 0; a < n; ++a) {
       for (size_t b = 0; b < n; ++b)
         matrix[a][b] -= volume * gradient[a].dot(gradient[b]);
     }
-    mean_jacobian += jacobian / static_cast<double>(points.size());
+    mean_jacobian += jacobian / static_cast<double>(cell.exact.size());
     total += volume;
   }
-  if (points.size() == 1) return;  // simplices have one gradient
-  const double aspect = squared_aspect(mean_jacobian, dimension, std::ssize(corners));
+  if (cell.exact.size() == 1) return;  // simplices have one gradient
+  const double aspect = squared_aspect(mean_jacobian, cell);
   for (size_t a = 0; a < n; ++a) {
     for (size_t b = 0; b < n; ++b) {
       const double of_mean = -mean[a].dot(mean[b]) / total;
@@ -239,28 +159,34 @@ CellLaplacian::CellLaplacian(const VolumeCells& cells, const std::vector<Vec3>& 
         .subspan(static_cast<size_t>(cells.row[c]),
                  static_cast<size_t>(cells.row[c + 1] - cells.row[c]));
   };
-  std::vector<std::vector<std::int32_t>> of_node(X.size());
+  const auto put_neighbours = [&](std::int64_t a, std::vector<std::int32_t>& row) {
+    row.clear();
+    for (std::int64_t k = around.row[a]; k < around.row[a + 1]; ++k) {
+      const auto corners = corners_of(around.cell[k]);
+      row.insert(row.end(), corners.begin(), corners.end());
+    }
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    std::erase(row, static_cast<std::int32_t>(a));
+  };
+  row_.assign(X.size() + 1, 0);
   for_ranges(n_nodes, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<std::int32_t> row;
     for (std::int64_t a = begin; a < end; ++a) {
-      std::vector<std::int32_t>& row = of_node[a];
-      for (std::int64_t k = around.row[a]; k < around.row[a + 1]; ++k) {
-        const auto corners = corners_of(around.cell[k]);
-        row.insert(row.end(), corners.begin(), corners.end());
-      }
-      std::sort(row.begin(), row.end());
-      row.erase(std::unique(row.begin(), row.end()), row.end());
-      std::erase(row, static_cast<std::int32_t>(a));
-      row.shrink_to_fit();
+      put_neighbours(a, row);
+      row_[a + 1] = std::ssize(row);
     }
   });
-  row_.assign(X.size() + 1, 0);
   for (std::int64_t a = 0; a < n_nodes; ++a)
-    row_[a + 1] = row_[a] + std::ssize(of_node[a]);
+    row_[a + 1] += row_[a];
   neighbour_.resize(static_cast<size_t>(row_[n_nodes]));
   weight_.resize(neighbour_.size());
   for_ranges(n_nodes, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t a = begin; a < end; ++a)
-      std::copy(of_node[a].begin(), of_node[a].end(), neighbour_.begin() + row_[a]);
+    std::vector<std::int32_t> row;
+    for (std::int64_t a = begin; a < end; ++a) {
+      put_neighbours(a, row);
+      std::copy(row.begin(), row.end(), neighbour_.begin() + row_[a]);
+    }
     CellMatrix matrix;
     for (const std::int32_t c : cells_of_range(around, begin, end)) {
       const auto corners = corners_of(c);

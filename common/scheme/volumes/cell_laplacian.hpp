@@ -3,12 +3,11 @@
 ///   E = s (sum_c int_c 1/2 (|grad x|^2 - 3) - (det grad x - 1) dV
 ///          - sum_a Omega_a (1/2 (|F_a|^2 - 3) - (J_a - 1))),
 /// grad x that of the shape functions of the cells. It is zero in affine motions; what it holds are
-/// waves that nodal F sees badly. Here the first term: with k_ab = -int grad N_a . grad N_b dV its
-/// forces are
+/// waves that nodal F sees badly. Here the first term: its forces are
 ///   T_a = s sum_b k_ab (x_b - x_a),
-/// linear in the positions, so momentum and angular momentum are kept. Of long cells k_ab has less
-/// than that beside the mean gradients (put_matrix_of_cell). The determinant is that of
-/// the volumes of cells, the second sum is in the stress of the nodes. Test:
+/// linear in the positions, so momentum and angular momentum are kept; k_ab is -int grad N_a .
+/// grad N_b dV, but of long cells less of what that has beside the mean gradients. The determinant
+/// is that of the volumes of cells, the second sum is in the stress of the nodes. Test:
 /// tests/common/scheme/volumes_test.cpp
 
 #include "common/algebra/field.hpp"

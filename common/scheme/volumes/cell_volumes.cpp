@@ -322,14 +322,26 @@ void CellVolumes<Dim>::add_linear_forces(Body<Dim>& body, double modulus, double
   put_forces(body);
   this->add_rows(body);
   if (shear == 0) return;
-  // a pressure -s in volumes whose gradients are quadratic in x: differences are their derivatives
+  // a pressure -s in volumes whose gradients are quadratic in x: differences are their derivatives,
+  // over moves of the size of a cell, so that no digits are lost
+  double largest = 0;
+  for (std::int64_t k = 0; k < rate.size(); ++k)
+    largest = std::max(largest, std::abs(rate[k]));
+  if (largest == 0) return;
+  const double scale = std::pow(V_0_[0], 1.0 / Dim) / largest;
   for (const double side : {1.0, -1.0}) {
-    for (std::int64_t k = 0; k < x_.size(); ++k)
-      x_[k] += (side > 0 ? 1 : -2) * rate[k];
-    for (std::int64_t a = 0; a < n_nodes(); ++a)
-      pressure_[a] = -0.5 * side * shear;
+    for_nodes(body, [&](auto begin, auto end, auto) {
+      for (std::int64_t k = begin * stride; k < end * stride; ++k)
+        x_[k] += (side > 0 ? scale : -2 * scale) * rate[k];
+      for (std::int64_t a = begin; a < end; ++a)
+        pressure_[a] = -0.5 * side * shear / scale;
+    });
     put_forces(body);
-    if (side < 0) laplacian_.add_forces(rate, shear, 0, n_nodes(), force_);
+    if (side < 0) {
+      for_nodes(body, [&](auto begin, auto end, auto) {
+        laplacian_.add_forces(rate, shear, begin, end, force_);
+      });
+    }
     this->add_rows(body);
   }
 }

@@ -41,7 +41,8 @@ struct CellsOfNodes {
 template <int Dim>
 class CellVolumes : public BulkVolumes<Dim> {
  public:
-  /// @param X  [n_nodes] m, reference positions
+  /// @param X           [n_nodes] m, reference positions
+  /// @param with_shear  gradients of cells carry a part of the shear, too (notes 3.11)
   CellVolumes(const VolumeCells& cells, const std::vector<algebra::Vec3>& X, bool with_shear);
 
   std::int64_t bytes() const override;

@@ -1,0 +1,182 @@
+/// Gradients of cells that carry a part of the shear beside volumes of cells (notes 3.11).
+
+#include "common/run/largest_rates.hpp"
+#include "tests/common/scheme/static_body.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace diptych {
+namespace {
+
+using namespace tests;
+using enum meshes::CellType;
+
+class ShearOfCellsIn : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(All,
+                         ShearOfCellsIn,
+                         testing::Values(Kind{hexahedron, 0.25, "sph"},
+                                         Kind{hexahedron, 0.25, "fvm", {8, 2, 2}},
+                                         Kind{tetrahedron, 0.2, "fvm"},
+                                         Kind{prism, 0.2, "fvm", {6, 3, 2}}));
+
+// What cells carry of the shear is taken from the nodes: nothing is changed where the deformation
+// is affine, turned bodies included.
+TEST_P(ShearOfCellsIn, HasNoPartInAffineMotions) {
+  const meshes::Mesh mesh = block(GetParam().type, GetParam().moved, GetParam().cells);
+  StaticBody body(mesh, GetParam().method, 0.49, Volumes::cells);
+  StaticBody without(mesh, GetParam().method, 0.49, Volumes::cells, 0);
+  const Mat3 turn = Eigen::AngleAxisd(2.1, Vec3(1, 2, -1).normalized()).toRotationMatrix();
+  for (const Mat3& F : {sheared(), turn, Mat3(turn * sheared())}) {
+    const Displacements u = affine(body.graph, F);
+    const auto T = body.forces(u), expected = without.forces(u);
+    for (size_t a = 0; a < T.size(); ++a)
+      EXPECT_LT((T[a] - expected[a]).norm(), 1e-13) << a;
+    EXPECT_NEAR(body.energy(u), without.energy(u), 1e-12);
+  }
+}
+
+// What gradients of cells are there for: waves that the F of nodes sees badly, which a pressure
+// that varies from cell to cell pushes.
+TEST(ShearOfCells, HoldsTheSoftestMotions) {
+  for (const Kind& kind : {Kind{hexahedron, 0.25, "sph"}, Kind{tetrahedron, 0.2, "fvm"}}) {
+    const meshes::Mesh mesh = block(kind.type, kind.moved, {3, 3, 3});
+    StaticBody with(mesh, kind.method, 0.45, Volumes::cells);
+    StaticBody without(mesh, kind.method, 0.45, Volumes::cells, 0);
+    EXPECT_GT(least_stiffness(with, 1, Support::none),
+              2 * least_stiffness(without, 1, Support::none))
+        << kind.method;
+  }
+}
+
+/// Moved quadrilaterals or triangles, in plane strain.
+class PlaneCells : public testing::TestWithParam<Kind> {
+ protected:
+  StaticBodyIn<2> body_with(double shear) const {
+    const Kind& kind = GetParam();
+    return {block(kind.type, kind.moved, kind.cells), kind.method, 0.45, Volumes::cells, shear};
+  }
+  static Mat3 sheared_in_plane() {
+    Mat3 F = Mat3::Identity();
+    F.topLeftCorner<2, 2>() << 0.8, 0.3, -0.2, 1.1;
+    return F;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All,
+                         PlaneCells,
+                         testing::Values(Kind{quadrilateral, 0.2, "sph", {5, 4, 1}},
+                                         Kind{quadrilateral, 0.2, "fvm", {8, 2, 1}},
+                                         Kind{triangle, 0.2, "fvm", {5, 4, 1}}));
+
+TEST_P(PlaneCells, ShearOfCellsHasNoPartInAffineMotions) {
+  auto with = body_with(0.5), without = body_with(0);
+  const Displacements u = affine(with.graph, sheared_in_plane());
+  const auto T = with.forces(u), expected = without.forces(u);
+  for (size_t a = 0; a < T.size(); ++a)
+    EXPECT_LT((T[a] - expected[a]).norm(), 1e-13) << a;
+  EXPECT_NEAR(with.energy(u), without.energy(u), 1e-12);
+}
+
+/// Noise in the plane.
+Displacements noisy_in_plane(Displacements u, double size) {
+  u = noisy(std::move(u), size);
+  for (Vec3& x : u)
+    x[2] = 0;
+  return u;
+}
+
+TEST_P(PlaneCells, ForceIsTheDerivativeOfTheEnergy) {
+  auto body = body_with(0.5);
+  const Displacements u = noisy_in_plane(affine(body.graph, sheared_in_plane()), 0.02);
+  const Displacements direction = noisy_in_plane(Displacements(u.size(), Vec3::Zero()), 1);
+  const auto T = body.forces(u);
+  double expected = 0;
+  for (size_t a = 0; a < u.size(); ++a)
+    expected -= T[a].dot(direction[a]);
+  const auto energy = [&](double step) {
+    Displacements moved = u;
+    for (size_t a = 0; a < u.size(); ++a)
+      moved[a] += step * direction[a];
+    return body.energy(moved);
+  };
+  const double h = 1e-5;
+  const double slope = (8 * (energy(h) - energy(-h)) - (energy(2 * h) - energy(-2 * h))) / (12 * h);
+  EXPECT_NEAR(slope, expected, 1e-8 * std::abs(expected));
+}
+
+/// Largest eigenvalue of the second variation of the energy at rest over the nodal volumes.
+template <int Dim>
+double largest_stiffness(StaticBodyIn<Dim>& body) {
+  const auto n = Dim * std::ssize(body.graph.X);
+  const Displacements rest(body.graph.X.size(), Vec3::Zero());
+  Eigen::MatrixXd K(n, n);
+  const double step = 1e-6;
+  for (Eigen::Index q = 0; q < n; ++q) {
+    Displacements plus = rest, minus = rest;
+    plus[q / Dim][q % Dim] += step;
+    minus[q / Dim][q % Dim] -= step;
+    const auto up = body.forces(plus), down = body.forces(minus);
+    for (Eigen::Index p = 0; p < n; ++p)
+      K(p, q) = -(up[p / Dim][p % Dim] - down[p / Dim][p % Dim]) / (2 * step) /
+                std::sqrt(body.graph.Omega[p / Dim] * body.graph.Omega[q / Dim]);
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (K + K.transpose()));
+  return solver.eigenvalues()[n - 1];
+}
+
+/// The largest frequency that the default step takes is that of the forces: Lanczos comes within
+/// a percent or two, from below.
+template <int Dim>
+void expect_frequency_of_forces(StaticBodyIn<Dim> body, double shear) {
+  const double pressure = rubber(0.45).lame + 2, expected = std::sqrt(largest_stiffness(body));
+  const run::ElasticRatios ratios{std::sqrt(1 / pressure),
+                                  body.material->volumetric_modulus() / pressure, shear / pressure};
+  run::LargestRates<Dim> largest(body.body, 0);
+  const double omega = std::sqrt(pressure) * largest.frequency(ratios);
+  EXPECT_LT(omega, expected * (1 + 1e-6));
+  EXPECT_GT(omega, expected * 0.97);
+}
+
+TEST_P(PlaneCells, GiveTheStepTheFrequencyOfTheirForces) {
+  for (const double shear : {0.0, 0.5, 1.0})
+    expect_frequency_of_forces(body_with(shear), shear);
+}
+
+TEST(ShearOfCells, GivesTheStepTheFrequencyOfItsForces) {
+  for (const double shear : {0.0, 0.5, 1.0}) {
+    expect_frequency_of_forces(
+        StaticBody(block(hexahedron, 0.25, {3, 2, 2}), "fvm", 0.45, Volumes::cells, shear), shear);
+    expect_frequency_of_forces(
+        StaticBody(block(tetrahedron, 0.2, {2, 2, 2}), "fvm", 0.45, Volumes::cells, shear), shear);
+  }
+}
+
+// With the lengths in other units: 1 um.
+TEST(ShearOfCells, GivesTheSameStepToSmallBodies) {
+  const auto frequency = [](double size) {
+    const meshes::Mesh mesh =
+        meshes::box(tetrahedron, Vec3::Zero(), size * Vec3::Ones(), {2, 2, 2});
+    StaticBody body(mesh, "fvm", 0.45, Volumes::cells);
+    run::LargestRates<3> largest(body.body, 0);
+    return size * largest.frequency({0.3, 0.5, 0.1});
+  };
+  EXPECT_NEAR(frequency(1e-6) / frequency(1), 1, 1e-6);
+}
+
+// A beam of cells eight times as long as high, bent to half a wave. With all that cells have beside
+// their mean gradients it would hold twice the energy.
+TEST(ShearOfCells, LetsLongCellsBend) {
+  const double length = 128, k = std::numbers::pi / length, size = 1e-2;
+  const meshes::Mesh mesh =
+      meshes::box(quadrilateral, Vec3::Zero(), Vec3(length, 2, 0), {16, 2, 1});
+  StaticBodyIn<2> with(mesh, "fvm", 0.45, Volumes::cells),
+      without(mesh, "fvm", 0.45, Volumes::cells, 0);
+  Displacements u;
+  for (const Vec3& X : with.graph.X)
+    u.push_back({-size * k * std::cos(k * X[0]) * (X[1] - 1), size * std::sin(k * X[0]), 0});
+  EXPECT_NEAR(with.energy(u) / without.energy(u), 1, 0.1);
+}
+
+}  // namespace
+}  // namespace diptych
