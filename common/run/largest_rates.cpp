@@ -74,8 +74,7 @@ void LargestRates<Dim>::clear_stresses() {
 /// Stresses of the velocity gradients in the records, for c_p = 1 and rho_R = 1.
 template <int Dim>
 void LargestRates<Dim>::put_stresses(const ElasticRatios& ratios) {
-  const double mu = ratios.shear * ratios.shear - ratios.cell_shear,
-               lambda = 1 - 2 * ratios.shear * ratios.shear - ratios.cells + ratios.cell_shear;
+  const double mu = ratios.shear * ratios.shear, lambda = 1 - 2 * mu - ratios.cells;
   parallel::for_chunks(body_.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
     for (std::int64_t b = begin; b < end; ++b) {
       const auto L = scheme::velocity_gradient(body_, b);
@@ -85,7 +84,8 @@ void LargestRates<Dim>::put_stresses(const ElasticRatios& ratios) {
         trace += L(i, i);
       for (int i = 0; i < Dim; ++i) {
         for (int j = 0; j < Dim; ++j)
-          P(i, j) = mu * (L(i, j) + L(j, i)) + (i == j ? lambda * trace : Lanes{});
+          P(i, j) = mu * (L(i, j) + L(j, i)) - ratios.cell_shear * L(i, j) +
+                    (i == j ? lambda * trace : Lanes{});
       }
       if (kappa_f_ != 0) {
         algebra::put_tensor<Dim>(body_.stresses, b, 0, P);

@@ -62,7 +62,7 @@ SectionKeys<SchemeCase> scheme_keys() {
            {"-", between(0, 1),
             "Share of the shear modulus that gradients of cells carry instead of those of nodes, "
             "where their volumes carry the bulk pressure: what holds waves that nodes see badly. "
-            "What is left to the nodes is polyconvex up to 1 - zeta_ratio.",
+            "Less, by the square of their aspect, where cells are long.",
             "0"})
       .key("precision", &SchemeCase::precision,
            one_of(scheme::precision_menu().names(),

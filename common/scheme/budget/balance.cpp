@@ -70,8 +70,7 @@ Balance balance(const MaterialModel& material, const Body<Dim>& body) {
         add_momenta(body, begin, end, parts[c]);
         if (J.empty()) return;
         for (std::int64_t a = begin * n_lanes; a < std::min(end * n_lanes, body.n_owned); ++a)
-          parts[c].strain += body.bulk->reference(a) * (material.volumetric_energy(J[a]) -
-                                                        body.options.cell_shear * (J[a] - 1));
+          parts[c].strain += body.bulk->reference(a) * material.volumetric_energy(J[a]);
       });
   if (body.bulk) {
     std::vector<double> shear(parts.size());

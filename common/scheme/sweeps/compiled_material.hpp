@@ -174,12 +174,11 @@ DIPTYCH_INLINE void evaluate_block(const Model<Material>& model,
               algebra::put_S<Dim>(body.S, b, k * Layout::n_S, branch.S);
             }
           });
-  const double s = body.options.cell_shear;
-  if (body.bulk) response.Sigma_J -= model.material.volumetric_stress(X.J) - s;
+  if (body.bulk) response.Sigma_J -= model.material.volumetric_stress(X.J);
   Tensor<Lanes> P = physics::piola_stress<has_H>(response, X);
-  if (s != 0) {
+  if (const double s = body.options.cell_shear; s != 0) {
     for (int k = 0; k < Dim * Dim; ++k)
-      P(k / Dim, k % Dim) -= s * X.F(k / Dim, k % Dim);
+      P(k / Dim, k % Dim) -= s * (X.F(k / Dim, k % Dim) - (k / Dim == k % Dim ? 1.0 : 0.0));
   }
   if (__builtin_expect(!sound_after<Dim>(sweep, b, L, X.J, P, dissipation).all(), 0))
     totals.is_sound = false;
@@ -209,8 +208,10 @@ DIPTYCH_CLONES void add_energies_of(const Model<Material>& model,
     const Deformation<Lanes> X = load_deformation(body, b);
     Lanes W = model.material.energy(X);
     if (body.bulk) W -= model.material.volumetric_energy(X.J);
-    if (const double s = body.options.cell_shear; s != 0)
-      W -= s * (0.5 * (algebra::contract(X.F, X.F) - 3.0) - (X.J - 1.0));
+    if (const double s = body.options.cell_shear; s != 0) {
+      const Tensor<Lanes> grad_u = X.F - algebra::identity<Lanes>();
+      W -= 0.5 * s * algebra::contract(grad_u, grad_u);
+    }
     for (int k = 0; k < body.options.n_branches; ++k) {
       const auto branch = stored_branch<Dim, Material::has_H>(body, b, k);
       W += physics::branch_energy<Material::has_H>(model.branches[k], branch, X);

@@ -27,25 +27,53 @@ const meshes::ReferenceCell& reference_of(int dimension, std::int64_t n_corners)
 
 using CellMatrix = std::array<std::array<double, meshes::max_cell_nodes>, meshes::max_cell_nodes>;
 
-/// How much narrower than long a cell is, squared: of its mean Jacobian.
-double squared_aspect(algebra::Mat3 J, const meshes::ReferenceCell& cell) {
-  if (cell.n_nodes == 6) {  // its triangle is a right one, of half the size of the squares
-    algebra::Mat3 regular = algebra::Mat3::Identity();
-    regular(0, 1) = 0.5;
-    regular(1, 1) = std::sqrt(0.75);
-    regular(2, 2) = 0.5;
-    J = J * regular.inverse();
+using Gradients = std::array<Vec3, meshes::max_cell_nodes>;
+
+/// use(volume, gradients of the shape functions) at the points of a rule.
+template <class Use>
+void for_points(std::span<const std::int32_t> corners,
+                const std::vector<Vec3>& X,
+                const meshes::ReferenceCell& cell,
+                const std::vector<meshes::QuadraturePoint>& rule,
+                const Use& use) {
+  Gradients gradient;
+  for (const meshes::QuadraturePoint& point : rule) {
+    const algebra::Mat3 jacobian = meshes::jacobian(cell, point, corners, X);
+    const algebra::Mat3 to_space = jacobian.inverse().transpose();
+    for (size_t k = 0; k < corners.size(); ++k)
+      gradient[k] = to_space * point.dN[k];
+    use(point.weight * jacobian.determinant(), gradient);
   }
-  const auto d = cell.dimension;
-  const Eigen::MatrixXd squares = J.topLeftCorner(d, d).transpose() * J.topLeftCorner(d, d);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(squares, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0] / solver.eigenvalues()[d - 1];
 }
 
-/// k_ab of notes 3.11: -int grad N_a . grad N_b dV of the corners a, b of a cell. Of what is left
-/// of it beside the mean gradients, which holds the modes in which a cell has none, cells that are
-/// longer than they are wide count less: all of it would be too stiff in bending by the square of
-/// that ratio.
+/// Volume and mean gradients by a rule.
+double put_mean(std::span<const std::int32_t> corners,
+                const std::vector<Vec3>& X,
+                const meshes::ReferenceCell& cell,
+                const std::vector<meshes::QuadraturePoint>& rule,
+                Gradients& mean) {
+  double total = 0;
+  mean.fill(Vec3::Zero());
+  for_points(corners, X, cell, rule, [&](double volume, const Gradients& gradient) {
+    total += volume;
+    for (size_t k = 0; k < corners.size(); ++k)
+      mean[k] += volume * gradient[k];
+  });
+  for (Vec3& g : mean)
+    g /= total;
+  return total;
+}
+
+/// matrix -= volume a_k . a_q of all corners k, q.
+void subtract_products(double volume, const Gradients& a, size_t n, CellMatrix& matrix) {
+  for (size_t k = 0; k < n; ++k) {
+    for (size_t q = 0; q < n; ++q)
+      matrix[k][q] -= volume * a[k].dot(a[q]);
+  }
+}
+
+/// k_ab of notes 3.11 of the corners a, b of a cell: of the mean gradients, which are exact so that
+/// neighbours close, and, by the vertex rule, of what gradients differ from their mean.
 void put_matrix_of_cell(std::span<const std::int32_t> corners,
                         const std::vector<Vec3>& X,
                         int dimension,
@@ -54,33 +82,39 @@ void put_matrix_of_cell(std::span<const std::int32_t> corners,
   const auto n = corners.size();
   for (auto& row : matrix)
     row.fill(0);
-  std::array<Vec3, meshes::max_cell_nodes> gradient, mean;
-  mean.fill(Vec3::Zero());
-  algebra::Mat3 mean_jacobian = algebra::Mat3::Zero();
-  double total = 0;
-  for (const meshes::QuadraturePoint& point : cell.exact) {
-    const algebra::Mat3 jacobian = meshes::jacobian(cell, point, corners, X);
-    const algebra::Mat3 to_space = jacobian.inverse().transpose();
-    const double volume = point.weight * jacobian.determinant();
-    for (size_t k = 0; k < n; ++k) {
-      gradient[k] = to_space * point.dN[k];
-      mean[k] += volume * gradient[k];
-    }
-    for (size_t a = 0; a < n; ++a) {
-      for (size_t b = 0; b < n; ++b)
-        matrix[a][b] -= volume * gradient[a].dot(gradient[b]);
-    }
-    mean_jacobian += jacobian / static_cast<double>(cell.exact.size());
-    total += volume;
-  }
+  Gradients mean;
+  const double volume = put_mean(corners, X, cell, cell.exact, mean);
+  subtract_products(volume, mean, n, matrix);
   if (cell.exact.size() == 1) return;  // simplices have one gradient
-  const double aspect = squared_aspect(mean_jacobian, cell);
-  for (size_t a = 0; a < n; ++a) {
-    for (size_t b = 0; b < n; ++b) {
-      const double of_mean = -mean[a].dot(mean[b]) / total;
-      matrix[a][b] = of_mean + aspect * (matrix[a][b] - of_mean);
-    }
+  put_mean(corners, X, cell, cell.vertex, mean);
+  for_points(corners, X, cell, cell.vertex, [&](double part, Gradients gradient) {
+    for (size_t k = 0; k < n; ++k)
+      gradient[k] -= mean[k];
+    subtract_products(part, gradient, n, matrix);
+  });
+}
+
+/// J J^T of the mean Jacobian of a cell, from a reference cell that is regular.
+algebra::Mat3 squares_of(std::span<const std::int32_t> corners,
+                         const std::vector<Vec3>& X,
+                         const meshes::ReferenceCell& cell) {
+  algebra::Mat3 J = algebra::Mat3::Zero();
+  for (const meshes::QuadraturePoint& point : cell.vertex)
+    J += meshes::jacobian(cell, point, corners, X) / static_cast<double>(cell.vertex.size());
+  if (cell.n_nodes == 6) {  // its triangle is a right one, of half the size of the squares
+    algebra::Mat3 regular = algebra::Mat3::Identity();
+    regular(0, 1) = 0.5;
+    regular(1, 1) = std::sqrt(0.75);
+    regular(2, 2) = 0.5;
+    J = J * regular.inverse();
   }
+  return J * J.transpose();
+}
+
+std::span<const std::int32_t> corners_of(const VolumeCells& cells, std::int64_t c) {
+  return std::span(cells.corner)
+      .subspan(static_cast<size_t>(cells.row[c]),
+               static_cast<size_t>(cells.row[c + 1] - cells.row[c]));
 }
 
 /// The cells around each node, ascending.
@@ -130,9 +164,10 @@ struct Rows {
   const std::int64_t* first;
   const std::int32_t* neighbour;
   const double* weight;
+  const double* at_rest;  ///< [n_nodes][4], taken from the sums; null: nothing is
 };
 
-/// force += s sum_b k_ab (from_b - from_a) of nodes [begin, end).
+/// force += s (sum_b k_ab (from_b - from_a) - at_rest_a) of nodes [begin, end).
 DIPTYCH_CLONES void add_rows(const Rows& rows,
                              const double* from,
                              double s,
@@ -144,6 +179,7 @@ DIPTYCH_CLONES void add_rows(const Rows& rows,
     Four sum{};
     for (std::int64_t k = rows.first[a]; k < rows.first[a + 1]; ++k)
       sum += rows.weight[k] * (algebra::load_four(from + stride * rows.neighbour[k]) - own);
+    if (rows.at_rest != nullptr) sum -= algebra::load_four(rows.at_rest + stride * a);
     const Four total = algebra::load_four(force + stride * a) + s * sum;
     __builtin_memcpy(force + stride * a, &total, sizeof total);
   }
@@ -151,18 +187,29 @@ DIPTYCH_CLONES void add_rows(const Rows& rows,
 
 }  // namespace
 
-CellLaplacian::CellLaplacian(const VolumeCells& cells, const std::vector<Vec3>& X, int dimension) {
+double squared_aspect(const VolumeCells& cells, const std::vector<Vec3>& X, int dimension) {
+  algebra::Mat3 sum = algebra::Mat3::Zero();
+  for (std::int64_t c = 0; c < cells.n_cells(); ++c) {
+    const auto corners = corners_of(cells, c);
+    const meshes::ReferenceCell& cell = reference_of(dimension, std::ssize(corners));
+    if (cell.n_nodes == dimension + 1) return 1;
+    sum += squares_of(corners, X, cell);
+  }
+  const Eigen::MatrixXd squares = sum.topLeftCorner(dimension, dimension);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(squares, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[0] / solver.eigenvalues()[dimension - 1];
+}
+
+CellLaplacian::CellLaplacian(const VolumeCells& cells,
+                             const std::vector<Vec3>& X,
+                             int dimension,
+                             const Array& x) {
   const auto n_nodes = static_cast<std::int64_t>(X.size());
   const Around around = cells_around(cells, n_nodes);
-  const auto corners_of = [&](std::int64_t c) {
-    return std::span(cells.corner)
-        .subspan(static_cast<size_t>(cells.row[c]),
-                 static_cast<size_t>(cells.row[c + 1] - cells.row[c]));
-  };
   const auto put_neighbours = [&](std::int64_t a, std::vector<std::int32_t>& row) {
     row.clear();
     for (std::int64_t k = around.row[a]; k < around.row[a + 1]; ++k) {
-      const auto corners = corners_of(around.cell[k]);
+      const auto corners = corners_of(cells, around.cell[k]);
       row.insert(row.end(), corners.begin(), corners.end());
     }
     std::sort(row.begin(), row.end());
@@ -189,7 +236,7 @@ CellLaplacian::CellLaplacian(const VolumeCells& cells, const std::vector<Vec3>& 
     }
     CellMatrix matrix;
     for (const std::int32_t c : cells_of_range(around, begin, end)) {
-      const auto corners = corners_of(c);
+      const auto corners = corners_of(cells, c);
       put_matrix_of_cell(corners, X, dimension, matrix);
       for (size_t k = 0; k < corners.size(); ++k) {
         const std::int32_t a = corners[k];
@@ -202,18 +249,27 @@ CellLaplacian::CellLaplacian(const VolumeCells& cells, const std::vector<Vec3>& 
       }
     }
   });
+  at_rest_ = Array(x.size());
+  add_linear_forces(x, 1, 0, n_nodes, at_rest_);
 }
 
 std::int64_t CellLaplacian::bytes() const {
   const auto of = [](const auto& v) {
     return static_cast<std::int64_t>(v.size() * sizeof(v.front()));
   };
-  return of(row_) + of(neighbour_) + of(weight_);
+  return of(row_) + of(neighbour_) + of(weight_) + at_rest_.bytes();
+}
+
+void CellLaplacian::add_linear_forces(
+    const Array& u, double s, std::int64_t begin, std::int64_t end, Array& force) const {
+  add_rows({row_.data(), neighbour_.data(), weight_.data(), nullptr}, u.data(), s, begin, end,
+           force.data());
 }
 
 void CellLaplacian::add_forces(
     const Array& x, double s, std::int64_t begin, std::int64_t end, Array& force) const {
-  add_rows({row_.data(), neighbour_.data(), weight_.data()}, x.data(), s, begin, end, force.data());
+  add_rows({row_.data(), neighbour_.data(), weight_.data(), at_rest_.data()}, x.data(), s, begin,
+           end, force.data());
 }
 
 double CellLaplacian::energy(const Array& x,
@@ -227,12 +283,12 @@ double CellLaplacian::energy(const Array& x,
     for (std::int64_t k = row_[a]; k < row_[a + 1]; ++k) {
       const std::int64_t b = neighbour_[k];
       const double* other = x.data() + b * stride;
-      double change = 0;  // of |x_b - x_a|^2
+      double u_u = 0;
       for (int i = 0; i < 3; ++i) {
-        const double x_ab = other[i] - own[i], X_ab = X[b][i] - X[a][i];
-        change += (x_ab - X_ab) * (x_ab + X_ab);
+        const double u = other[i] - own[i] - (X[b][i] - X[a][i]);
+        u_u += u * u;
       }
-      sum += weight_[k] * change;
+      sum += weight_[k] * u_u;
     }
   }
   return 0.25 * s * sum;

@@ -1,14 +1,14 @@
 #pragma once
 /// Part of the shear energy by gradients of cells instead of those of nodes (notes 3.11):
-///   E = s (sum_c int_c 1/2 (|grad x|^2 - 3) - (det grad x - 1) dV
-///          - sum_a Omega_a (1/2 (|F_a|^2 - 3) - (J_a - 1))),
-/// grad x that of the shape functions of the cells. It is zero in affine motions; what it holds are
-/// waves that nodal F sees badly. Here the first term: its forces are
-///   T_a = s sum_b k_ab (x_b - x_a),
-/// linear in the positions, so momentum and angular momentum are kept; k_ab is -int grad N_a .
-/// grad N_b dV, but of long cells less of what that has beside the mean gradients. The determinant
-/// is that of the volumes of cells, the second sum is in the stress of the nodes. Test:
-/// tests/common/scheme/volumes_test.cpp
+///   E = s/2 (sum_c int_c |grad u|^2 dV - sum_a Omega_a |F_a - I|^2),
+/// grad u that of the shape functions of the cells, integrated by the vertex rule. It is zero in
+/// affine motions and not negative where F_a is a mean of the gradients around a; what it holds are
+/// waves that nodal F sees badly. Here the first term: with k_ab = -int grad N_a . grad N_b dV its
+/// forces are
+///   T_a = s sum_b k_ab (u_b - u_a),
+/// linear in the positions; the second is -s (F - I) in the stress of the nodes. Momentum is kept,
+/// and angular momentum by both together, as the areas of boundary nodes are those of cells. Test:
+/// tests/common/scheme/cell_shear_test.cpp
 
 #include "common/algebra/field.hpp"
 #include "common/algebra/vectors.hpp"
@@ -19,24 +19,35 @@
 
 namespace diptych::scheme {
 
+/// How much narrower than long cells are, squared, in the mean over a body; one of simplices, which
+/// have no such modes. A body whose cells are long bends, with all of s, as if it were stiffer by
+/// its square.
+double squared_aspect(const VolumeCells& cells, const std::vector<algebra::Vec3>& X, int dimension);
+
 class CellLaplacian {
  public:
   using Array = algebra::AlignedArray<double>;
 
   CellLaplacian() = default;
   /// @param X  [n_nodes] m, reference positions
-  CellLaplacian(const VolumeCells& cells, const std::vector<algebra::Vec3>& X, int dimension);
+  /// @param x  [n_nodes, padded][4] m, the same
+  CellLaplacian(const VolumeCells& cells,
+                const std::vector<algebra::Vec3>& X,
+                int dimension,
+                const Array& x);
 
   bool empty() const { return neighbour_.empty(); }
   std::int64_t bytes() const;
 
-  /// Adds s sum_b k_ab (x_b - x_a) to the forces of nodes [begin, end).
+  /// Adds s sum_b k_ab (u_b - u_a) to the forces of nodes [begin, end).
   /// @param x      [n_nodes, padded][4] m, deformed positions
   /// @param force  [n_nodes, padded][4] N
   void add_forces(
       const Array& x, double s, std::int64_t begin, std::int64_t end, Array& force) const;
-  /// s/2 times those halves of int |grad x|^2 - |grad X|^2 dV that belong to nodes [begin, end)
-  /// [J]
+  /// The same of displacements, which here are given.  @param u  [n_nodes, padded][4] m
+  void add_linear_forces(
+      const Array& u, double s, std::int64_t begin, std::int64_t end, Array& force) const;
+  /// s/2 times those halves of int |grad u|^2 dV that belong to nodes [begin, end)  [J]
   double energy(const Array& x,
                 const std::vector<algebra::Vec3>& X,
                 double s,
@@ -47,6 +58,7 @@ class CellLaplacian {
   std::vector<std::int64_t> row_;        ///< [n_nodes + 1]
   std::vector<std::int32_t> neighbour_;  ///< row after row, ascending
   std::vector<double> weight_;           ///< m^(Dim-2), k_ab
+  Array at_rest_;                        ///< [n_nodes, padded][4] m^(Dim-1), sum_b k_ab X_ab
 };
 
 }  // namespace diptych::scheme

@@ -177,7 +177,7 @@ CellVolumes<Dim>::CellVolumes(const VolumeCells& cells,
   put_ratios(parallel::Part(), of_cells_, around_.weight);
   for (std::int64_t a = 0; a < n_nodes(); ++a)
     inverse_V_0_[a] = 1 / V_0_[a];
-  if (with_shear) laplacian_ = CellLaplacian(cells, X, Dim);
+  if (with_shear) laplacian_ = CellLaplacian(cells, X, Dim, x_);
 }
 
 template <int Dim>
@@ -281,8 +281,6 @@ void CellVolumes<Dim>::add_forces(Body<Dim>& body, const MaterialModel& material
       body.part(), body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
         const std::int64_t first = begin * n_lanes, last = std::min(end * n_lanes, n_nodes());
         material.put_volumetric_stresses(&pressure_[first], last - first);
-        for (std::int64_t a = first; a < last; ++a)
-          pressure_[a] -= body.options.cell_shear;
       });
   sharpen(body, pressure_, of_cells_);
   put_forces(body);
@@ -320,30 +318,12 @@ void CellVolumes<Dim>::add_linear_forces(Body<Dim>& body, double modulus, double
     pressure_[a] *= modulus;
   sharpen(body, pressure_, of_cells_);
   put_forces(body);
-  this->add_rows(body);
-  if (shear == 0) return;
-  // a pressure -s in volumes whose gradients are quadratic in x: differences are their derivatives,
-  // over moves of the size of a cell, so that no digits are lost
-  double largest = 0;
-  for (std::int64_t k = 0; k < rate.size(); ++k)
-    largest = std::max(largest, std::abs(rate[k]));
-  if (largest == 0) return;
-  const double scale = std::pow(V_0_[0], 1.0 / Dim) / largest;
-  for (const double side : {1.0, -1.0}) {
+  if (shear != 0) {
     for_nodes(body, [&](auto begin, auto end, auto) {
-      for (std::int64_t k = begin * stride; k < end * stride; ++k)
-        x_[k] += (side > 0 ? scale : -2 * scale) * rate[k];
-      for (std::int64_t a = begin; a < end; ++a)
-        pressure_[a] = -0.5 * side * shear / scale;
+      laplacian_.add_linear_forces(rate, shear, begin, end, force_);
     });
-    put_forces(body);
-    if (side < 0) {
-      for_nodes(body, [&](auto begin, auto end, auto) {
-        laplacian_.add_forces(rate, shear, begin, end, force_);
-      });
-    }
-    this->add_rows(body);
   }
+  this->add_rows(body);
 }
 
 template <int Dim>

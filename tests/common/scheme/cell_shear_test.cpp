@@ -1,6 +1,7 @@
 /// Gradients of cells that carry a part of the shear beside volumes of cells (notes 3.11).
 
 #include "common/run/largest_rates.hpp"
+#include "common/scheme/volumes/cell_laplacian.hpp"
 #include "tests/common/scheme/static_body.hpp"
 
 #include <gtest/gtest.h>
@@ -164,18 +165,42 @@ TEST(ShearOfCells, GivesTheSameStepToSmallBodies) {
   EXPECT_NEAR(frequency(1e-6) / frequency(1), 1, 1e-6);
 }
 
-// A beam of cells eight times as long as high, bent to half a wave. With all that cells have beside
-// their mean gradients it would hold twice the energy.
-TEST(ShearOfCells, LetsLongCellsBend) {
-  const double length = 128, k = std::numbers::pi / length, size = 1e-2;
-  const meshes::Mesh mesh =
-      meshes::box(quadrilateral, Vec3::Zero(), Vec3(length, 2, 0), {16, 2, 1});
-  StaticBodyIn<2> with(mesh, "fvm", 0.45, Volumes::cells),
-      without(mesh, "fvm", 0.45, Volumes::cells, 0);
-  Displacements u;
-  for (const Vec3& X : with.graph.X)
-    u.push_back({-size * k * std::cos(k * X[0]) * (X[1] - 1), size * std::sin(k * X[0]), 0});
-  EXPECT_NEAR(with.energy(u) / without.energy(u), 1, 0.1);
+class LongCells : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(All,
+                         LongCells,
+                         testing::Values(Kind{hexahedron, 0, "fvm", {4, 2, 2}},
+                                         Kind{hexahedron, 0.2, "fvm", {4, 2, 2}},
+                                         Kind{hexahedron, 0, "sph", {4, 2, 2}},
+                                         Kind{hexahedron, 0, "fvm", {3, 3, 1}},
+                                         Kind{hexahedron, 0, "sph", {3, 3, 1}},
+                                         Kind{prism, 0, "fvm", {2, 2, 3}},
+                                         Kind{tetrahedron, 0.1, "fvm", {3, 2, 2}}));
+
+// However long cells are, what they carry of the shear takes no stiffness from a body at rest: with
+// all of the modulus, whatever the aspect gives them of it.
+TEST_P(LongCells, AreNoSofterWithShearOfCells) {
+  const Kind& kind = GetParam();
+  const bool is_sph = kind.method == std::string("sph");  // whose supports go by the volume
+  for (const double aspect : {1.0, is_sph ? 1.5 : 4.0, is_sph ? 2.0 : 10.0}) {
+    meshes::Mesh mesh = block(kind.type, kind.moved, kind.cells);
+    for (Vec3& X : mesh.nodes)
+      X[0] *= aspect;
+    StaticBody with(mesh, kind.method, 0.45, Volumes::cells, 1);
+    StaticBody without(mesh, kind.method, 0.45, Volumes::cells, 0);
+    EXPECT_GT(least_stiffness(with, 1, Support::none),
+              least_stiffness(without, 1, Support::none) * (1 - 1e-3))
+        << aspect;
+  }
+}
+
+TEST(ShearOfCells, CountsLessWhereCellsAreLong) {
+  const auto aspect = [](meshes::CellType type, const Vec3& size, const Cells& cells) {
+    StaticBody body(meshes::box(type, Vec3::Zero(), size, cells), "fvm", 0.45, Volumes::cells);
+    return scheme::squared_aspect(body.graph.cells, body.graph.X, 3);
+  };
+  EXPECT_NEAR(aspect(hexahedron, {1, 1, 1}, {3, 3, 3}), 1, 1e-12);
+  EXPECT_NEAR(aspect(hexahedron, {4, 1, 1}, {3, 3, 3}), 1.0 / 16, 1e-12);
+  EXPECT_NEAR(aspect(tetrahedron, {4, 1, 1}, {3, 3, 3}), 1, 1e-12);
 }
 
 }  // namespace
