@@ -67,6 +67,8 @@ std::vector<Option> options() {
   const std::vector<std::string> mooney{"material.model=mooney-rivlin", "material.zeta_ratio=0.5"};
   const std::vector<std::string> leapfrog{"time.integrator=leapfrog"};
   constexpr int between_copies = time::StepBegin<3>::period;  // of what a step begins with
+  const std::vector<std::string> second{"sph.gradient=corrected", "fvm.stencil=edge"},
+      cells{"scheme.volumes=cells"};
   const auto with = [](std::vector<std::string> all, const std::string& more) {
     all.push_back(more);
     return all;
@@ -88,6 +90,9 @@ std::vector<Option> options() {
       {"face correction, on reconstruction",
        "reconstruction",
        {linear, "scheme.face_correction=1/6"}},
+      {"second order", "", second},
+      {"volumes of cells, on second order", "second order", with(cells, "scheme.cell_shear=0")},
+      {"shear of cells, on volumes of cells", "volumes of cells, on second order", cells},
       {"single precision, on reconstruction",
        "reconstruction",
        {linear, "scheme.precision=single"}},

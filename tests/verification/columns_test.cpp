@@ -157,7 +157,7 @@ INSTANTIATE_TEST_SUITE_P(
                     0},
         Expectation{"twisting, SPH, sbp, lines", &twisting, "sph", {}, 0.084, 0},
         Expectation{
-            "twisting, SPH, corrected", &twisting, "sph", {"sph.gradient=corrected"}, 1.8, 1},
+            "twisting, SPH, corrected", &twisting, "sph", {"sph.gradient=corrected"}, 0.175, 0.1},
         Expectation{"twisting, FVM, edge", &twisting, "fvm", {"fvm.stencil=edge"}, 0.164, 0.09}));
 
 }  // namespace
