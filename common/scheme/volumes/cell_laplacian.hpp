@@ -36,7 +36,6 @@ class CellLaplacian {
                 int dimension,
                 const Array& x);
 
-  bool empty() const { return neighbour_.empty(); }
   std::int64_t bytes() const;
 
   /// Adds s sum_b k_ab (u_b - u_a) to the forces of nodes [begin, end).

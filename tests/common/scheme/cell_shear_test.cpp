@@ -91,19 +91,7 @@ TEST_P(PlaneCells, ForceIsTheDerivativeOfTheEnergy) {
   auto body = body_with(0.5);
   const Displacements u = noisy_in_plane(affine(body.graph, sheared_in_plane()), 0.02);
   const Displacements direction = noisy_in_plane(Displacements(u.size(), Vec3::Zero()), 1);
-  const auto T = body.forces(u);
-  double expected = 0;
-  for (size_t a = 0; a < u.size(); ++a)
-    expected -= T[a].dot(direction[a]);
-  const auto energy = [&](double step) {
-    Displacements moved = u;
-    for (size_t a = 0; a < u.size(); ++a)
-      moved[a] += step * direction[a];
-    return body.energy(moved);
-  };
-  const double h = 1e-5;
-  const double slope = (8 * (energy(h) - energy(-h)) - (energy(2 * h) - energy(-2 * h))) / (12 * h);
-  EXPECT_NEAR(slope, expected, 1e-8 * std::abs(expected));
+  expect_derivative_of_energy(body, u, direction);
 }
 
 /// Largest eigenvalue of the second variation of the energy at rest over the nodal volumes.

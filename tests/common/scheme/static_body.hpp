@@ -8,6 +8,8 @@
 #include "sph/sph_graph.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
+#include <gtest/gtest.h>
+
 #include <random>
 
 namespace diptych::tests {
@@ -167,6 +169,26 @@ struct Kind {
 inline void PrintTo(const Kind& kind, std::ostream* out) {
   *out << kind.method << ", type " << static_cast<int>(kind.type) << ", moved " << kind.moved;
 }
+/// The force is the derivative of the energy: -dE = sum T . du for any small change.
+template <int Dim>
+void expect_derivative_of_energy(StaticBodyIn<Dim>& body,
+                                 const Displacements& u,
+                                 const Displacements& direction) {
+  const auto T = body.forces(u);
+  double expected = 0;
+  for (size_t a = 0; a < u.size(); ++a)
+    expected -= T[a].dot(direction[a]);
+  const auto energy = [&](double step) {
+    Displacements moved = u;
+    for (size_t a = 0; a < u.size(); ++a)
+      moved[a] += step * direction[a];
+    return body.energy(moved);
+  };
+  const double h = 1e-5;
+  const double slope = (8 * (energy(h) - energy(-h)) - (energy(2 * h) - energy(-2 * h))) / (12 * h);
+  EXPECT_NEAR(slope, expected, 1e-8 * std::abs(expected));
+}
+
 enum class Support { rollers, none };
 
 /// Least eigenvalue of the second variation of the energy over the nodal volumes, with the sides
