@@ -1,6 +1,7 @@
 #include "fvm/sbp_cells_graph.hpp"
 
 #include "common/closure/summation_by_parts.hpp"
+#include "common/scheme/graph/equal_widths.hpp"
 #include "fvm/cell_stencil.hpp"
 #include "meshes/quadratic_measure.hpp"
 
@@ -82,9 +83,7 @@ std::vector<double> weights_of(const meshes::Mesh& mesh, const scheme::PairGraph
   return k;
 }
 
-}  // namespace
-
-scheme::PairGraph sbp_graph_of_cells(const meshes::Mesh& mesh) {
+scheme::PairGraph graph_by_distances(const meshes::Mesh& mesh) {
   scheme::PairGraph graph;
   graph.dimension = mesh.dimension;
   graph.X = mesh.nodes;
@@ -104,6 +103,12 @@ scheme::PairGraph sbp_graph_of_cells(const meshes::Mesh& mesh) {
   closure::make_sum_by_parts(graph, weights_of(mesh, graph));
   validate(graph);
   return graph;
+}
+
+}  // namespace
+
+scheme::PairGraph sbp_graph_of_cells(const meshes::Mesh& mesh) {
+  return scheme::on_equal_widths(mesh, graph_by_distances);
 }
 
 }  // namespace diptych::fvm

@@ -22,8 +22,9 @@ constexpr double least_spread = 1e-6;
       "particle {} at ({:.6g}, {:.6g}, {:.6g}) has {}; a corrected gradient needs at least {} that "
       "do not lie in a {}: raise sph.kappa (to 4 at most; triangles and tetrahedra want 0.8 or "
       "more), "
-      "or, where cells are flat, give them about equal sides, as supports go by their volume; "
-      "finite volumes take flat cells",
+      "or, where cells are of different shapes, give them about equal sides, as supports go by "
+      "their "
+      "volume; finite volumes take flat cells",
       a, X[0], X[1], X[2], what, graph.dimension + 1, graph.dimension == 3 ? "plane" : "line"));
 }
 

@@ -6,6 +6,7 @@
 #include "common/closure/closure_repair.hpp"
 #include "common/closure/summation_by_parts.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/scheme/graph/equal_widths.hpp"
 #include "meshes/cell_shares.hpp"
 #include "meshes/dual_measure.hpp"
 #include "meshes/quadratic_measure.hpp"
@@ -50,6 +51,7 @@ std::vector<double> smoothing_lengths(const meshes::Mesh& mesh,
 void set_measure(meshes::DualMeasure measure, scheme::PairGraph& graph) {
   graph.Omega = std::move(measure.Omega);
   graph.boundary_area = std::move(measure.boundary_area);
+  graph.patches.clear();
   for (meshes::PatchArea& patch : measure.patches) {
     graph.patches.push_back({std::move(patch.name), std::move(patch.nodes), std::move(patch.area),
                              std::move(patch.faces)});
@@ -111,8 +113,10 @@ void repair_closure(const Kernel& kernel, const std::vector<double>& h, scheme::
   closure::repair_closure_pairs(graph, weights_of(kernel, h, graph));
 }
 
-/// On any nodes.
-scheme::PairGraph graph_of(const meshes::Mesh& mesh, const Options& options, bool sums_by_parts) {
+/// By round supports.
+scheme::PairGraph round_graph_of(const meshes::Mesh& mesh,
+                                 const Options& options,
+                                 bool sums_by_parts) {
   const Kernel kernel = kernels().at(options.kernel);
   const meshes::DualMeasure by_vertices = meshes::dual_measure(mesh, meshes::Quadrature::vertex);
   const std::vector<double> h = smoothing_lengths(mesh, by_vertices.Omega, options.kappa);
@@ -139,6 +143,16 @@ scheme::PairGraph graph_of(const meshes::Mesh& mesh, const Options& options, boo
     graph.cells = {std::move(cells.row), std::move(cells.corner), std::move(cells.share)};
   }
   validate(graph);
+  return graph;
+}
+
+/// On any nodes; supports are ellipsoids where cells are long.
+scheme::PairGraph graph_of(const meshes::Mesh& mesh, const Options& options, bool sums_by_parts) {
+  scheme::PairGraph graph = scheme::on_equal_widths(mesh, [&](const meshes::Mesh& equal_widths) {
+    return round_graph_of(equal_widths, options, sums_by_parts);
+  });
+  // the bits of finite volumes
+  if (!sums_by_parts) set_measure(meshes::dual_measure(mesh, meshes::Quadrature::vertex), graph);
   return graph;
 }
 

@@ -25,7 +25,9 @@ struct Options {
 const std::vector<std::string>& gradient_names();
 
 /// Pairs are those with |X_b - X_a| < support (h_a + h_b)/2, W_ab = W(|X_b - X_a|, (h_a + h_b)/2):
-/// symmetric. Off boxes those across gaps and cracks are dropped (gaps.hpp).
+/// symmetric. Where cells are long in the mean, they are so for the nodes stretched to
+/// cells of equal widths (scheme::on_equal_widths). Off boxes those across gaps and cracks
+/// are dropped (gaps.hpp).
 /// @throws base::InputError on an unknown kernel, kappa out of range, a particle with too few
 ///         (non-coplanar) neighbours: names it and its place; where sbp was asked for and the nodes
 ///         do not go with it

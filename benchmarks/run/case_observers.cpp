@@ -66,7 +66,10 @@ CaseObservers::CaseObservers(const cases::Case& setup,
       energy_guard_(
           scene.solver->balance(), setup.guards.energy_residual, largest_loss(setup), units_),
       involution_guard_(*scene.solver, setup.guards.involution),
-      momentum_guard_(scene.solver->balance(), setup.guards.angular_drift, units_.rounding) {
+      momentum_guard_(scene.solver->balance(),
+                      run::is_held(setup),
+                      setup.guards.angular_drift,
+                      units_.rounding) {
   if (options.scales) scales_.emplace(scene.graph);
   if (options.shapes)
     shapes_.emplace(scene.mesh.mesh, static_cast<size_t>(setup.output.frames) + 1);

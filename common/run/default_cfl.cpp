@@ -120,7 +120,7 @@ double default_cfl(const cases::Case& setup,
   scheme::BodyOptions options;
   options.face_correction = setup.scheme.face_correction != 0;
   options.volumes = volumes_of(setup, graph);
-  options.cell_shear = cell_shear_of(setup, graph, options.volumes);
+  options.cell_shear = cell_shear_of(setup, options.volumes);
   options.has_moments = is_symmetric(setup);
   const auto material = model_menu().at(setup.material.model).model(setup.material);
   const double rate = scheme::geometric_rate(graph);

@@ -26,6 +26,14 @@ double volume_of(const scheme::PairGraph& graph) {
 
 }  // namespace
 
+bool is_held(const cases::Case& setup) {
+  using enum scheme::BoundaryKind::Acts;
+  return std::any_of(setup.boundaries.begin(), setup.boundaries.end(), [](const auto& boundary) {
+    const auto acts = scheme::boundary_menu().at(boundary.type).acts;
+    return acts == constrain || acts == hold;
+  });
+}
+
 EnergyUnits EnergyBasis::at(const scheme::Balance& initial) const {
   EnergyUnits units{rounding};
   if (free_mass == 0) return units;

@@ -17,6 +17,9 @@ struct EnergyUnits {
   double carried = 0;
 };
 
+/// Whether supports hold the body: components of velocities are prescribed.
+bool is_held(const cases::Case& setup);
+
 /// What is known of them before the state is.
 struct EnergyBasis {
   double rounding = 0;   ///< J, of a body in place

@@ -157,7 +157,7 @@ scheme::BodyOptions body_options_of(const cases::Case& setup,
   options.keeps_L_0 = integrator.gauss_relaxation && n_branches > 0;
   options.face_correction = setup.scheme.face_correction != 0;
   options.volumes = volumes_of(setup, graph);
-  options.cell_shear = cell_shear_of(setup, graph, options.volumes);
+  options.cell_shear = cell_shear_of(setup, options.volumes);
   return options;
 }
 
@@ -294,12 +294,9 @@ scheme::Volumes volumes_of(const cases::Case& setup, const scheme::PairGraph& gr
   return asked;
 }
 
-double cell_shear_of(const cases::Case& setup,
-                     const scheme::PairGraph& graph,
-                     scheme::Volumes volumes) {
-  if (volumes != scheme::Volumes::cells || setup.scheme.cell_shear == 0) return 0;
-  return setup.scheme.cell_shear * setup.material.shear_modulus *
-         scheme::squared_aspect(graph.cells, graph.X, graph.dimension);
+double cell_shear_of(const cases::Case& setup, scheme::Volumes volumes) {
+  return volumes == scheme::Volumes::cells ? setup.scheme.cell_shear * setup.material.shear_modulus
+                                           : 0;
 }
 
 std::unique_ptr<Solver> make_solver(const cases::Case& setup, const scheme::PairGraph& graph) {

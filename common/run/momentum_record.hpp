@@ -38,6 +38,8 @@ class MomentumRecord {
   double linear_drift() const { return linear_drift_; }
   /// The same of |x||p|, x from the initial centroid.
   double angular_drift() const { return angular_drift_; }
+  /// That sum  [N m s]
+  double angular_scale() const { return angular_scale_; }
 
   /// @param group  of the archive, without "/" at its end
   void archive(const std::string& group, algebra::Archive& archive) {

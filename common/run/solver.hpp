@@ -116,10 +116,8 @@ bool has_line_slopes(const cases::Case& setup, const scheme::PairGraph& graph);
 bool is_symmetric(const cases::Case& setup);
 
 /// What gradients of cells carry of the shear modulus of a body with these volumes: the part that
-/// scheme.cell_shear asks for, less where cells are long (scheme::squared_aspect).  [Pa]
-double cell_shear_of(const cases::Case& setup,
-                     const scheme::PairGraph& graph,
-                     scheme::Volumes volumes);
+/// scheme.cell_shear asks for.  [Pa]
+double cell_shear_of(const cases::Case& setup, scheme::Volumes volumes);
 
 /// What carries the pressure of this case on this graph (scheme.volumes), never "automatic".
 /// @pre graph comes from the program's method menu: its lines and cells are left out where "auto"

@@ -78,8 +78,11 @@ TEST(SphGraph, NamesAParticleWithTooFewNeighbours) {
   EXPECT_THAT(refusal(test_box(CellType::hexahedron, 3, 0), narrow),
               testing::AllOf(testing::HasSubstr("particle 0 at (-0.5, 0.1, 0)"),
                              testing::HasSubstr("neighbours")));
-  narrow.kappa = 0.8;  // one sheet of particles on either side, further apart than the support
-  const meshes::Mesh slab = meshes::box(CellType::hexahedron, {0, 0, 0}, {6, 6, 9}, {6, 6, 1});
+  narrow.kappa = 1.5;  // one sheet of particles, further from the others than its support
+  meshes::Mesh slab = meshes::box(CellType::hexahedron, {0, 0, 0}, {6, 6, 81}, {6, 6, 81});
+  for (algebra::Vec3& X :
+       slab.nodes)  // the other cells are so thin that they are cubes in the mean
+    X[2] = X[2] == 0 ? -9 : X[2] / 9;
   EXPECT_THAT(refusal(slab, narrow), testing::HasSubstr("plane"));
 }
 

@@ -40,7 +40,10 @@ SectionEntry guards_section() {
                "The run is stopped (code 3) where angular momentum differs by more than this "
                "from that of the start and of the moments of loads and supports, at the same steps "
                "but for the first 20 after a state of rest: as a share of the largest sum of "
-               "|x||p| over the nodes so far. At a loss of this share of its angular momentum a "
+               "|x||p| over the nodes so far, or, of a body that supports hold, of the time "
+               "integral of "
+               "the strain energy, if that is larger. At a loss of this share of its angular "
+               "momentum a "
                "body that spins has lost nearly twice the share of its energy of rotation.",
                "0.5"})
           .key("least_step", &GuardsCase::least_step,

@@ -62,7 +62,7 @@ SectionKeys<SchemeCase> scheme_keys() {
            {"-", between(0, 1),
             "Share of the shear modulus that gradients of cells carry instead of those of nodes, "
             "where their volumes carry the bulk pressure: what holds waves that nodes see badly. "
-            "Less, by the square of their aspect, where cells are long.",
+            "Coarse bodies of long cells bend the stiffer for it.",
             "0"})
       .key("precision", &SchemeCase::precision,
            one_of(scheme::precision_menu().names(),

@@ -2,14 +2,23 @@
 
 #include "common/base/error.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace diptych::run {
 
-void MomentumGuard::at_check(const Check& check) {
+double MomentumGuard::judged(const Check& check) {
   momenta_.at(check.balance, check.audit);
+  moment_of_stresses_ += std::abs(check.balance.strain) * (check.step.time - time_);
+  time_ = check.step.time;
+  const double drift = momenta_.angular_drift(), scale = momenta_.angular_scale();
+  return is_held_ && moment_of_stresses_ > scale ? drift * scale / moment_of_stresses_ : drift;
+}
+
+void MomentumGuard::at_check(const Check& check) {
+  const double drift = judged(check);
   if (check.balance.kinetic <= least_energy_) judged_from_ = check.step.step + steps_of_start;
-  if (check.step.step < judged_from_ || momenta_.angular_drift() <= threshold_) return;
+  if (check.step.step < judged_from_ || drift <= threshold_) return;
   throw base::BreakdownError(fmt::format(
       "angular momentum has drifted by {:.3g} of the largest sum of |x||p| so far, bound {:g}, "
       "step {}, time {:.6g} s, dt {:.4g} s\n"

@@ -1,7 +1,7 @@
 #pragma once
 /// Stops a run whose angular momentum is no longer that of its start and of the moments of loads
 /// and supports: numerical dissipation of too coarse a mesh brakes the rotation of the body.
-/// Test: tests/common/run/guards_test.cpp
+/// Test: tests/common/run/momentum_guard_test.cpp
 
 #include "common/run/momentum_record.hpp"
 #include "common/run/observers/observer.hpp"
@@ -13,11 +13,15 @@ namespace diptych::run {
 class MomentumGuard : public Observer {
  public:
   /// @param initial       of the body at t = 0
+  /// @param is_held       by supports, against whose moments those of the stresses are measured: a
+  ///                      body that is loaded slowly has hardly a momentum, but D_ab turns it with
+  ///                      every strain. The drift counts as a share of the time integral of the
+  ///                      strain energy, too, where that is larger
   /// @param threshold     largest admissible drift, see MomentumRecord
   /// @param least_energy  J, what rounding makes of the energies: a body that moves with no more is
   ///                      at rest, and neither it nor its first steps afterwards are judged
-  MomentumGuard(const scheme::Balance& initial, double threshold, double least_energy)
-      : momenta_(initial), threshold_(threshold), least_energy_(least_energy) {}
+  MomentumGuard(const scheme::Balance& initial, bool is_held, double threshold, double least_energy)
+      : momenta_(initial), is_held_(is_held), threshold_(threshold), least_energy_(least_energy) {}
 
   /// @throws base::BreakdownError
   void at_check(const Check& check) override;
@@ -28,14 +32,22 @@ class MomentumGuard : public Observer {
   void archive(algebra::Archive& archive) override {
     momenta_.archive("momentum guard", archive);
     archive.integer("momentum guard/judged from step", judged_from_);
+    archive.real("momentum guard/moment of stresses", "N m s", moment_of_stresses_);
+    archive.real("momentum guard/time", "s", time_);
   }
 
   static constexpr std::int64_t steps_of_start = 20;
 
  private:
+  /// Drift over its bound.
+  double judged(const Check& check);
+
   MomentumRecord momenta_;
+  bool is_held_;
   double threshold_, least_energy_;
-  std::int64_t judged_from_ = 0;  // step
+  double moment_of_stresses_ = 0;  // N m s, integral of the strain energy
+  double time_ = 0;                // s, of the last check
+  std::int64_t judged_from_ = 0;   // step
 };
 
 }  // namespace diptych::run

@@ -94,23 +94,6 @@ void put_matrix_of_cell(std::span<const std::int32_t> corners,
   });
 }
 
-/// J J^T of the mean Jacobian of a cell, from a reference cell that is regular.
-algebra::Mat3 squares_of(std::span<const std::int32_t> corners,
-                         const std::vector<Vec3>& X,
-                         const meshes::ReferenceCell& cell) {
-  algebra::Mat3 J = algebra::Mat3::Zero();
-  for (const meshes::QuadraturePoint& point : cell.vertex)
-    J += meshes::jacobian(cell, point, corners, X) / static_cast<double>(cell.vertex.size());
-  if (cell.n_nodes == 6) {  // its triangle is a right one, of half the size of the squares
-    algebra::Mat3 regular = algebra::Mat3::Identity();
-    regular(0, 1) = 0.5;
-    regular(1, 1) = std::sqrt(0.75);
-    regular(2, 2) = 0.5;
-    J = J * regular.inverse();
-  }
-  return J * J.transpose();
-}
-
 std::span<const std::int32_t> corners_of(const VolumeCells& cells, std::int64_t c) {
   return std::span(cells.corner)
       .subspan(static_cast<size_t>(cells.row[c]),
@@ -186,19 +169,6 @@ DIPTYCH_CLONES void add_rows(const Rows& rows,
 }
 
 }  // namespace
-
-double squared_aspect(const VolumeCells& cells, const std::vector<Vec3>& X, int dimension) {
-  algebra::Mat3 sum = algebra::Mat3::Zero();
-  for (std::int64_t c = 0; c < cells.n_cells(); ++c) {
-    const auto corners = corners_of(cells, c);
-    const meshes::ReferenceCell& cell = reference_of(dimension, std::ssize(corners));
-    if (cell.n_nodes == dimension + 1) return 1;
-    sum += squares_of(corners, X, cell);
-  }
-  const Eigen::MatrixXd squares = sum.topLeftCorner(dimension, dimension);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(squares, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0] / solver.eigenvalues()[dimension - 1];
-}
 
 CellLaplacian::CellLaplacian(const VolumeCells& cells,
                              const std::vector<Vec3>& X,

@@ -19,11 +19,6 @@
 
 namespace diptych::scheme {
 
-/// How much narrower than long cells are, squared, in the mean over a body; one of simplices, which
-/// have no such modes. A body whose cells are long bends, with all of s, as if it were stiffer by
-/// its square.
-double squared_aspect(const VolumeCells& cells, const std::vector<algebra::Vec3>& X, int dimension);
-
 class CellLaplacian {
  public:
   using Array = algebra::AlignedArray<double>;

@@ -5,7 +5,6 @@
 #include "common/run/observers/energy_guard.hpp"
 #include "common/run/observers/history.hpp"
 #include "common/run/observers/involution_guard.hpp"
-#include "common/run/observers/momentum_guard.hpp"
 #include "common/run/simulation.hpp"
 #include "tests/common/run/free_cube.hpp"
 #include "tests/common/scheme/scenes.hpp"
@@ -282,54 +281,6 @@ TEST(InvolutionGuard, LetsPassWhereHAndJAreExact) {
   InvolutionGuard guard(*run.scene.solver, 1e-12);
   Simulation simulation(run.scene.setup, *run.scene.solver, {&run.cells, &run.history, &guard});
   EXPECT_EQ(simulation.run(), Ending::done);
-}
-
-TEST(MomentumGuard, StopsWhereRotationIsBrakedAndNotWhereAMomentDoesIt) {
-  scheme::Balance initial, now;
-  initial.kinetic = now.kinetic = 1;
-  initial.angular_momentum.z() = 10;
-  initial.angular_scale = now.angular_scale = 12;
-  const Guarded run("fvm", {});
-  Snapshot fields;
-  const auto judge = [&](double L, double impulse) {
-    MomentumGuard guard(initial, 0.2, 1e-9);
-    OutputState state(*run.scene.solver, fields);
-    guard.at_output({0, StepReport{}, initial, scheme::Audit{}, state});
-    now.angular_momentum.z() = L;
-    scheme::Audit audit;
-    audit.impulse.angular.z() = impulse;
-    StepReport step;
-    step.step = 50;
-    guard.at_check({step, now, audit});
-  };
-  EXPECT_NO_THROW(judge(7.7, 0));
-  EXPECT_NO_THROW(judge(-9, -18));
-  EXPECT_THROW(judge(10, -3), base::BreakdownError);
-  try {
-    judge(7.5, 0);
-    ADD_FAILURE() << "not stopped";
-  } catch (const base::BreakdownError& error) {
-    EXPECT_THAT(error.what(),
-                AllOf(HasSubstr("angular momentum has drifted by 0.208 of the largest sum of "
-                                "|x||p| so far, bound 0.2, step 50, "),
-                      HasSubstr("--level"), HasSubstr("angular_momentum_projection"),
-                      HasSubstr("guards.angular_drift")));
-  }
-}
-
-TEST(MomentumGuard, DoesNotJudgeABodyAtRest) {
-  scheme::Balance rest, now;
-  MomentumGuard guard(rest, 0.2, 1e-9);
-  now.angular_momentum.z() = now.angular_scale = 1;  // of rounding, all of it drift
-  const auto judge = [&](std::int64_t number, double kinetic) {
-    now.kinetic = kinetic;
-    StepReport step;
-    step.step = number;
-    guard.at_check({step, now, scheme::Audit{}});
-  };
-  EXPECT_NO_THROW(judge(50, 1e-10));
-  EXPECT_NO_THROW(judge(69, 1));
-  EXPECT_THROW(judge(70, 1), base::BreakdownError);
 }
 
 TEST(StepGuard, HasTheShareOfTheCase) {
