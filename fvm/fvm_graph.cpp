@@ -5,6 +5,7 @@
 #include "common/closure/closure_repair.hpp"
 #include "common/closure/sbp_operator.hpp"
 #include "common/scheme/graph/classify_rows.hpp"
+#include "common/scheme/graph/equal_widths.hpp"
 #include "fvm/cell_stencil.hpp"
 #include "fvm/sbp_blocks_graph.hpp"
 #include "fvm/sbp_cells_graph.hpp"
@@ -93,14 +94,16 @@ scheme::Operators sbp_off_boxes(const meshes::Mesh& mesh,
   return {sbp_graph_of_cells(mesh),
           fmt::format("sbp: order 2 on the cells around {} nodes", mesh.n_nodes()),
           {},
-          true};
+          true,
+          scheme::has_long_cells(mesh)};
 }
 
 scheme::Operators edge_because(const meshes::Mesh& mesh,
                                const std::string& because,
                                std::vector<std::string> notices = {}) {
   return {graph_of_cells(mesh, meshes::Quadrature::vertex),
-          fmt::format("edge stencil: {}", because), std::move(notices)};
+          fmt::format("edge stencil: {}", because), std::move(notices), false,
+          scheme::has_long_cells_off_boxes(mesh)};
 }
 
 /// What stencil = "auto" comes to.
@@ -142,7 +145,11 @@ scheme::Operators operators_on(const meshes::Mesh& mesh, const Options& options)
       if (meshes::is_undistorted_block(mesh)) return sbp_on_box(mesh, options.order);
       return sbp_off_boxes(mesh, smooth_blocks(mesh), options.order);
     case Stencil::edge:
-      return {graph_of_cells(mesh, meshes::Quadrature::vertex), "", {}};
+      return {graph_of_cells(mesh, meshes::Quadrature::vertex),
+              "",
+              {},
+              false,
+              scheme::has_long_cells_off_boxes(mesh)};
     case Stencil::integral:
       return {graph_of_cells(mesh, meshes::Quadrature::exact), "", {}};
   }

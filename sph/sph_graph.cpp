@@ -164,7 +164,8 @@ scheme::Operators sbp_on(const meshes::Mesh& mesh, const Options& options) {
   return {graph_of(mesh, options, true),
           fmt::format("sbp: order 2 on {} nodes, kappa {:.4g}", mesh.n_nodes(), options.kappa),
           {},
-          true};
+          true,
+          scheme::has_long_cells(mesh)};
 }
 
 scheme::Operators corrected_because(const meshes::Mesh& mesh,
@@ -172,7 +173,7 @@ scheme::Operators corrected_because(const meshes::Mesh& mesh,
                                     const std::string& because,
                                     std::vector<std::string> notices = {}) {
   return {graph_of(mesh, options, false), fmt::format("corrected gradient: {}", because),
-          std::move(notices)};
+          std::move(notices), false, scheme::has_long_cells_off_boxes(mesh)};
 }
 
 /// What gradient = "auto" comes to.
@@ -210,7 +211,8 @@ scheme::Operators operators_on(const meshes::Mesh& mesh, const Options& options)
     case Gradient::automatic:
       return chosen_on(mesh, options);
     case Gradient::corrected:
-      return {graph_of(mesh, options, false), "", {}};
+      return {
+          graph_of(mesh, options, false), "", {}, false, scheme::has_long_cells_off_boxes(mesh)};
     case Gradient::sbp:
       return sbp_on(mesh, options);
   }

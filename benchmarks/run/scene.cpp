@@ -71,6 +71,18 @@ void note_single_cells(const cases::Case& setup, int level, std::vector<std::str
   }
 }
 
+/// What "auto" comes to where the mesh says so, which the solver does not know.
+std::string reconstruction_for(const cases::Case& setup, const scheme::Operators& operators) {
+  const bool may_choose = setup.scheme.reconstruction == "auto" && setup.scheme.limiter == "none" &&
+                          setup.scheme.face_correction == 0;
+  return may_choose && operators.has_long_cells ? "symmetric" : "";
+}
+
+cases::Case resolved(cases::Case setup, const std::string& reconstruction) {
+  if (!reconstruction.empty()) setup.scheme.reconstruction = reconstruction;
+  return setup;
+}
+
 }  // namespace
 
 CaseGraph graph_of(const cases::Case& setup,
@@ -83,8 +95,11 @@ CaseGraph graph_of(const cases::Case& setup,
   require_memory(setup, method, level, scene.mesh.mesh);
   if (made) made(ScenePart::mesh, scene);
   scheme::Operators operators = method_menu().at(method)(scene.mesh.mesh, setup);
+  scene.reconstruction = reconstruction_for(setup, operators);
   scene.graph = std::move(operators.graph);
   scene.operators = std::move(operators.text);
+  if (!scene.reconstruction.empty())
+    scene.operators += fmt::format("; cells are long: {} reconstruction", scene.reconstruction);
   scene.notices = std::move(operators.notices);
   if (!setup.mesh.file.empty()) note_cavities(scene.mesh.mesh, scene.notices);
   note_curved_symmetries(setup, scene.mesh.mesh, scene.notices);
@@ -99,8 +114,9 @@ Scene::Scene(const cases::Case& setup,
              GraphPairs pairs,
              const PartMade& made)
     : CaseGraph(graph_of(setup, method, level, made)),
-      solver(pairs == GraphPairs::released ? run::make_solver_of_pairs(setup, graph)
-                                           : run::make_solver(setup, graph)) {
+      solver(pairs == GraphPairs::released
+                 ? run::make_solver_of_pairs(resolved(setup, reconstruction), graph)
+                 : run::make_solver(resolved(setup, reconstruction), graph)) {
   if (made) made(ScenePart::solver, *this);
 }
 

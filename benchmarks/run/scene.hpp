@@ -21,7 +21,8 @@ enum class ScenePart { mesh, graph, solver };
 struct CaseGraph {
   CaseMesh mesh;
   scheme::PairGraph graph;
-  std::string operators;             ///< what the method made of the mesh (scheme::Operators)
+  std::string operators;       ///< what the method made of the mesh (scheme::Operators)
+  std::string reconstruction;  ///< what scheme.reconstruction = "auto" comes to; empty: see there
   std::vector<std::string> notices;  ///< of them, of cavities, curved symmetries, single cells
 };
 

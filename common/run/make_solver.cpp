@@ -117,8 +117,9 @@ scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::Pair
   return {graph, std::move(conditions), body_force, setup.body_force.depends_on_time()};
 }
 
-scheme::Reconstruction reconstruction_of(const cases::Case& setup) {
-  if (is_symmetric(setup)) return scheme::Reconstruction::symmetric;
+/// @param has_moments  of the body, which the rank that made it may have from its graph
+scheme::Reconstruction reconstruction_of(const cases::Case& setup, bool has_moments) {
+  if (has_moments) return scheme::Reconstruction::symmetric;
   switch (scheme::reconstruction_menu().at(setup.scheme.reconstruction)) {
     case scheme::ReconstructionChoice::none:
       return scheme::Reconstruction::none;
@@ -129,9 +130,10 @@ scheme::Reconstruction reconstruction_of(const cases::Case& setup) {
   }
 }
 
-scheme::SweepOptions sweep_options_of(const cases::Case& setup) {
+scheme::SweepOptions sweep_options_of(const cases::Case& setup, bool has_moments) {
   scheme::SweepOptions options;
-  options.dissipation = {reconstruction_of(setup), scheme::limiter_menu().at(setup.scheme.limiter),
+  options.dissipation = {reconstruction_of(setup, has_moments),
+                         scheme::limiter_menu().at(setup.scheme.limiter),
                          scheme::impedance_menu().at(setup.scheme.impedance)};
   options.dissipation_factor = setup.scheme.dissipation;
   options.face_correction = setup.scheme.face_correction;
@@ -150,7 +152,7 @@ scheme::BodyOptions body_options_of(const cases::Case& setup,
   options.unknowns = scheme::unknowns_menu().at(setup.scheme.unknowns);
   options.exact_impedance =
       scheme::impedance_menu().at(setup.scheme.impedance) == scheme::Impedance::exact;
-  const scheme::Reconstruction reconstruction = reconstruction_of(setup);
+  const scheme::Reconstruction reconstruction = reconstruction_of(setup, is_symmetric(setup));
   options.has_frames = reconstruction == scheme::Reconstruction::objective;
   options.has_moments = reconstruction == scheme::Reconstruction::symmetric;
   options.has_slopes = has_line_slopes(setup, graph);
@@ -185,7 +187,7 @@ std::unique_ptr<BodySolver<Dim>> assembled(const cases::Case& setup,
                                            scheme::Body<Dim> body,
                                            double cfl,
                                            double geometric_rate) {
-  scheme::SweepOptions options = sweep_options_of(setup);
+  scheme::SweepOptions options = sweep_options_of(setup, body.options.has_moments);
   options.time_step = {scheme::speeds_menu().at(setup.time.speeds), cfl,
                        scheme::frequency_factor(setup.scheme.face_correction)};
   scheme::Sweeps<Dim> sweeps(body, parts.material, options, geometric_rate);

@@ -45,6 +45,26 @@ TEST(Scene, HasTheGraphThatTheKeysOfTheMethodAskFor) {
       graph_with("sph", {"sph.gradient=\"corrected\""}).graph.Omega[0]);  // (3/8)^2 beside (1/2)^2
 }
 
+// Their linear reconstructions gave energy on flat and long cells, and braked what bends.
+TEST(Scene, HasSymmetricReconstructionsOnLongCellsOffBoxes) {
+  const auto reconstruction = [](const char* upper, const char* moved,
+                                 std::vector<std::string> overrides = {}) {
+    overrides.push_back(std::string("mesh.upper=") + upper);
+    overrides.push_back(std::string("mesh.perturbation=") + moved);
+    const std::string of_sph = graph_with("sph", overrides).reconstruction;
+    EXPECT_EQ(graph_with("fvm", overrides).reconstruction, of_sph);
+    return of_sph;
+  };
+  EXPECT_EQ(reconstruction("[4, 1]", "0.2"), "symmetric");
+  EXPECT_EQ(reconstruction("[1, 2]", "0.2", {"fvm.stencil=edge", "sph.gradient=corrected"}),
+            "symmetric");
+  EXPECT_EQ(reconstruction("[4, 1]", "0"), "");
+  EXPECT_EQ(reconstruction("[1, 1]", "0.2"), "");
+  EXPECT_EQ(reconstruction("[4, 1]", "0.2", {"scheme.reconstruction=linear"}), "");
+  EXPECT_EQ(reconstruction("[4, 1]", "0.2", {"scheme.limiter=sign-preserving"}), "");
+  EXPECT_EQ(reconstruction("[4, 1]", "0.2", {"scheme.face_correction=0.125"}), "");
+}
+
 TEST(Scene, RefusesTheFaceCorrectionWithOperatorsThatSumByParts) {
   for (const char* method : {"sph", "fvm"}) {
     EXPECT_THROW(graph_with(method, {"sph.gradient=\"sbp\"", "fvm.stencil=\"sbp\"",

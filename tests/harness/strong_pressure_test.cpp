@@ -69,6 +69,18 @@ TEST(StrongPressure, IsAFollowerPressureAboveWhatNodesBear) {
   EXPECT_THAT(because({"boundary.0.value=3", "boundary.0.group=x_mx"}), IsEmpty());
 }
 
+TEST(StrongPressure, IsLessOnLongCellsOffBoxes) {
+  const auto on = [](const char* upper, const char* moved, const char* value) {
+    return because({std::string("mesh.upper=") + upper, std::string("mesh.perturbation=") + moved,
+                    std::string("boundary.0.value=") + value});
+  };
+  EXPECT_THAT(on("[1, 1, 2]", "0.2", "0.3"), IsEmpty());
+  EXPECT_THAT(on("[1, 1, 2]", "0.2", "0.5"), HasSubstr("0.5 shear moduli"));
+  EXPECT_THAT(on("[4, 1, 1]", "0.2", "0.15"), HasSubstr("0.15 shear moduli"));
+  EXPECT_THAT(on("[1, 1, 4]", "0", "1.4"), IsEmpty());
+  EXPECT_THAT(on("[1, 1, 1]", "0.2", "1.4"), IsEmpty());
+}
+
 TEST(StrongPressure, IsADeadTractionThatPressesAsMuch) {
   const std::string text = "[[boundary]]\ngroup = [\"x_max\", \"y_max\"]\ntype = \"traction\"\n";
   EXPECT_THAT(because({}, text + "value = [0, \"-3*t\", 0]"),

@@ -26,8 +26,9 @@ SectionKeys<SchemeCase> scheme_keys() {
               "symmetric: linear, with the adjoint of the slopes, so that what a body dissipates "
               "is "
               "a sum of squares on any nodes. "
-              "auto: quartic where operators sum by parts on a box, but for limiters of slopes, "
-              "else linear.",
+              "auto: quartic where operators sum by parts on a box, but for limiters of slopes; "
+              "symmetric off boxes and smooth blocks where cells are 1.25 times as long as wide or "
+              "more in the mean, without a limiter or face correction; else linear.",
               "\"objective\""))
       .key("limiter", &SchemeCase::limiter,
            one_of(scheme::limiter_menu().names(),
@@ -51,7 +52,9 @@ SectionKeys<SchemeCase> scheme_keys() {
                "What carries the bulk pressure: J of the nodes, or volumes that keep bodies under "
                "pressure whole: of deformed cells, or by derivatives along the lines of nodes of a "
                "box (lines: SPH that sums by parts). auto, where a follower pressure or a dead "
-               "traction presses with more than 1.5 shear moduli or a nearly incompressible body "
+               "traction presses with more than 1.5 shear moduli (over the square of the cells' "
+               "length "
+               "by width, on moved nodes) or a nearly incompressible body "
                "(bulk modulus above 2.5 shear moduli) is held on all sides: nodes for fvm on boxes "
                "of hexahedra, where they are as safe; lines where the operators have them; else "
                "cells, with operators of second order, but on hexahedra with distorted faces on "

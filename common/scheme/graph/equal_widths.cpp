@@ -2,6 +2,7 @@
 
 #include "common/base/error.hpp"
 #include "meshes/cell_widths.hpp"
+#include "meshes/structured_block.hpp"
 
 #include <optional>
 
@@ -39,10 +40,17 @@ std::optional<PairGraph> of_stretched(const meshes::Mesh& mesh,
 
 }  // namespace
 
+bool has_long_cells(const meshes::Mesh& mesh) {
+  return meshes::aspect_of(meshes::mean_shape(mesh)) >= least_aspect;
+}
+
+bool has_long_cells_off_boxes(const meshes::Mesh& mesh) {
+  return !meshes::is_undistorted_block(mesh) && has_long_cells(mesh);
+}
+
 PairGraph on_equal_widths(const meshes::Mesh& mesh, const GraphFactory& make) {
-  const Mat3 shape = meshes::mean_shape(mesh);
-  if (meshes::aspect_of(shape) < least_aspect) return make(mesh);
-  const Mat3 B = meshes::to_equal_widths(shape);
+  if (!has_long_cells(mesh)) return make(mesh);
+  const Mat3 B = meshes::to_equal_widths(meshes::mean_shape(mesh));
   std::optional<PairGraph> graph = of_stretched(mesh, B, make);
   if (!graph) return make(mesh);
   stretch(B.inverse(), *graph);

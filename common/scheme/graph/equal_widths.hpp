@@ -12,12 +12,16 @@
 
 namespace diptych::scheme {
 
+/// Whether cells are 1.25 times as long as wide or more in the mean over the body.
+bool has_long_cells(const meshes::Mesh& mesh);
+/// The same of a mesh that is not all equal parallelepipeds.
+bool has_long_cells_off_boxes(const meshes::Mesh& mesh);
+
 /// Makes the graph of a mesh.
 using GraphFactory = std::function<PairGraph(const meshes::Mesh&)>;
 
-/// By `make`, of the mesh as it is where its cells are less than 1.25 times as long as wide in the
-/// mean over the body. Where `make` refuses the stretched mesh, it is asked for the one as it is,
-/// so that what it says names places that are there.
+/// By `make`, of the mesh as it is where its cells are not long. Where `make` refuses the stretched
+/// mesh, it is asked for the one as it is, so that what it says names places that are there.
 /// @throws base::InputError that `make` throws for the mesh
 PairGraph on_equal_widths(const meshes::Mesh& mesh, const GraphFactory& make);
 

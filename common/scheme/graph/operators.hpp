@@ -15,6 +15,9 @@ struct Operators {
   /// Off boxes, of those that sum by parts: what linear reconstructions leave of jumps may give
   /// energy to some motions, unless a limiter keeps the sign of the jumps (notes 4.5, 4.6).
   bool loses_sign = false;
+  /// Off boxes and lines, of bodies whose cells are long (equal_widths.hpp): there linear
+  /// reconstructions do give energy, and brake what bends and spins (notes 4.5).
+  bool has_long_cells = false;
 };
 
 }  // namespace diptych::scheme
