@@ -102,8 +102,7 @@ scheme::Operators edge_because(const meshes::Mesh& mesh,
                                const std::string& because,
                                std::vector<std::string> notices = {}) {
   return {graph_of_cells(mesh, meshes::Quadrature::vertex),
-          fmt::format("edge stencil: {}", because), std::move(notices), false,
-          scheme::has_long_cells_off_boxes(mesh)};
+          fmt::format("edge stencil: {}", because), std::move(notices)};
 }
 
 /// What stencil = "auto" comes to.
@@ -145,11 +144,7 @@ scheme::Operators operators_on(const meshes::Mesh& mesh, const Options& options)
       if (meshes::is_undistorted_block(mesh)) return sbp_on_box(mesh, options.order);
       return sbp_off_boxes(mesh, smooth_blocks(mesh), options.order);
     case Stencil::edge:
-      return {graph_of_cells(mesh, meshes::Quadrature::vertex),
-              "",
-              {},
-              false,
-              scheme::has_long_cells_off_boxes(mesh)};
+      return {graph_of_cells(mesh, meshes::Quadrature::vertex), "", {}};
     case Stencil::integral:
       return {graph_of_cells(mesh, meshes::Quadrature::exact), "", {}};
   }

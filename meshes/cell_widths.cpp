@@ -12,7 +12,7 @@ namespace {
 
 /// Aspect from which the edges of simplices say how nodes stand, by dimension: in boxes of equal
 /// sides, whose diagonals lean one way, it is 1.73 and 2.
-constexpr double least_aspect_of_simplices[] = {1.76, 2.03};
+constexpr double least_aspect_of_simplices[] = {1.745, 2.015};
 
 bool is_simplex(CellType type) {
   return type == CellType::triangle || type == CellType::tetrahedron;

@@ -173,7 +173,7 @@ scheme::Operators corrected_because(const meshes::Mesh& mesh,
                                     const std::string& because,
                                     std::vector<std::string> notices = {}) {
   return {graph_of(mesh, options, false), fmt::format("corrected gradient: {}", because),
-          std::move(notices), false, scheme::has_long_cells_off_boxes(mesh)};
+          std::move(notices)};
 }
 
 /// What gradient = "auto" comes to.
@@ -211,8 +211,7 @@ scheme::Operators operators_on(const meshes::Mesh& mesh, const Options& options)
     case Gradient::automatic:
       return chosen_on(mesh, options);
     case Gradient::corrected:
-      return {
-          graph_of(mesh, options, false), "", {}, false, scheme::has_long_cells_off_boxes(mesh)};
+      return {graph_of(mesh, options, false), "", {}};
     case Gradient::sbp:
       return sbp_on(mesh, options);
   }

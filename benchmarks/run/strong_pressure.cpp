@@ -30,11 +30,10 @@ constexpr double least_bulk = 2.5;
 constexpr double borne = 1.5;
 
 /// Long cells bear less: of those twice, three and four times as long as wide pressures of 1.4, 1.4
-/// and 0.5 shear moduli made moulds flow.
+/// and 0.5 shear moduli made moulds flow, not 0.74, 0.49 and 0.37.
 double borne_on(const meshes::Mesh& mesh) {
   if (!scheme::has_long_cells_off_boxes(mesh)) return borne;
-  const double aspect = meshes::aspect_of(meshes::mean_shape(mesh));
-  return borne / (aspect * aspect);
+  return borne / meshes::aspect_of(meshes::mean_shape(mesh));
 }
 
 constexpr int n_intervals = 64;

@@ -14,8 +14,8 @@ namespace diptych::harness {
 bool is_nearly_incompressible(const cases::MaterialCase& material);
 
 /// Why `auto` takes operators that bear any bulk pressure, for the record: a follower pressure or a
-/// dead traction presses with more than 1.5 shear moduli (on moved nodes over the square of the
-/// cells' length by width) at a node and one of 65 instants, or a
+/// dead traction presses with more than 1.5 shear moduli (on moved nodes over the cells'
+/// length by width) at a node and one of 65 instants, or a
 /// nearly incompressible body is held on all sides, and the mesh has what bears it. What walls,
 /// impacts, supports, body forces and manufactured tractions press is not seen, and loads on one
 /// group are not added. Empty where nothing presses so, or where the case says

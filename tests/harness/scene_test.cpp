@@ -56,8 +56,8 @@ TEST(Scene, HasSymmetricReconstructionsOnLongCellsOffBoxes) {
     return of_sph;
   };
   EXPECT_EQ(reconstruction("[4, 1]", "0.2"), "symmetric");
-  EXPECT_EQ(reconstruction("[1, 2]", "0.2", {"fvm.stencil=edge", "sph.gradient=corrected"}),
-            "symmetric");
+  EXPECT_EQ(reconstruction("[1, 2]", "0.2", {"fvm.stencil=sbp", "sph.gradient=sbp"}), "symmetric");
+  EXPECT_EQ(reconstruction("[1, 2]", "0.2", {"fvm.stencil=edge", "sph.gradient=corrected"}), "");
   EXPECT_EQ(reconstruction("[4, 1]", "0"), "");
   EXPECT_EQ(reconstruction("[1, 1]", "0.2"), "");
   EXPECT_EQ(reconstruction("[4, 1]", "0.2", {"scheme.reconstruction=linear"}), "");

@@ -27,7 +27,7 @@ SectionKeys<SchemeCase> scheme_keys() {
               "is "
               "a sum of squares on any nodes. "
               "auto: quartic where operators sum by parts on a box, but for limiters of slopes; "
-              "symmetric off boxes and smooth blocks where cells are 1.25 times as long as wide or "
+              "symmetric with those on other nodes where cells are 1.1 times as long as wide or "
               "more in the mean, without a limiter or face correction; else linear.",
               "\"objective\""))
       .key("limiter", &SchemeCase::limiter,
@@ -52,8 +52,7 @@ SectionKeys<SchemeCase> scheme_keys() {
                "What carries the bulk pressure: J of the nodes, or volumes that keep bodies under "
                "pressure whole: of deformed cells, or by derivatives along the lines of nodes of a "
                "box (lines: SPH that sums by parts). auto, where a follower pressure or a dead "
-               "traction presses with more than 1.5 shear moduli (over the square of the cells' "
-               "length "
+               "traction presses with more than 1.5 shear moduli (over the cells' length "
                "by width, on moved nodes) or a nearly incompressible body "
                "(bulk modulus above 2.5 shear moduli) is held on all sides: nodes for fvm on boxes "
                "of hexahedra, where they are as safe; lines where the operators have them; else "

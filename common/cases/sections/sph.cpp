@@ -17,7 +17,7 @@ SectionEntry sph_section() {
                "lattices. Boxes of quadrilaterals and hexahedra take more than 0.708, with "
                "quintic-spline 0.5: corners need their diagonals; of triangles and tetrahedra 0.8 "
                "or more. Off boxes, and with gradient = corrected, supports are ellipsoids where "
-               "cells are 1.25 times as long as wide or more in the mean over the body.",
+               "cells are 1.1 times as long as wide or more in the mean over the body.",
                "0.75"})
           .key("closure", &SphCase::closure,
                {"-", any,

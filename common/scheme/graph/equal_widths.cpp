@@ -10,7 +10,7 @@ namespace diptych::scheme {
 
 namespace {
 
-constexpr double least_aspect = 1.25;
+constexpr double least_aspect = 1.1;
 
 /// Areas of nodes X as those of nodes B X, det B = 1.
 void stretch(const Mat3& B, PairGraph& graph) {

@@ -12,7 +12,7 @@
 
 namespace diptych::scheme {
 
-/// Whether cells are 1.25 times as long as wide or more in the mean over the body.
+/// Whether cells are 1.1 times as long as wide or more in the mean over the body.
 bool has_long_cells(const meshes::Mesh& mesh);
 /// The same of a mesh that is not all equal parallelepipeds.
 bool has_long_cells_off_boxes(const meshes::Mesh& mesh);
