@@ -42,7 +42,8 @@ SectionEntry guards_section() {
                "but for the first 20 after a state of rest: as a share of the largest sum of "
                "|x||p| over the nodes so far, or, of a body that supports hold, of the time "
                "integral of "
-               "the strain energy, if that is larger. At a loss of this share of its angular "
+               "the work of loads and supports, if that is larger. At a loss of this share of its "
+               "angular "
                "momentum a "
                "body that spins has lost nearly twice the share of its energy of rotation.",
                "0.5"})

@@ -9,10 +9,10 @@ namespace diptych::run {
 
 double MomentumGuard::judged(const Check& check) {
   momenta_.at(check.balance, check.audit);
-  moment_of_stresses_ += std::abs(check.balance.strain) * (check.step.time - time_);
+  moment_of_loads_ += std::abs(check.audit.external_work) * (check.step.time - time_);
   time_ = check.step.time;
   const double drift = momenta_.angular_drift(), scale = momenta_.angular_scale();
-  return is_held_ && moment_of_stresses_ > scale ? drift * scale / moment_of_stresses_ : drift;
+  return is_held_ && moment_of_loads_ > scale ? drift * scale / moment_of_loads_ : drift;
 }
 
 void MomentumGuard::at_check(const Check& check) {

@@ -13,10 +13,10 @@ namespace diptych::run {
 class MomentumGuard : public Observer {
  public:
   /// @param initial       of the body at t = 0
-  /// @param is_held       by supports, against whose moments those of the stresses are measured: a
-  ///                      body that is loaded slowly has hardly a momentum, but D_ab turns it with
-  ///                      every strain. The drift counts as a share of the time integral of the
-  ///                      strain energy, too, where that is larger
+  /// @param is_held       by supports: a body that is loaded slowly between them has hardly a
+  ///                      momentum, but D_ab turns it with every strain. The drift counts as a
+  ///                      share of the time integral of the work of loads and supports, too, where
+  ///                      that is larger
   /// @param threshold     largest admissible drift, see MomentumRecord
   /// @param least_energy  J, what rounding makes of the energies: a body that moves with no more is
   ///                      at rest, and neither it nor its first steps afterwards are judged
@@ -32,7 +32,7 @@ class MomentumGuard : public Observer {
   void archive(algebra::Archive& archive) override {
     momenta_.archive("momentum guard", archive);
     archive.integer("momentum guard/judged from step", judged_from_);
-    archive.real("momentum guard/moment of stresses", "N m s", moment_of_stresses_);
+    archive.real("momentum guard/moment of loads", "N m s", moment_of_loads_);
     archive.real("momentum guard/time", "s", time_);
   }
 
@@ -45,9 +45,9 @@ class MomentumGuard : public Observer {
   MomentumRecord momenta_;
   bool is_held_;
   double threshold_, least_energy_;
-  double moment_of_stresses_ = 0;  // N m s, integral of the strain energy
-  double time_ = 0;                // s, of the last check
-  std::int64_t judged_from_ = 0;   // step
+  double moment_of_loads_ = 0;    // N m s, integral of their work
+  double time_ = 0;               // s, of the last check
+  std::int64_t judged_from_ = 0;  // step
 };
 
 }  // namespace diptych::run
