@@ -151,8 +151,8 @@ scheme::PairGraph graph_of(const meshes::Mesh& mesh, const Options& options, boo
   scheme::PairGraph graph = scheme::on_equal_widths(mesh, [&](const meshes::Mesh& equal_widths) {
     return round_graph_of(equal_widths, options, sums_by_parts);
   });
-  // the bits of finite volumes
-  if (!sums_by_parts) set_measure(meshes::dual_measure(mesh, meshes::Quadrature::vertex), graph);
+  if (!sums_by_parts && scheme::has_long_cells(mesh))  // to the bits of finite volumes
+    set_measure(meshes::dual_measure(mesh, meshes::Quadrature::vertex), graph);
   return graph;
 }
 

@@ -10,7 +10,10 @@ namespace diptych::scheme {
 
 namespace {
 
-constexpr double least_aspect = 1.1;
+bool is_long(const Mat3& shape) {
+  constexpr double least_aspect = 1.1;
+  return meshes::aspect_of(shape) >= least_aspect;
+}
 
 /// Areas of nodes X as those of nodes B X, det B = 1.
 void stretch(const Mat3& B, PairGraph& graph) {
@@ -41,7 +44,7 @@ std::optional<PairGraph> of_stretched(const meshes::Mesh& mesh,
 }  // namespace
 
 bool has_long_cells(const meshes::Mesh& mesh) {
-  return meshes::aspect_of(meshes::mean_shape(mesh)) >= least_aspect;
+  return is_long(meshes::mean_shape(mesh));
 }
 
 bool has_long_cells_off_boxes(const meshes::Mesh& mesh) {
@@ -49,8 +52,9 @@ bool has_long_cells_off_boxes(const meshes::Mesh& mesh) {
 }
 
 PairGraph on_equal_widths(const meshes::Mesh& mesh, const GraphFactory& make) {
-  if (!has_long_cells(mesh)) return make(mesh);
-  const Mat3 B = meshes::to_equal_widths(meshes::mean_shape(mesh));
+  const Mat3 shape = meshes::mean_shape(mesh);
+  if (!is_long(shape)) return make(mesh);
+  const Mat3 B = meshes::to_equal_widths(shape);
   std::optional<PairGraph> graph = of_stretched(mesh, B, make);
   if (!graph) return make(mesh);
   stretch(B.inverse(), *graph);
