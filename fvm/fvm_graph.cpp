@@ -94,8 +94,7 @@ scheme::Operators sbp_off_boxes(const meshes::Mesh& mesh,
   return {sbp_graph_of_cells(mesh),
           fmt::format("sbp: order 2 on the cells around {} nodes", mesh.n_nodes()),
           {},
-          true,
-          scheme::has_long_cells(mesh)};
+          true};
 }
 
 scheme::Operators edge_because(const meshes::Mesh& mesh,

@@ -164,8 +164,7 @@ scheme::Operators sbp_on(const meshes::Mesh& mesh, const Options& options) {
   return {graph_of(mesh, options, true),
           fmt::format("sbp: order 2 on {} nodes, kappa {:.4g}", mesh.n_nodes(), options.kappa),
           {},
-          true,
-          scheme::has_long_cells(mesh)};
+          true};
 }
 
 scheme::Operators corrected_because(const meshes::Mesh& mesh,

@@ -52,8 +52,17 @@ constexpr const char* pressure_notice =
 /// Of those that sum by parts: jumps that lose their sign were found to harm bodies under such
 /// pressure alone.
 constexpr const char* sign_notice =
-    "sbp: on these nodes the sign of the numerical dissipation is known with scheme.limiter = "
-    "\"sign-preserving\" alone; without it a body under strong pressure may come apart (notes 4.5)";
+    "sbp: on these nodes the sign of the numerical dissipation is known with scheme.reconstruction "
+    "= \"symmetric\" or scheme.limiter = \"sign-preserving\" alone; with others a body under "
+    "strong "
+    "pressure may come apart (notes 4.5)";
+
+/// Whether jumps are those of linear reconstructions without the adjoint of their slopes.
+bool leaves_jumps(const cases::SchemeCase& scheme) {
+  if (scheme.limiter != "none") return false;
+  return scheme.reconstruction == "linear" || scheme.reconstruction == "objective" ||
+         (scheme.reconstruction == "auto" && scheme.face_correction != 0);
+}
 
 /// In the precision of the case, with what its other options make of them.
 scheme::Operators finished(scheme::Operators operators,
@@ -67,7 +76,7 @@ scheme::Operators finished(scheme::Operators operators,
     graph.lines = {};
     graph.cells = {};
   }
-  if (operators.loses_sign && presses && setup.scheme.limiter == "none")
+  if (operators.loses_sign && presses && leaves_jumps(setup.scheme))
     operators.notices.emplace_back(sign_notice);
   if (setup.scheme.volumes == "auto" && may_press && !graph.commutes && graph.cells.empty() &&
       graph.lines.empty())

@@ -75,7 +75,7 @@ void note_single_cells(const cases::Case& setup, int level, std::vector<std::str
 std::string reconstruction_for(const cases::Case& setup, const scheme::Operators& operators) {
   const bool may_choose = setup.scheme.reconstruction == "auto" && setup.scheme.limiter == "none" &&
                           setup.scheme.face_correction == 0;
-  return may_choose && operators.has_long_cells ? "symmetric" : "";
+  return may_choose && operators.loses_sign ? "symmetric" : "";
 }
 
 cases::Case resolved(cases::Case setup, const std::string& reconstruction) {
@@ -99,7 +99,7 @@ CaseGraph graph_of(const cases::Case& setup,
   scene.graph = std::move(operators.graph);
   scene.operators = std::move(operators.text);
   if (!scene.reconstruction.empty())
-    scene.operators += fmt::format("; cells are long: {} reconstruction", scene.reconstruction);
+    scene.operators += fmt::format("; {} reconstruction", scene.reconstruction);
   scene.notices = std::move(operators.notices);
   if (!setup.mesh.file.empty()) note_cavities(scene.mesh.mesh, scene.notices);
   note_curved_symmetries(setup, scene.mesh.mesh, scene.notices);

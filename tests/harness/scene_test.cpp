@@ -45,8 +45,9 @@ TEST(Scene, HasTheGraphThatTheKeysOfTheMethodAskFor) {
       graph_with("sph", {"sph.gradient=\"corrected\""}).graph.Omega[0]);  // (3/8)^2 beside (1/2)^2
 }
 
-// Their linear reconstructions gave energy on flat and long cells, and braked what bends.
-TEST(Scene, HasSymmetricReconstructionsOnLongCellsOffBoxes) {
+// Their linear reconstructions gave energy on long cells and coarse tetrahedra, and braked what
+// bends.
+TEST(Scene, HasSymmetricReconstructionsWhereOperatorsSumByPartsOffBoxes) {
   const auto reconstruction = [](const char* upper, const char* moved,
                                  std::vector<std::string> overrides = {}) {
     overrides.push_back(std::string("mesh.upper=") + upper);
@@ -59,7 +60,9 @@ TEST(Scene, HasSymmetricReconstructionsOnLongCellsOffBoxes) {
   EXPECT_EQ(reconstruction("[1, 2]", "0.2", {"fvm.stencil=sbp", "sph.gradient=sbp"}), "symmetric");
   EXPECT_EQ(reconstruction("[1, 2]", "0.2", {"fvm.stencil=edge", "sph.gradient=corrected"}), "");
   EXPECT_EQ(reconstruction("[4, 1]", "0"), "");
-  EXPECT_EQ(reconstruction("[1, 1]", "0.2"), "");
+  EXPECT_EQ(reconstruction("[1, 1]", "0.2"), "symmetric");
+  EXPECT_EQ(reconstruction("[1, 1]", "0", {"mesh.element=triangle"}), "symmetric");
+  EXPECT_EQ(reconstruction("[1, 1]", "0"), "");
   EXPECT_EQ(reconstruction("[4, 1]", "0.2", {"scheme.reconstruction=linear"}), "");
   EXPECT_EQ(reconstruction("[4, 1]", "0.2", {"scheme.limiter=sign-preserving"}), "");
   EXPECT_EQ(reconstruction("[4, 1]", "0.2", {"scheme.face_correction=0.125"}), "");

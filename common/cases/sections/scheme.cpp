@@ -24,11 +24,10 @@ SectionKeys<SchemeCase> scheme_keys() {
               "body that spins rigidly dissipates nothing; quartic: with slopes along the lines of "
               "nodes of a box, whose jumps are of fifth order where those of linear are of third; "
               "symmetric: linear, with the adjoint of the slopes, so that what a body dissipates "
-              "is "
-              "a sum of squares on any nodes. "
+              "is a sum of squares on any nodes. "
               "auto: quartic where operators sum by parts on a box, but for limiters of slopes; "
-              "symmetric with those on other nodes where cells are 1.1 times as long as wide or "
-              "more in the mean, without a limiter or face correction; else linear.",
+              "symmetric with those on other nodes and along curved lines, without a limiter or "
+              "face correction; else linear.",
               "\"objective\""))
       .key("limiter", &SchemeCase::limiter,
            one_of(scheme::limiter_menu().names(),

@@ -13,11 +13,9 @@ struct Operators {
   std::string text;                  ///< for the record; empty where they were asked for by name
   std::vector<std::string> notices;  ///< where they are less than could be, or promise less
   /// Off boxes, of those that sum by parts: what linear reconstructions leave of jumps may give
-  /// energy to some motions, unless a limiter keeps the sign of the jumps (notes 4.5, 4.6).
+  /// energy to some motions, unless they have their adjoint or a limiter keeps the sign of the
+  /// jumps (notes 3.4, 4.5, 4.6).
   bool loses_sign = false;
-  /// Off boxes and lines, of bodies whose cells are long (equal_widths.hpp): there linear
-  /// reconstructions do give energy, and brake what bends and spins (notes 4.5).
-  bool has_long_cells = false;
 };
 
 }  // namespace diptych::scheme
