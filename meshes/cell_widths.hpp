@@ -18,6 +18,10 @@ Mat3 mean_shape(const Mesh& mesh);
 /// Length over width of a shape.
 double aspect_of(const Mat3& shape);
 
+/// Whether cells, each for itself and in the mean over the body, are at most 1.5 times as long as
+/// wide. The edges of simplices lean: they count as those that the diagonals make of such cells.
+bool has_short_cells(const Mesh& mesh);
+
 /// S^(-1/2) of a shape: the map after which cells are as long as wide.
 Mat3 to_equal_widths(const Mat3& shape);
 

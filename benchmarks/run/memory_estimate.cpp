@@ -276,9 +276,13 @@ double bytes_of(const cases::Case& setup,
                         setup.mesh.perturbation == 0 && setup.fvm.stencil != "integral";
   const bool on_lines = method == "sph" && sums_on_lattice(setup);
   const bool wants_volumes = may_press_strongly(setup) || is_nearly_incompressible(setup.material);
+  const bool is_box =
+      !is_simplex(setup.mesh.element) && setup.mesh.perturbation == 0 && setup.mesh.file.empty();
+  const bool errs_less_with_cells = !is_box && scheme.face_correction == 0;
   const bool has_volumes =
       scheme.volumes == "cells" || scheme.volumes == "lines" ||
-      (scheme.volumes == "auto" && wants_volumes && !commutes && !sums_anywhere(setup, method));
+      (scheme.volumes == "auto" && !commutes && !sums_anywhere(setup, method) &&
+       (wants_volumes || errs_less_with_cells));
   const double corners = size.cells * corners_of_cell(setup.mesh);
   const double shear = scheme.cell_shear == 0 ? 0 : shear_pair * neighbours_by_cells(setup.mesh);
   const double volumes = !has_volumes ? 0

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace diptych::graphs {
 namespace {
@@ -49,6 +50,25 @@ TEST(MeanShape, HasTheAspectOfTheCells) {
     const auto mesh = meshes::box(type, Vec3::Zero(), stretch_of(type, 4), {3, 3, 3});
     EXPECT_NEAR(meshes::aspect_of(meshes::mean_shape(mesh)), 4, 1e-12);
   }
+}
+
+TEST(ShortCells, AreThoseOfEveryCellForItself) {
+  for (const CellType type : all_cells) {
+    if (type == CellType::prism) continue;  // half a cube is none
+    const auto is_short = [type](double stretch) {
+      return meshes::has_short_cells(
+          meshes::box(type, Vec3::Zero(), stretch_of(type, stretch), {3, 3, 3}));
+    };
+    EXPECT_TRUE(is_short(1)) << name_of(type);
+    EXPECT_TRUE(is_short(1.499)) << name_of(type);
+    EXPECT_FALSE(is_short(1.501)) << name_of(type);
+  }
+  // around a ring, whose mean shape is round
+  auto ring = meshes::box(CellType::quadrilateral, Vec3(1, 0, 0), Vec3(1.1, 6.28, 0), {1, 12, 0});
+  for (Vec3& X : ring.nodes)
+    X = Vec3(X[0] * std::cos(X[1]), X[0] * std::sin(X[1]), 0);
+  EXPECT_LT(meshes::aspect_of(meshes::mean_shape(ring)), 1.1);
+  EXPECT_FALSE(meshes::has_short_cells(ring));
 }
 
 /// By how much, at most, C_ab differ from those of the mesh before it was stretched, as images of

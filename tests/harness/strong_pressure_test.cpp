@@ -143,12 +143,18 @@ TEST(StrongPressure, IsToldOfWhereTheOperatorsAskedForLeaveItToNodes) {
   }
 }
 
-TEST(StrongPressure, IsThatOfCellsWhereRubberHasOperatorsOfSecondOrder) {
+// Where little presses, too: they err less off boxes, unless cells are long, and bear the pressure
+// of rubber.
+TEST(StrongPressure, IsThatOfCellsWhereOperatorsAreOfSecondOrderOffBoxes) {
   const std::string rubber = "material.lame=4", moved = "mesh.perturbation=0.2";
+  const std::string flat = "mesh.upper=[4, 4, 1]", corrected = "scheme.face_correction=0.125";
   for (const auto& [method, asked] :
        {std::pair{"sph", "sph.gradient=corrected"}, std::pair{"fvm", "fvm.stencil=edge"}}) {
-    EXPECT_EQ(carrier(method, {moved, asked}), "nodes");
-    EXPECT_EQ(carrier(method, {moved, asked, rubber}), "cells");
+    EXPECT_EQ(carrier(method, {asked}), "nodes");
+    EXPECT_EQ(carrier(method, {moved, asked}), "cells");
+    EXPECT_EQ(carrier(method, {moved, asked, corrected}), "nodes");
+    EXPECT_EQ(carrier(method, {moved, asked, flat}), "nodes");
+    EXPECT_EQ(carrier(method, {moved, asked, flat, rubber}), "cells");
   }
 }
 

@@ -56,8 +56,10 @@ SectionKeys<SchemeCase> scheme_keys() {
                "(bulk modulus above 2.5 shear moduli) is held on all sides: nodes for fvm on boxes "
                "of hexahedra, where they are as safe; lines where the operators have them; else "
                "cells, with operators of second order, but on hexahedra with distorted faces on "
-               "the boundary. Elsewhere nodes, but of nearly incompressible material lines for SPH "
-               "on boxes, and cells where operators of second order are asked for.",
+               "the boundary. Elsewhere lines of nearly incompressible material for SPH on boxes; "
+               "with operators of second order cells of such material, but for fvm on boxes, and "
+               "of any off boxes, where cells are up to 1.5 times as long as wide and without the "
+               "face correction; else nodes.",
                "\"cells\""))
       .key("cell_shear", &SchemeCase::cell_shear,
            {"-", between(0, 1),
