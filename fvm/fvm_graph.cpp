@@ -86,10 +86,17 @@ scheme::Operators sbp_on_box(const meshes::Mesh& mesh, int order) {
 /// @param blocks  of the mesh, smooth; empty where it is none
 scheme::Operators sbp_off_boxes(const meshes::Mesh& mesh,
                                 const std::vector<meshes::LatticeBlock>& blocks,
-                                int order) {
+                                const Options& options) {
   if (!blocks.empty()) {
-    return {sbp_blocks_graph(mesh, blocks, order), blocks_text(blocks, order),
-            blocks_notices(blocks, order), true};
+    std::vector<std::string> notices = blocks_notices(blocks, options.order);
+    if (!options.jumps_are_symmetric && gives_energy(blocks, options.order)) {
+      notices.emplace_back(
+          "lines of six nodes: D_ab gives energy to some motions unless scheme.reconstruction = "
+          "\"symmetric\" or scheme.limiter = \"sign-preserving\"; five or seven nodes are safer "
+          "(notes 4.6)");
+    }
+    return {sbp_blocks_graph(mesh, blocks, options.order), blocks_text(blocks, options.order),
+            std::move(notices), true};
   }
   return {sbp_graph_of_cells(mesh),
           fmt::format("sbp: order 2 on the cells around {} nodes", mesh.n_nodes()),
@@ -114,15 +121,15 @@ scheme::Operators chosen_on(const meshes::Mesh& mesh, const Options& options) {
   if (!options.strong_pressure_because.empty())
     return edge_because(mesh, options.strong_pressure_because);
   const std::vector<meshes::LatticeBlock> blocks = smooth_blocks(mesh);
-  if (is_too_small(blocks))
+  if (!options.jumps_are_symmetric && is_too_small(blocks))
     return edge_because(mesh, "lines of three nodes along several directions");
-  if (gives_energy(blocks, options.order)) {
+  if (!options.jumps_are_symmetric && gives_energy(blocks, options.order)) {
     return edge_because(
         mesh,
         "curved lines of six nodes, on which D_ab of sbp gives energy; five or seven take it");
   }
   try {
-    return sbp_off_boxes(mesh, blocks, options.order);
+    return sbp_off_boxes(mesh, blocks, options);
   } catch (const base::InputError& refusal) {
     return edge_because(mesh, "sbp does not go with this mesh",
                         {fmt::format("edge stencil, since {}", refusal.what())});
@@ -141,7 +148,7 @@ scheme::Operators operators_on(const meshes::Mesh& mesh, const Options& options)
       return chosen_on(mesh, options);
     case Stencil::sbp:
       if (meshes::is_undistorted_block(mesh)) return sbp_on_box(mesh, options.order);
-      return sbp_off_boxes(mesh, smooth_blocks(mesh), options.order);
+      return sbp_off_boxes(mesh, smooth_blocks(mesh), options);
     case Stencil::edge:
       return {graph_of_cells(mesh, meshes::Quadrature::vertex), "", {}};
     case Stencil::integral:

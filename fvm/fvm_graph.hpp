@@ -22,6 +22,9 @@ struct Options {
   /// auto: off boxes, for this reason unless empty, those alone that bear any bulk pressure, in
   /// volumes of cells (notes 3.9)
   std::string strong_pressure_because = {};
+  /// The dissipation is a sum of squares whatever the operators (notes 3.4), so that auto: sbp on
+  /// curved lines, too, on which it gives energy with linear jumps
+  bool jumps_are_symmetric = false;
 };
 
 /// What Options::stencil may be.

@@ -176,11 +176,6 @@ std::vector<std::string> blocks_notices(const std::vector<LatticeBlock>& blocks,
                     line.is_closed ? 2 * std::ssize(closure::sbp_table(most).interior) + 1
                                    : closure::sbp_table(most).least_nodes()));
   }
-  if (gives_energy(blocks, order)) {
-    texts.emplace_back(
-        "lines of six nodes: D_ab gives energy to some motions unless scheme.limiter = "
-        "\"sign-preserving\"; five or seven nodes are safer (notes 4.6)");
-  }
   return texts;
 }
 

@@ -39,8 +39,9 @@ scheme::Operators sph_operators(const meshes::Mesh& mesh,
 scheme::Operators fvm_operators(const meshes::Mesh& mesh,
                                 const cases::Case& setup,
                                 const std::string& strong_pressure) {
-  return fvm::operators_on(mesh, {setup.fvm.stencil, setup.fvm.order,
-                                  second_order_because(setup, "fvm"), strong_pressure});
+  return fvm::operators_on(mesh,
+                           {setup.fvm.stencil, setup.fvm.order, second_order_because(setup, "fvm"),
+                            strong_pressure, takes_symmetric_jumps(setup.scheme)});
 }
 
 /// Of operators that do not commute and have no volumes of cells, in bodies under strong pressure
@@ -60,9 +61,8 @@ constexpr const char* sign_notice =
 
 /// Whether jumps are those of linear reconstructions without the adjoint of their slopes.
 bool leaves_jumps(const cases::SchemeCase& scheme) {
-  if (scheme.limiter != "none") return false;
-  return scheme.reconstruction == "linear" || scheme.reconstruction == "objective" ||
-         (scheme.reconstruction == "auto" && scheme.face_correction != 0);
+  return scheme.limiter == "none" && scheme.reconstruction != "none" &&
+         !takes_symmetric_jumps(scheme);
 }
 
 /// Whether volumes of cells, and their part of the shear, err less than J and F of nodes where
@@ -130,6 +130,11 @@ void check_fvm(const cases::Case& setup) {
 }
 
 }  // namespace
+
+bool takes_symmetric_jumps(const cases::SchemeCase& scheme) {
+  if (scheme.reconstruction != "auto") return scheme.reconstruction == "symmetric";
+  return scheme.limiter == "none" && scheme.face_correction == 0;
+}
 
 const base::Registry<GraphMaker>& method_menu() {
   static const auto menu =

@@ -13,4 +13,8 @@ using GraphMaker = scheme::Operators (*)(const meshes::Mesh& mesh, const cases::
 /// sph, fvm: what each makes of a mesh for a case.
 const base::Registry<GraphMaker>& method_menu();
 
+/// Whether the reconstruction is symmetric where operators leave jumps whose sign is not known
+/// (Operators::loses_sign): asked for, or by "auto".
+bool takes_symmetric_jumps(const cases::SchemeCase& scheme);
+
 }  // namespace diptych::harness

@@ -1,5 +1,6 @@
 #include "benchmarks/run/memory_estimate.hpp"
 
+#include "benchmarks/run/backends.hpp"
 #include "benchmarks/run/case_mesh.hpp"
 #include "benchmarks/run/memory.hpp"
 #include "benchmarks/run/strong_pressure.hpp"
@@ -169,13 +170,6 @@ bool sums_anywhere(const cases::Case& setup, const std::string& method) {
                             : setup.fvm.order > 2);
 }
 
-/// The symmetric reconstruction, asked for or chosen.
-bool takes_symmetric_jumps(const cases::Case& setup, const std::string& method) {
-  const cases::SchemeCase& scheme = setup.scheme;
-  if (scheme.reconstruction != "auto") return scheme.reconstruction == "symmetric";
-  return scheme.limiter == "none" && scheme.face_correction == 0 && sums_anywhere(setup, method);
-}
-
 /// Nodes in a ball of so many spacings, without its middle.
 double nodes_in_ball(double radius, int dimension) {
   const double volume =
@@ -264,12 +258,14 @@ double bytes_of(const cases::Case& setup,
                 double n_class_pairs,
                 bool has_lines) {
   const cases::SchemeCase& scheme = setup.scheme;
+  const bool has_moments = takes_symmetric_jumps(scheme) &&
+                           (scheme.reconstruction == "symmetric" || sums_anywhere(setup, method));
   const Costs& costs = scheme.precision == "single" ? in_single : in_double;
   double node = costs.node + costs.branch * static_cast<double>(setup.material.branches.size()) +
                 (scheme.impedance == "exact" ? exact_impedance : 0) +
-                (scheme.reconstruction == "objective"   ? frames
-                 : takes_symmetric_jumps(setup, method) ? moments
-                                                        : 0);
+                (scheme.reconstruction == "objective" ? frames
+                 : has_moments                        ? moments
+                                                      : 0);
   const double plane = cases::dimension_of(setup.mesh) == 2 ? of_plane : 1;
   const double stored = scheme.precision == "mixed" ? of_mixed : costs.stored_pair;
   const bool commutes = method != "sph" && !is_simplex(setup.mesh.element) &&

@@ -73,9 +73,7 @@ void note_single_cells(const cases::Case& setup, int level, std::vector<std::str
 
 /// What "auto" comes to where the mesh says so, which the solver does not know.
 std::string reconstruction_for(const cases::Case& setup, const scheme::Operators& operators) {
-  const bool may_choose = setup.scheme.reconstruction == "auto" && setup.scheme.limiter == "none" &&
-                          setup.scheme.face_correction == 0;
-  return may_choose && operators.loses_sign ? "symmetric" : "";
+  return operators.loses_sign && takes_symmetric_jumps(setup.scheme) ? "symmetric" : "";
 }
 
 cases::Case resolved(cases::Case setup, const std::string& reconstruction) {

@@ -197,6 +197,8 @@ TEST(SbpBlocks, AreTakenWhereLinesAreSmooth) {
   EXPECT_THAT(text(test_box(CellType::hexahedron, 6, 0.2)), HasSubstr("on the cells around"));
   EXPECT_EQ(text(bent_l(8, 0), "auto"), text(bent_l(8, 0)));
   EXPECT_THAT(text(curved_block(5, 0), "auto"), HasSubstr("edge stencil: curved lines of six"));
+  const fvm::Options symmetric{"auto", 4, "", "", true};
+  EXPECT_THAT(fvm::operators_on(curved_block(5, 0), symmetric).text, HasSubstr("sbp"));
   EXPECT_THAT(fvm::operators_on(bent_l(4, 0), {"sbp", 4}).notices,
               ElementsAre("order 2 instead of 4 on lines of 5 nodes, order 4 takes 8"));
   EXPECT_THAT(fvm::operators_on(ring(4, 8, 0), {"sbp", 4}).notices,
@@ -205,6 +207,8 @@ TEST(SbpBlocks, AreTakenWhereLinesAreSmooth) {
               ElementsAre(HasSubstr("order 4 instead of 6")));
   EXPECT_THAT(fvm::operators_on(curved_block(5, 0), {"sbp", 4}).notices,
               testing::Contains(HasSubstr("lines of six nodes")));
+  EXPECT_THAT(fvm::operators_on(curved_block(5, 0), symmetric).notices,
+              testing::Not(testing::Contains(HasSubstr("lines of six nodes"))));
   EXPECT_TRUE(fvm::operators_on(curved_block(8, 0), {"sbp", 4}).loses_sign);
 }
 
