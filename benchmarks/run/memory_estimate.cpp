@@ -274,7 +274,9 @@ double bytes_of(const cases::Case& setup,
   const bool wants_volumes = may_press_strongly(setup) || is_nearly_incompressible(setup.material);
   const bool is_box =
       !is_simplex(setup.mesh.element) && setup.mesh.perturbation == 0 && setup.mesh.file.empty();
-  const bool errs_less_with_cells = !is_box && scheme.face_correction == 0;
+  const bool errs_less_with_cells =
+      !is_box && scheme.face_correction == 0 &&
+      (method == "sph" || setup.fvm.stencil == "integral" || is_simplex(setup.mesh.element));
   const bool has_volumes =
       scheme.volumes == "cells" || scheme.volumes == "lines" ||
       (scheme.volumes == "auto" && !commutes && !sums_anywhere(setup, method) &&

@@ -143,19 +143,23 @@ TEST(StrongPressure, IsToldOfWhereTheOperatorsAskedForLeaveItToNodes) {
   }
 }
 
-// Where little presses, too: they err less off boxes, unless cells are long, and bear the pressure
-// of rubber.
+// Where little presses, too, but for edges of hexahedra: they err less off boxes, unless cells are
+// long, and bear the pressure of rubber.
 TEST(StrongPressure, IsThatOfCellsWhereOperatorsAreOfSecondOrderOffBoxes) {
   const std::string rubber = "material.lame=4", moved = "mesh.perturbation=0.2";
   const std::string flat = "mesh.upper=[4, 4, 1]", corrected = "scheme.face_correction=0.125";
   for (const auto& [method, asked] :
        {std::pair{"sph", "sph.gradient=corrected"}, std::pair{"fvm", "fvm.stencil=edge"}}) {
     EXPECT_EQ(carrier(method, {asked}), "nodes");
-    EXPECT_EQ(carrier(method, {moved, asked}), "cells");
-    EXPECT_EQ(carrier(method, {moved, asked, corrected}), "nodes");
-    EXPECT_EQ(carrier(method, {moved, asked, flat}), "nodes");
+    const std::string tetrahedra = "mesh.element=tetrahedron";
+    EXPECT_EQ(carrier(method, {tetrahedra, asked}), "cells");
+    EXPECT_EQ(carrier(method, {tetrahedra, asked, corrected}), "nodes");
+    EXPECT_EQ(carrier(method, {tetrahedra, asked, flat}), "nodes");
     EXPECT_EQ(carrier(method, {moved, asked, flat, rubber}), "cells");
   }
+  EXPECT_EQ(carrier("sph", {moved, "sph.gradient=corrected"}), "cells");
+  EXPECT_EQ(carrier("fvm", {moved, "fvm.stencil=edge"}), "nodes");
+  EXPECT_EQ(carrier("fvm", {moved, "fvm.stencil=integral"}), "cells");
 }
 
 }  // namespace

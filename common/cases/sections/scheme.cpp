@@ -58,7 +58,8 @@ SectionKeys<SchemeCase> scheme_keys() {
                "cells, with operators of second order, but on hexahedra with distorted faces on "
                "the boundary. Elsewhere lines of nearly incompressible material for SPH on boxes; "
                "with operators of second order cells of such material, but for fvm on boxes, and "
-               "of any off boxes, where cells are up to 1.5 times as long as wide and without the "
+               "of any off boxes, but for fvm with the edge stencil on other cells than triangles "
+               "and tetrahedra, where cells are up to 1.5 times as long as wide and without the "
                "face correction; else nodes.",
                "\"cells\""))
       .key("cell_shear", &SchemeCase::cell_shear,
