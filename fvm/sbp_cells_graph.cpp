@@ -3,6 +3,7 @@
 #include "common/closure/summation_by_parts.hpp"
 #include "common/scheme/graph/equal_widths.hpp"
 #include "fvm/cell_stencil.hpp"
+#include "meshes/dual_measure.hpp"
 #include "meshes/quadratic_measure.hpp"
 
 #include <algorithm>
@@ -101,6 +102,8 @@ scheme::PairGraph graph_by_distances(const meshes::Mesh& mesh) {
   link_reverse_pairs(graph);
   add_cells(mesh, meshes::Quadrature::vertex, graph);
   closure::make_sum_by_parts(graph, weights_of(mesh, graph));
+  closure::require_no_steep_rows(graph,
+                                 meshes::dual_measure(mesh, meshes::Quadrature::vertex).Omega);
   validate(graph);
   return graph;
 }

@@ -113,17 +113,17 @@ void repair_closure(const Kernel& kernel, const std::vector<double>& h, scheme::
   closure::repair_closure_pairs(graph, weights_of(kernel, h, graph));
 }
 
-/// By round supports.
-scheme::PairGraph round_graph_of(const meshes::Mesh& mesh,
-                                 const Options& options,
-                                 bool sums_by_parts) {
+/// With smoothing lengths h.
+scheme::PairGraph graph_within(const meshes::Mesh& mesh,
+                               const Options& options,
+                               meshes::DualMeasure measure,
+                               const std::vector<double>& h,
+                               bool sums_by_parts) {
   const Kernel kernel = kernels().at(options.kernel);
-  const meshes::DualMeasure by_vertices = meshes::dual_measure(mesh, meshes::Quadrature::vertex);
-  const std::vector<double> h = smoothing_lengths(mesh, by_vertices.Omega, options.kappa);
   scheme::PairGraph graph;
   graph.dimension = mesh.dimension;
   graph.X = mesh.nodes;
-  set_measure(sums_by_parts ? meshes::quadratic_measure(mesh, sums_use) : by_vertices, graph);
+  set_measure(std::move(measure), graph);
   std::vector<double> radius(h);
   for (double& r : radius)
     r *= kernel.support;
@@ -138,12 +138,51 @@ scheme::PairGraph round_graph_of(const meshes::Mesh& mesh,
   } else if (options.closure) {
     repair_closure(kernel, h, graph);
   }
-  if (!sums_by_parts && meshes::areas_are_of_cells(mesh, meshes::Quadrature::vertex)) {
-    auto cells = meshes::cell_shares(mesh, meshes::Quadrature::vertex);
-    graph.cells = {std::move(cells.row), std::move(cells.corner), std::move(cells.share)};
-  }
-  validate(graph);
   return graph;
+}
+
+/// Supports of `rows` and of their neighbours by a tenth.
+void widen(const std::vector<std::int32_t>& rows,
+           const scheme::PairGraph& graph,
+           std::vector<double>& h) {
+  std::vector<char> is_wider(h.size(), 0);
+  for (const std::int32_t a : rows) {
+    is_wider[a] = 1;
+    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
+      is_wider[graph.neighbour[p]] = 1;
+  }
+  for (size_t a = 0; a < h.size(); ++a) {
+    if (is_wider[a] != 0) h[a] *= 1.1;
+  }
+}
+
+/// By round supports, wider where rows of operators that sum by parts are steep.
+scheme::PairGraph round_graph_of(const meshes::Mesh& mesh,
+                                 const Options& options,
+                                 bool sums_by_parts) {
+  constexpr int most_times = 4;
+  const meshes::DualMeasure by_vertices = meshes::dual_measure(mesh, meshes::Quadrature::vertex);
+  std::vector<double> h = smoothing_lengths(mesh, by_vertices.Omega, options.kappa);
+  if (!sums_by_parts) {
+    scheme::PairGraph graph = graph_within(mesh, options, by_vertices, h, false);
+    if (meshes::areas_are_of_cells(mesh, meshes::Quadrature::vertex)) {
+      auto cells = meshes::cell_shares(mesh, meshes::Quadrature::vertex);
+      graph.cells = {std::move(cells.row), std::move(cells.corner), std::move(cells.share)};
+    }
+    validate(graph);
+    return graph;
+  }
+  const meshes::DualMeasure by_quadratics = meshes::quadratic_measure(mesh, sums_use);
+  for (int times = 0;; ++times) {
+    scheme::PairGraph graph = graph_within(mesh, options, by_quadratics, h, true);
+    const std::vector<std::int32_t> steep = closure::steep_rows(graph, by_vertices.Omega);
+    if (steep.empty()) {
+      validate(graph);
+      return graph;
+    }
+    if (times == most_times) closure::require_no_steep_rows(graph, by_vertices.Omega);
+    widen(steep, graph, h);
+  }
 }
 
 /// On any nodes; supports are ellipsoids where cells are long.

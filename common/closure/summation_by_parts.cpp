@@ -5,7 +5,10 @@
 #include "common/closure/closure_repair.hpp"
 #include "common/closure/cubic_part.hpp"
 #include "common/closure/quadratic_correction.hpp"
+#include "common/parallel/for_chunks.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace diptych::closure {
@@ -41,6 +44,22 @@ SummationByParts solve(scheme::PairGraph& graph,
   return result;
 }
 
+/// V_a^(1/d)/Omega_a 1/2 sum_b |C_ab| of every row, in space 3.5 on a lattice.
+constexpr double of_lattice = 3.5;
+
+std::vector<double> slopes_of(const scheme::PairGraph& graph, const std::vector<double>& V) {
+  std::vector<double> slopes(V.size());
+  parallel::for_chunks(graph.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      double sum = 0;
+      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
+        sum += graph.C[p].norm() / 2;
+      slopes[a] = sum / graph.Omega[a] * std::pow(V[a], 1.0 / graph.dimension);
+    }
+  });
+  return slopes;
+}
+
 }  // namespace
 
 SummationByParts make_sum_by_parts(scheme::PairGraph& graph,
@@ -58,6 +77,32 @@ SummationByParts make_sum_by_parts(scheme::PairGraph& graph,
   }
   repair_closure_pairs(graph, k);
   return result;
+}
+
+std::vector<std::int32_t> steep_rows(const scheme::PairGraph& graph, const std::vector<double>& V) {
+  constexpr double steep = 10;
+  const std::vector<double> slopes = slopes_of(graph, V);
+  std::vector<std::int32_t> rows;
+  for (std::int32_t a = 0; a < graph.n_nodes(); ++a) {
+    if (slopes[a] > steep) rows.push_back(a);
+  }
+  std::sort(rows.begin(), rows.end(), [&](std::int32_t a, std::int32_t b) {
+    return slopes[a] != slopes[b] ? slopes[a] > slopes[b] : a < b;
+  });
+  return rows;
+}
+
+void require_no_steep_rows(const scheme::PairGraph& graph, const std::vector<double>& V) {
+  const std::vector<std::int32_t> rows = steep_rows(graph, V);
+  if (rows.empty()) return;
+  const Vec3& X = graph.X[rows[0]];
+  throw base::InputError(fmt::format(
+      "operators that sum by parts: derivatives at {} of {} nodes, such as {} at ({:.6g}, {:.6g}, "
+      "{:.6g}), have weights {:.0f} times those of a lattice, and need steps as much smaller: the "
+      "mesh is too coarse or too uneven there; refine it, raise sph.kappa, or use gradient = "
+      "\"corrected\" (SPH), stencil = \"edge\" (finite volumes)",
+      rows.size(), graph.n_nodes(), rows[0], X[0], X[1], X[2],
+      slopes_of(graph, V)[rows[0]] / of_lattice));
 }
 
 }  // namespace diptych::closure

@@ -12,6 +12,7 @@
 
 #include "common/scheme/graph/pair_graph.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace diptych::closure {
@@ -35,5 +36,15 @@ struct SummationByParts {
 SummationByParts make_sum_by_parts(scheme::PairGraph& graph,
                                    const std::vector<double>& k,
                                    const SummationLimits& limits = {});
+
+/// Rows of derivatives that are out of proportion, V_a^(1/d)/Omega_a 1/2 sum_b |C_ab| > 12: those
+/// of lattices have 3 to 4, of moved nodes and tetrahedra up to 9, while few neighbours that stand
+/// badly give hundreds, and steps as much smaller (notes 4.5).
+/// @param V  [n_nodes] volumes of the nodes, shares of their cells
+/// @return the nodes, the worst first
+std::vector<std::int32_t> steep_rows(const scheme::PairGraph& graph, const std::vector<double>& V);
+
+/// @throws base::InputError where there are steep rows, with the place of the worst
+void require_no_steep_rows(const scheme::PairGraph& graph, const std::vector<double>& V);
 
 }  // namespace diptych::closure

@@ -7,6 +7,7 @@
 #include "common/base/error.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "fvm/fvm_graph.hpp"
+#include "meshes/dual_measure.hpp"
 #include "meshes/quadratic_measure.hpp"
 #include "sph/sph_graph.hpp"
 #include "tests/graphs/sbp_checks.hpp"
@@ -104,6 +105,24 @@ TEST(SummationByParts, HasTheSameBitsForEveryNumberOfThreads) {
   EXPECT_TRUE(one.C == three.C);
 }
 
+/// What a graph of SPH without its closure becomes with weights exp(-(r/length)^2).
+closure::SummationByParts sum_by_parts(const meshes::Mesh& mesh,
+                                       double length,
+                                       scheme::PairGraph& graph) {
+  meshes::DualMeasure measure = meshes::quadratic_measure(mesh);
+  graph.Omega = measure.Omega;
+  graph.boundary_area = measure.boundary_area;
+  std::vector<double> k(graph.C.size());
+  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
+    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+      const std::int32_t b = graph.neighbour[p];
+      const double q = (graph.X[b] - graph.X[a]).norm() / length;
+      k[p] = graph.Omega[a] * graph.Omega[b] * std::exp(-q * q);
+    }
+  }
+  return closure::make_sum_by_parts(graph, k);
+}
+
 /// With the diagonal alone steps grow eightfold from one row to the next, with splines that leave
 /// out the gradients fourfold.
 TEST(SummationByParts, TakesFewIterations) {
@@ -112,22 +131,34 @@ TEST(SummationByParts, TakesFewIterations) {
     sph::Options options;
     options.closure = false;
     scheme::PairGraph graph = sph::build_graph(mesh, options);
-    meshes::DualMeasure measure = meshes::quadratic_measure(mesh);
-    graph.Omega = measure.Omega;
-    graph.boundary_area = measure.boundary_area;
-    std::vector<double> k(graph.C.size());
-    for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
-      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-        const std::int32_t b = graph.neighbour[p];
-        const double q = (graph.X[b] - graph.X[a]).norm() * n;
-        k[p] = graph.Omega[a] * graph.Omega[b] * std::exp(-q * q);
-      }
-    }
-    const auto took = closure::make_sum_by_parts(graph, k);
+    const auto took = sum_by_parts(mesh, 1.0 / n, graph);
     EXPECT_GT(took.before, 0.1) << n;
     EXPECT_LE(took.after, residual) << n;
     EXPECT_LE(took.iterations, most) << n;
   }
+}
+
+/// Where few neighbours stand badly, weights, and with them the rates of the fastest waves, were up
+/// to a hundred times those of other nodes. Supports grow there.
+TEST(SummationByParts, WidensSupportsWhereRowsAreSteep) {
+  meshes::Mesh mesh = meshes::box(CellType::hexahedron, {0, 0, 0}, {3, 3, 3}, {3, 3, 3});
+  meshes::perturb_interior(mesh, 0.45, 2);
+  const auto V = meshes::dual_measure(mesh, meshes::Quadrature::vertex).Omega;
+  sph::Options options;
+  options.kappa = 1.02;
+  options.closure = false;
+  scheme::PairGraph narrow = sph::build_graph(mesh, options);
+  sum_by_parts(mesh, 1, narrow);
+  EXPECT_FALSE(closure::steep_rows(narrow, V).empty());
+  try {
+    closure::require_no_steep_rows(narrow, V);
+    ADD_FAILURE() << "was taken";
+  } catch (const base::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("times those of a lattice"));
+  }
+  const scheme::PairGraph wide = sph_graph(mesh, 1.02);
+  EXPECT_TRUE(closure::steep_rows(wide, V).empty());
+  EXPECT_GT(wide.n_pairs(), narrow.n_pairs());
 }
 
 /// As nearly as on lattices (sph_sbp_test.cpp), with all pairs whose area points forward.
