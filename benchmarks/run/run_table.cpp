@@ -42,6 +42,7 @@ std::string run_table(const io::RunSummary& s) {
       fmt::format("{} level {}: {} nodes, {} pairs ({:.3g} a node), {} unknowns a node{}\n",
                   s.column(), s.level, s.nodes, s.pairs, s.mean_neighbours, s.unknowns_per_node,
                   s.volumes == "nodes" ? "" : ", volumes of " + s.volumes);
+  if (!s.graph_operators.empty()) text += fmt::format("  {}\n", s.graph_operators);
   text += fmt::format(
       "  {} steps of {}, dt {:.3g} to {:.3g} s; {:.3g} s in the loop of {:.3g} s with set-up and "
       "output, {:.3g} ns per node and stage ({}{} {})\n",
