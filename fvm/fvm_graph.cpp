@@ -121,7 +121,7 @@ scheme::Operators chosen_on(const meshes::Mesh& mesh, const Options& options) {
   if (!options.strong_pressure_because.empty())
     return edge_because(mesh, options.strong_pressure_because);
   const std::vector<meshes::LatticeBlock> blocks = smooth_blocks(mesh);
-  if (!options.jumps_are_symmetric && is_too_small(blocks))
+  if (is_too_small(blocks))
     return edge_because(mesh, "lines of three nodes along several directions");
   if (!options.jumps_are_symmetric && gives_energy(blocks, options.order)) {
     return edge_because(

@@ -23,7 +23,7 @@ struct Options {
   /// volumes of cells (notes 3.9)
   std::string strong_pressure_because = {};
   /// The dissipation is a sum of squares whatever the operators (notes 3.4), so that auto: sbp on
-  /// curved lines, too, on which it gives energy with linear jumps
+  /// curved lines of six nodes, too, on which it gives energy with linear jumps
   bool jumps_are_symmetric = false;
 };
 

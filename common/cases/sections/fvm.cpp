@@ -22,21 +22,21 @@ void check(const SectionValues& section, const FvmCase& fvm) {
 SectionEntry fvm_section() {
   const auto keys =
       SectionKeys<FvmCase>("fvm")
-          .key("stencil", &FvmCase::stencil,
-               as(KeyType::name,
-                  {"-", any,
-                   "Pair areas by nodal quadrature (edge), by 2 int N_a grad N_b dV "
-                   "(integral), or from operators that sum by parts (sbp): along the "
-                   "lines of nodes of boxes of hexahedra or quadrilaterals and of smooth curved "
-                   "blocks of them, glued where they meet (transfinite meshes of Gmsh), elsewhere "
-                   "over two rings of cells of a body with plane sides. auto: sbp where the mesh "
-                   "takes it, on boxes with a line of three nodes or more and boundary groups that "
-                   "cover whole sides or end far from their edges, but with a face correction and, "
-                   "off boxes, where a scene presses hard (scheme.volumes) or, with jumps that are "
-                   "not "
-                   "symmetric (scheme.reconstruction), curved lines have six nodes, or three along "
-                   "several directions; else edge.",
-                   "\"sbp\""}))
+          .key(
+              "stencil", &FvmCase::stencil,
+              as(KeyType::name,
+                 {"-", any,
+                  "Pair areas by nodal quadrature (edge), by 2 int N_a grad N_b dV "
+                  "(integral), or from operators that sum by parts (sbp): along the "
+                  "lines of nodes of boxes of hexahedra or quadrilaterals and of smooth curved "
+                  "blocks of them, glued where they meet (transfinite meshes of Gmsh), elsewhere "
+                  "over two rings of cells of a body with plane sides. auto: sbp where the mesh "
+                  "takes it, on boxes with a line of three nodes or more and boundary groups that "
+                  "cover whole sides or end far from their edges, but with a face correction and, "
+                  "off boxes, where a scene presses hard (scheme.volumes), curved lines have three "
+                  "nodes along several directions, or, with jumps that are not symmetric "
+                  "(scheme.reconstruction), six; else edge.",
+                  "\"sbp\""}))
           .key("order", &FvmCase::order,
                {"-", between(2, 6),
                 "With stencil = \"sbp\" or \"auto\" on a box or blocks, order of the derivatives "
