@@ -11,9 +11,11 @@
 #include "fvm/sbp_cells_graph.hpp"
 #include "fvm/sbp_graph.hpp"
 #include "meshes/cell_shares.hpp"
+#include "meshes/cell_topology.hpp"
 #include "meshes/dual_measure.hpp"
 #include "meshes/structured_block.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace diptych::fvm {
@@ -104,11 +106,27 @@ scheme::Operators sbp_off_boxes(const meshes::Mesh& mesh,
           true};
 }
 
+/// Edges of other cells than simplices bend too stiffly themselves.
+scheme::Operators edge_on(const meshes::Mesh& mesh,
+                          std::string text,
+                          std::vector<std::string> notices = {}) {
+  scheme::Operators operators{graph_of_cells(mesh, meshes::Quadrature::vertex), std::move(text),
+                              std::move(notices)};
+  operators.errs_less_with_cells =
+      std::all_of(mesh.cell_types.begin(), mesh.cell_types.end(), meshes::is_simplex);
+  return operators;
+}
+
+scheme::Operators integral_on(const meshes::Mesh& mesh) {
+  scheme::Operators operators{graph_of_cells(mesh, meshes::Quadrature::exact), "", {}};
+  operators.errs_less_with_cells = true;
+  return operators;
+}
+
 scheme::Operators edge_because(const meshes::Mesh& mesh,
                                const std::string& because,
                                std::vector<std::string> notices = {}) {
-  return {graph_of_cells(mesh, meshes::Quadrature::vertex),
-          fmt::format("edge stencil: {}", because), std::move(notices)};
+  return edge_on(mesh, fmt::format("edge stencil: {}", because), std::move(notices));
 }
 
 /// What stencil = "auto" comes to.
@@ -150,9 +168,9 @@ scheme::Operators operators_on(const meshes::Mesh& mesh, const Options& options)
       if (meshes::is_undistorted_block(mesh)) return sbp_on_box(mesh, options.order);
       return sbp_off_boxes(mesh, smooth_blocks(mesh), options);
     case Stencil::edge:
-      return {graph_of_cells(mesh, meshes::Quadrature::vertex), "", {}};
+      return edge_on(mesh, "");
     case Stencil::integral:
-      return {graph_of_cells(mesh, meshes::Quadrature::exact), "", {}};
+      return integral_on(mesh);
   }
   __builtin_unreachable();
 }

@@ -74,6 +74,10 @@ std::span<const LocalCorner> corners_of(CellType type) {
   return topology_of(type).corners;
 }
 
+bool is_simplex(CellType type) {
+  return type == CellType::triangle || type == CellType::tetrahedron;
+}
+
 const char* name_of(CellType type) {
   return topology_of(type).name;
 }

@@ -29,6 +29,9 @@ std::span<const LocalFace> faces_of(CellType type);
 std::span<const LocalEdge> edges_of(CellType type);
 std::span<const LocalCorner> corners_of(CellType type);
 
+/// Whether it is a triangle or a tetrahedron.
+bool is_simplex(CellType type);
+
 /// "triangle", "quadrilateral", ... for messages and case files.
 const char* name_of(CellType type);
 

@@ -14,10 +14,6 @@ namespace {
 /// sides, whose diagonals lean one way, it is 1.73 and 2.
 constexpr double least_aspect_of_simplices[] = {1.745, 2.015};
 
-bool is_simplex(CellType type) {
-  return type == CellType::triangle || type == CellType::tetrahedron;
-}
-
 /// Over the root of the determinant.
 Mat3 shape_of(Mat3 squares, int dimension) {
   if (dimension == 3) return squares / std::cbrt(squares.determinant());

@@ -206,12 +206,21 @@ scheme::Operators sbp_on(const meshes::Mesh& mesh, const Options& options) {
           true};
 }
 
+scheme::Operators corrected_on(const meshes::Mesh& mesh,
+                               const Options& options,
+                               std::string text,
+                               std::vector<std::string> notices = {}) {
+  scheme::Operators operators{graph_of(mesh, options, false), std::move(text), std::move(notices)};
+  operators.errs_less_with_cells = true;
+  return operators;
+}
+
 scheme::Operators corrected_because(const meshes::Mesh& mesh,
                                     const Options& options,
                                     const std::string& because,
                                     std::vector<std::string> notices = {}) {
-  return {graph_of(mesh, options, false), fmt::format("corrected gradient: {}", because),
-          std::move(notices)};
+  return corrected_on(mesh, options, fmt::format("corrected gradient: {}", because),
+                      std::move(notices));
 }
 
 /// What gradient = "auto" comes to.
@@ -249,7 +258,7 @@ scheme::Operators operators_on(const meshes::Mesh& mesh, const Options& options)
     case Gradient::automatic:
       return chosen_on(mesh, options);
     case Gradient::corrected:
-      return {graph_of(mesh, options, false), "", {}};
+      return corrected_on(mesh, options, "");
     case Gradient::sbp:
       return sbp_on(mesh, options);
   }

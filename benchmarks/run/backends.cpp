@@ -9,7 +9,6 @@
 #include "meshes/structured_block.hpp"
 #include "sph/sph_graph.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace diptych::harness {
@@ -66,23 +65,13 @@ bool leaves_jumps(const cases::SchemeCase& scheme) {
          !takes_symmetric_jumps(scheme);
 }
 
-bool is_of_simplices(const meshes::Mesh& mesh) {
-  return std::all_of(mesh.cell_types.begin(), mesh.cell_types.end(), [](meshes::CellType type) {
-    return type == meshes::CellType::triangle || type == meshes::CellType::tetrahedron;
-  });
-}
-
-/// Whether volumes of cells, and their part of the shear, err less than J and F of nodes where
-/// little presses: with operators of second order off boxes, but for the edge stencil on other
-/// cells than simplices and the face correction, which nodes have alone. Columns that bend err
-/// alike with both on cells 1.8 times as long as wide (notes 3.11).
-bool errs_less_with_cells(const scheme::PairGraph& graph,
-                          const meshes::Mesh& mesh,
-                          const cases::Case& setup,
-                          const std::string& method) {
-  const bool reaches_corners =
-      method == "sph" || setup.fvm.stencil == "integral" || is_of_simplices(mesh);
-  return !graph.cells.empty() && reaches_corners && setup.scheme.face_correction == 0 &&
+/// Whether volumes of cells, and their part of the shear, are taken where little presses: off
+/// boxes, but with the face correction, which nodes have alone. Columns that bend err alike with
+/// both on cells 1.8 times as long as wide (notes 3.11).
+bool takes_cells(const scheme::Operators& operators,
+                 const meshes::Mesh& mesh,
+                 const cases::Case& setup) {
+  return operators.errs_less_with_cells && setup.scheme.face_correction == 0 &&
          !meshes::is_undistorted_block(mesh) && meshes::has_short_cells(mesh);
 }
 
@@ -90,14 +79,13 @@ bool errs_less_with_cells(const scheme::PairGraph& graph,
 scheme::Operators finished(scheme::Operators operators,
                            const meshes::Mesh& mesh,
                            const cases::Case& setup,
-                           const std::string& method,
                            const std::string& strong_pressure) {
   scheme::PairGraph& graph = operators.graph;
   const bool presses = !strong_pressure.empty();
   const bool may_press = presses || is_nearly_incompressible(setup.material);
   if (setup.scheme.volumes == "auto" && !may_press) {
     graph.lines = {};  // they err as nodes do in smooth motion and cost a sixth more
-    if (!errs_less_with_cells(graph, mesh, setup, method)) graph.cells = {};
+    if (!takes_cells(operators, mesh, setup)) graph.cells = {};
   }
   if (operators.loses_sign && presses && leaves_jumps(setup.scheme))
     operators.notices.emplace_back(sign_notice);
@@ -154,12 +142,12 @@ const base::Registry<GraphMaker>& method_menu() {
                [](const meshes::Mesh& mesh, const cases::Case& setup) {
                  check_sph(setup);
                  const std::string strong = strong_pressure_because(setup, mesh);
-                 return finished(sph_operators(mesh, setup, strong), mesh, setup, "sph", strong);
+                 return finished(sph_operators(mesh, setup, strong), mesh, setup, strong);
                })
           .add("fvm", [](const meshes::Mesh& mesh, const cases::Case& setup) {
             check_fvm(setup);
             const std::string strong = strong_pressure_because(setup, mesh);
-            return finished(fvm_operators(mesh, setup, strong), mesh, setup, "fvm", strong);
+            return finished(fvm_operators(mesh, setup, strong), mesh, setup, strong);
           });
   return menu;
 }

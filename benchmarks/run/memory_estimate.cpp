@@ -76,6 +76,10 @@ bool is_simplex(const std::string& element) {
   return element == "tetrahedron" || element == "triangle";
 }
 
+bool is_lattice(const cases::MeshCase& mesh) {
+  return mesh.file.empty() && mesh.perturbation == 0 && !is_simplex(mesh.element);
+}
+
 double simplices_of_cell(const cases::MeshCase& mesh) {
   if (!is_simplex(mesh.element)) return 1;
   return cases::dimension_of(mesh) == 3 ? 6 : 2;
@@ -142,8 +146,7 @@ double pairs_of_rings(const Lattice& lattice, const std::string& element) {
 /// Finite volumes that sum by parts along the lines of a box, asked for or chosen.
 bool sums_along_lines(const cases::Case& setup) {
   if (setup.fvm.stencil == "sbp") return true;
-  return setup.fvm.stencil == "auto" && setup.scheme.face_correction == 0 &&
-         setup.mesh.file.empty() && setup.mesh.perturbation == 0 && !is_simplex(setup.mesh.element);
+  return setup.fvm.stencil == "auto" && setup.scheme.face_correction == 0 && is_lattice(setup.mesh);
 }
 
 /// Nodes that a row of finite volumes reaches along a line.
@@ -158,8 +161,7 @@ double support_radius(const cases::SphCase& sph) {
 
 /// Whether operators sum by parts on nodes that are no lattice (notes 4.5).
 bool sums_anywhere(const cases::Case& setup, const std::string& method) {
-  if (!is_simplex(setup.mesh.element) && setup.mesh.perturbation == 0 && setup.mesh.file.empty())
-    return false;
+  if (is_lattice(setup.mesh)) return false;
   const bool is_sph = method == "sph";
   const std::string& asked = is_sph ? setup.sph.gradient : setup.fvm.stencil;
   if (asked != "auto") return asked == "sbp";
@@ -242,8 +244,7 @@ double particle_pairs(const Lattice& lattice, const Support& support) {
 /// SPH that sums by parts on a box, asked for or chosen: supports in spacings of each line, rows of
 /// their own within three nodes of a side.
 bool sums_on_lattice(const cases::Case& setup) {
-  const bool is_box =
-      setup.mesh.file.empty() && setup.mesh.perturbation == 0 && !is_simplex(setup.mesh.element);
+  const bool is_box = is_lattice(setup.mesh);
   if (setup.sph.gradient != "auto") return is_box && setup.sph.gradient == "sbp";
   return is_box && setup.scheme.face_correction == 0 && support_radius(setup.sph) > 2 &&
          support_radius(setup.sph) <= 4 && setup.scheme.volumes != "cells";
@@ -272,10 +273,8 @@ double bytes_of(const cases::Case& setup,
                         setup.mesh.perturbation == 0 && setup.fvm.stencil != "integral";
   const bool on_lines = method == "sph" && sums_on_lattice(setup);
   const bool wants_volumes = may_press_strongly(setup) || is_nearly_incompressible(setup.material);
-  const bool is_box =
-      !is_simplex(setup.mesh.element) && setup.mesh.perturbation == 0 && setup.mesh.file.empty();
   const bool errs_less_with_cells =
-      !is_box && scheme.face_correction == 0 &&
+      !is_lattice(setup.mesh) && scheme.face_correction == 0 &&
       (method == "sph" || setup.fvm.stencil == "integral" || is_simplex(setup.mesh.element));
   const bool has_volumes =
       scheme.volumes == "cells" || scheme.volumes == "lines" ||

@@ -203,7 +203,14 @@ Mesh mesh_geo(const std::string& geo_path,
         fmt::format("{}: gmsh wrote no mesh: {}", geo_path, errors_of(result.output)));
   }
   check_size(geo_path, size, result.output);
-  return read_msh(msh.string());
+  try {
+    return read_msh(msh.string());
+  } catch (const base::InputError& error) {  // of a file that nobody sees
+    std::string what = error.what();
+    if (const size_t at = what.find(msh.string()); at != std::string::npos)
+      what.replace(at, msh.string().size(), geo_path + ", the mesh that gmsh made of it");
+    throw base::InputError(what);
+  }
 }
 
 }  // namespace diptych::meshes

@@ -155,6 +155,7 @@ TEST(StrongPressure, IsThatOfCellsWhereOperatorsAreOfSecondOrderOffBoxes) {
     EXPECT_EQ(carrier(method, {tetrahedra, asked}), "cells");
     EXPECT_EQ(carrier(method, {tetrahedra, asked, corrected}), "nodes");
     EXPECT_EQ(carrier(method, {tetrahedra, asked, flat}), "nodes");
+    EXPECT_EQ(carrier(method, {moved, asked, rubber}), "cells");
     EXPECT_EQ(carrier(method, {moved, asked, flat, rubber}), "cells");
   }
   EXPECT_EQ(carrier("sph", {moved, "sph.gradient=corrected"}), "cells");

@@ -101,6 +101,13 @@ TEST_F(MeshGeo, KilledSilentAndMeshlessRunsAreErrors) {
   EXPECT_THAT(environment_error(block_), HasSubstr("wrote no mesh"));
 }
 
+TEST_F(MeshGeo, WhatIsWrongWithTheMeshIsSaidOfTheGeometry) {
+  play_gmsh("for word; do msh=$word; done\necho nonsense > \"$msh\"\n");
+  const std::string message = input_error_of([&] { mesh_geo(block_, 3, 1, work()); });
+  EXPECT_THAT(message, testing::StartsWith(block_ + ", the mesh that gmsh made of it:1:"));
+  EXPECT_THAT(message, testing::Not(HasSubstr(work())));
+}
+
 TEST_F(MeshGeo, ArgumentsReachGmshWithoutAShell) {
   const std::string geo = write("a $(touch hurt) b.geo", "// empty\n");
   play_gmsh("for word; do echo \"Error : [$word]\"; done\nexit 1\n");

@@ -16,6 +16,9 @@ struct Operators {
   /// energy to some motions, unless they have their adjoint or a limiter keeps the sign of the
   /// jumps (notes 3.4, 4.5, 4.6).
   bool loses_sign = false;
+  /// Of second order, whose nodes see short waves so badly that volumes and shear of cells err less
+  /// (notes 3.11).
+  bool errs_less_with_cells = false;
 };
 
 }  // namespace diptych::scheme
