@@ -1,5 +1,5 @@
 #pragma once
-/// Finite volumes that sum by parts on any cells of a body with plane sides: rows reach two rings
+/// Finite volumes that sum by parts on any cells: rows reach two rings
 /// of edges, three where that is too few for a quadratic, and the C_ab are those of the edge
 /// stencil, changed least, with the weight Omega_a Omega_b exp(-(r/1.2 h)^2), to sum by parts. Rows
 /// are exact for quadratics, the adjoint for linear stresses, up to the boundary. Source:

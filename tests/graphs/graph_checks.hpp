@@ -42,6 +42,16 @@ inline meshes::Mesh test_box(CellType type, int n, double fraction) {
   return mesh;
 }
 
+/// test_box bent to 0.8 radians of a ring with the radii 1 and 2.2.
+inline meshes::Mesh bent_box(CellType type, int n, double fraction) {
+  meshes::Mesh mesh = test_box(type, n, fraction);
+  for (Vec3& X : mesh.nodes) {
+    const double r = X[1] + 0.9, angle = 0.8 * (0.5 - X[0]);
+    X = Vec3(r * std::cos(angle), r * std::sin(angle), X[2]);
+  }
+  return mesh;
+}
+
 /// Random vectors, one per node; without z in 2-D.
 inline std::vector<Vec3> random_field(const scheme::PairGraph& graph, unsigned seed) {
   std::mt19937 engine(seed);

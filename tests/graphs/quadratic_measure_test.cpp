@@ -1,11 +1,13 @@
 #include "meshes/quadratic_measure.hpp"
 
 #include "common/algebra/monomials.hpp"
+#include "meshes/moment_balance.hpp"
 #include "tests/graphs/graph_checks.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace diptych::graphs {
 namespace {
@@ -64,6 +66,33 @@ TEST(QuadraticMeasure, HasPatchesThatIntegrateCubicsOverTheirFaces) {
     }
     const double exact = (std::pow(end, 3) + 0.125) / 3 * (1.3 * 1.3 - 0.1 * 0.1) / 2;
     EXPECT_NEAR(sum, exact, 1e-13) << name;
+  }
+}
+
+/// What volumes integrate is the ring, not its facets, and they agree with the areas about cubics.
+TEST(QuadraticMeasure, TakesCurvedSidesForWhatTheyStandFor) {
+  for (const CellType type : all_cells) {
+    for (const int n : {6, 12}) {
+      const meshes::Mesh mesh = bent_box(type, n, 0.2);
+      const meshes::DualMeasure measure = meshes::quadratic_measure(mesh);
+      const meshes::DualMeasure facets = meshes::dual_measure(mesh, meshes::Quadrature::exact);
+      const double exact = 0.4 * (2.2 * 2.2 - 1) * (is_flat(type) ? 1 : 0.8);
+      const auto error = [&](const std::vector<double>& Omega) {
+        return std::abs(std::accumulate(Omega.begin(), Omega.end(), 0.0) / exact - 1);
+      };
+      EXPECT_LE(error(measure.Omega), 0.1 * error(facets.Omega)) << name_of(type) << n;
+      EXPECT_LE(meshes::moment_difference(mesh, measure.Omega, measure.boundary_area), 1e-13);
+      double largest = 0;  // turn of a normal of the outer arc
+      for (size_t a = 0; a < mesh.nodes.size(); ++a) {
+        const Vec3& X = mesh.nodes[a];
+        const bool is_inside = std::abs(std::atan2(X[1], X[0]) - 0.4) < 0.39;
+        if (X.head<2>().norm() < 2.2 - 1e-9 || !is_inside) continue;
+        if (!is_flat(type) && (X[2] < 1e-9 || X[2] > 0.8 - 1e-9)) continue;
+        const Vec3 N = measure.boundary_area[a].normalized(), radial(X[0], X[1], 0);
+        largest = std::max(largest, N.cross(radial.normalized()).norm());
+      }
+      EXPECT_LE(largest, 0.1 * std::pow(6.0 / n, 2)) << name_of(type) << n;
+    }
   }
 }
 

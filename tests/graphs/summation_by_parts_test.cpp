@@ -41,6 +41,11 @@ std::vector<Scene> make_scenes() {
     all.push_back({"sph " + name_of(type), sph_graph(mesh, 1.6)});
     all.push_back({"fvm " + name_of(type), fvm::build_graph(mesh, {"sbp"})});
   }
+  for (const CellType type : {CellType::triangle, CellType::tetrahedron}) {
+    const meshes::Mesh mesh = bent_box(type, is_flat(type) ? 10 : 6, 0.2);
+    all.push_back({"sph on a ring of " + name_of(type), sph_graph(mesh, 1.6)});
+    all.push_back({"fvm on a ring of " + name_of(type), fvm::build_graph(mesh, {"sbp"})});
+  }
   return all;
 }
 
@@ -179,11 +184,13 @@ std::string refusal(const meshes::Mesh& mesh) {
 }
 
 TEST(SummationByParts, SaysWhatItTakesAndWhatToUseInstead) {
-  meshes::Mesh curved = test_box(CellType::hexahedron, 6, 0);
-  for (Vec3& X : curved.nodes)
-    X[2] += 0.1 * X[0] * X[0];
-  EXPECT_THAT(refusal(curved), AllOf(HasSubstr("plane sides"), HasSubstr("corrected")));
   EXPECT_THAT(refusal(test_box(CellType::quadrilateral, 2, 0.1)), HasSubstr("four nodes"));
+  meshes::Mesh coarse = test_box(CellType::tetrahedron, 4, 0);
+  for (Vec3& X : coarse.nodes) {
+    const double r = 0.6 + X[2], angle = -3 * X[1];
+    X = Vec3(X[0], r * std::cos(angle), r * std::sin(angle));
+  }
+  EXPECT_THAT(refusal(coarse), AllOf(HasSubstr("too coarse"), HasSubstr("corrected")));
 }
 
 }  // namespace

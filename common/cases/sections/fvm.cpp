@@ -30,7 +30,7 @@ SectionEntry fvm_section() {
                   "(integral), or from operators that sum by parts (sbp): along the "
                   "lines of nodes of boxes of hexahedra or quadrilaterals and of smooth curved "
                   "blocks of them, glued where they meet (transfinite meshes of Gmsh), elsewhere "
-                  "over two rings of cells of a body with plane sides. auto: sbp where the mesh "
+                  "over two rings of cells. auto: sbp where the mesh "
                   "takes it, on boxes with a line of three nodes or more and boundary groups that "
                   "cover whole sides or end far from their edges, but with a face correction and, "
                   "off boxes, where a scene presses hard (scheme.volumes), curved lines have three "

@@ -32,7 +32,7 @@ SectionEntry sph_section() {
                   "by its least change to operators that sum by parts (sbp), exact for quadratics "
                   "up to the boundary, with kappa above 1: on boxes of hexahedra or quadrilaterals "
                   "with three nodes a line or more, in spacings of each line, and on any nodes of "
-                  "a body with plane sides. auto: sbp where the nodes take it, on boxes with three "
+                  "other bodies. auto: sbp where the nodes take it, on boxes with three "
                   "nodes a line or more, supports of at most four spacings and boundary groups "
                   "that cover whole sides or end far from their edges, but with a face correction "
                   "or scheme.volumes = \"cells\" and, off boxes, where a scene presses hard "

@@ -1,0 +1,149 @@
+#include "meshes/moment_balance.hpp"
+
+#include "common/algebra/monomials.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych::meshes {
+
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr int degree = 3;
+/// Readiness of a volume to change, over that of an area: the mass is that of the body, which areas
+/// are where no curved side can make up for it.
+constexpr double volumes_change_less = 0.01;
+
+/// Monomials of places from the middle of the body, over half of its size.
+class Moments {
+ public:
+  explicit Moments(const Mesh& mesh) : dimension_(mesh.dimension) {
+    Vec3 lower = mesh.nodes[0], upper = mesh.nodes[0];
+    for (const Vec3& X : mesh.nodes) {
+      lower = lower.cwiseMin(X);
+      upper = upper.cwiseMax(X);
+    }
+    middle_ = 0.5 * (lower + upper);
+    size_ = 0.5 * (upper - lower).maxCoeff();
+  }
+
+  int n() const { return algebra::n_monomials(dimension_, degree); }
+  double size() const { return size_; }
+  Vector values(const Vec3& X) const {
+    return algebra::monomials((X - middle_) / size_, dimension_, degree);
+  }
+  /// [n][3] 1/m
+  Matrix gradients(const Vec3& X) const {
+    return algebra::monomial_gradients((X - middle_) / size_, dimension_, degree) / size_;
+  }
+  Matrix of_volumes(const Mesh& mesh, const std::vector<double>& Omega) const {
+    Matrix sum = Matrix::Zero(n(), 3);
+    for (size_t a = 0; a < Omega.size(); ++a)
+      sum += Omega[a] * gradients(mesh.nodes[a]);
+    return sum;
+  }
+
+ private:
+  int dimension_;
+  Vec3 middle_;
+  double size_ = 1;
+};
+
+double difference(const Mesh& mesh,
+                  const Moments& moments,
+                  const Matrix& of_volumes,
+                  const std::vector<Vec3>& boundary_area) {
+  Matrix of_areas = Matrix::Zero(moments.n(), 3);
+  Matrix largest = of_areas;
+  for (size_t a = 0; a < boundary_area.size(); ++a) {
+    if (boundary_area[a].isZero(0)) continue;
+    const Vector values = moments.values(mesh.nodes[a]);
+    of_areas += values * boundary_area[a].transpose();
+    largest += (values * boundary_area[a].transpose()).cwiseAbs();
+  }
+  return (of_volumes - of_areas).cwiseAbs().maxCoeff() / largest.maxCoeff();
+}
+
+}  // namespace
+
+double moment_difference(const Mesh& mesh,
+                         const std::vector<double>& Omega,
+                         const std::vector<Vec3>& boundary_area) {
+  const Moments moments(mesh);
+  return difference(mesh, moments, moments.of_volumes(mesh, Omega), boundary_area);
+}
+
+double moment_difference_of_facets(const Mesh& mesh,
+                                   const Surface& surface,
+                                   const std::vector<Vec3>& boundary_area) {
+  const Moments moments(mesh);
+  Matrix of_boundary = Matrix::Zero(moments.n(), 3);
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(mesh.boundary_faces.size()); ++f) {
+    for (const SurfacePoint& point : surface.points(f, 0))
+      of_boundary += moments.values(point.X) * point.area.transpose();
+  }
+  return difference(mesh, moments, of_boundary, boundary_area);
+}
+
+double balance_moments(const Mesh& mesh,
+                       const Surface& surface,
+                       std::vector<FaceArea>& faces,
+                       std::vector<double>& Omega) {
+  const Moments moments(mesh);
+  const int n = moments.n(), d = mesh.dimension;
+  // areas change by |A| sum_m q_m lambda_mi, volumes by -Omega r sum_mi d_i q_m lambda_mi; the
+  // multiplier of monomial m and direction i stands at m + i n
+  const double readiness = volumes_change_less * moments.size();
+  Matrix missing = moments.of_volumes(mesh, Omega);
+  Matrix K = Matrix::Zero(n * d, n * d);
+  for (size_t a = 0; a < Omega.size(); ++a) {
+    const Matrix of_node = moments.gradients(mesh.nodes[a]).leftCols(d);
+    const Eigen::Map<const Vector> gradients(of_node.data(), K.rows());
+    K.selfadjointView<Eigen::Lower>().rankUpdate(gradients, readiness * Omega[a]);
+  }
+  std::vector<double> area(mesh.nodes.size(), 0.0);  // that may change
+  for (size_t f = 0; f < faces.size(); ++f) {
+    for (size_t i = 0; i < faces[f].nodes.size(); ++i) {
+      const std::int32_t a = faces[f].nodes[i];
+      missing -= moments.values(mesh.nodes[a]) * faces[f].area[i].transpose();
+      if (surface.is_curved(static_cast<std::int32_t>(f))) area[a] += faces[f].area[i].norm();
+    }
+  }
+  for (size_t a = 0; a < area.size(); ++a) {
+    if (area[a] == 0) continue;
+    const Vector values = moments.values(mesh.nodes[a]);
+    const Matrix of_node = area[a] * values * values.transpose();
+    for (int i = 0; i < d; ++i)
+      K.block(i * n, i * n, n, n) += of_node;
+  }
+  K.triangularView<Eigen::StrictlyUpper>() = K.transpose();
+  const Matrix right = missing.leftCols(d);
+  const Vector solved =
+      K.completeOrthogonalDecomposition().solve(Eigen::Map<const Vector>(right.data(), K.rows()));
+  const Eigen::Map<const Matrix> lambda(solved.data(), n, d);
+
+  double largest = 0;
+  for (size_t f = 0; f < faces.size(); ++f) {
+    if (!surface.is_curved(static_cast<std::int32_t>(f))) continue;
+    for (size_t i = 0; i < faces[f].nodes.size(); ++i) {
+      Vec3 change = Vec3::Zero();
+      change.head(d) = lambda.transpose() * moments.values(mesh.nodes[faces[f].nodes[i]]);
+      largest = std::max(largest, change.norm());
+      faces[f].area[i] += faces[f].area[i].norm() * change;
+    }
+  }
+  for (size_t a = 0; a < Omega.size(); ++a) {
+    const double change =
+        readiness * moments.gradients(mesh.nodes[a]).leftCols(d).cwiseProduct(lambda).sum();
+    largest = std::max(largest, std::abs(change));
+    Omega[a] -= Omega[a] * change;
+  }
+  return largest;
+}
+
+}  // namespace diptych::meshes

@@ -1,0 +1,33 @@
+#pragma once
+/// What nodal volumes and areas must agree about, so that rows exact for quadratics have an adjoint
+/// that is exact for linear stresses:
+///   sum_a Omega_a d_i X^m = sum_a (A_aN_a)_i X_a^m   for all monomials up to degree 3.
+/// Source: notes 4.5. Test: tests/graphs/quadratic_measure_test.cpp
+
+#include "meshes/mesh.hpp"
+#include "meshes/side_areas.hpp"
+#include "meshes/surface.hpp"
+
+#include <vector>
+
+namespace diptych::meshes {
+
+/// By how much moments of these volumes and areas differ, over the largest moment of the areas.
+double moment_difference(const Mesh& mesh,
+                         const std::vector<double>& Omega,
+                         const std::vector<Vec3>& boundary_area);
+
+/// The same with integrals over a body that ends at its facets in place of volumes.
+double moment_difference_of_facets(const Mesh& mesh,
+                                   const Surface& surface,
+                                   const std::vector<Vec3>& boundary_area);
+
+/// Changes volumes, and areas of curved faces, least beside what they are, so that they agree.
+/// @param faces  [boundary faces]
+/// @return the largest change of a volume or an area over what it was
+double balance_moments(const Mesh& mesh,
+                       const Surface& surface,
+                       std::vector<FaceArea>& faces,
+                       std::vector<double>& Omega);
+
+}  // namespace diptych::meshes
