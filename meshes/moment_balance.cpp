@@ -11,6 +11,7 @@ namespace diptych::meshes {
 
 namespace {
 
+using algebra::Mat3;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
@@ -96,6 +97,14 @@ double balance_moments(const Mesh& mesh,
                        std::vector<double>& Omega) {
   const Moments moments(mesh);
   const int n = moments.n(), d = mesh.dimension;
+  // of a plane side in its direction alone, and not at all where there are curved ones
+  const bool has_curved_faces = surface.has_curved_faces();
+  const auto ways = [&](size_t f) -> Mat3 {
+    if (surface.is_curved(static_cast<std::int32_t>(f))) return Mat3::Identity();
+    if (has_curved_faces) return Mat3::Zero();
+    const Vec3 N = surface.facet_area(static_cast<std::int32_t>(f)).normalized();
+    return N * N.transpose();
+  };
   // areas change by |A| sum_m q_m lambda_mi, volumes by -Omega r sum_mi d_i q_m lambda_mi; the
   // multiplier of monomial m and direction i stands at m + i n
   const double readiness = volumes_change_less * moments.size();
@@ -106,20 +115,23 @@ double balance_moments(const Mesh& mesh,
     const Eigen::Map<const Vector> gradients(of_node.data(), K.rows());
     K.selfadjointView<Eigen::Lower>().rankUpdate(gradients, readiness * Omega[a]);
   }
-  std::vector<double> area(mesh.nodes.size(), 0.0);  // that may change
+  std::vector<Mat3> area(mesh.nodes.size(), Mat3::Zero());  // that may change
   for (size_t f = 0; f < faces.size(); ++f) {
+    const Mat3 along = ways(f);
     for (size_t i = 0; i < faces[f].nodes.size(); ++i) {
       const std::int32_t a = faces[f].nodes[i];
       missing -= moments.values(mesh.nodes[a]) * faces[f].area[i].transpose();
-      if (surface.is_curved(static_cast<std::int32_t>(f))) area[a] += faces[f].area[i].norm();
+      area[a] += faces[f].area[i].norm() * along;
     }
   }
   for (size_t a = 0; a < area.size(); ++a) {
-    if (area[a] == 0) continue;
+    if (area[a].isZero(0)) continue;
     const Vector values = moments.values(mesh.nodes[a]);
-    const Matrix of_node = area[a] * values * values.transpose();
-    for (int i = 0; i < d; ++i)
-      K.block(i * n, i * n, n, n) += of_node;
+    const Matrix of_node = values * values.transpose();
+    for (int i = 0; i < d; ++i) {
+      for (int j = 0; j <= i; ++j)
+        K.block(i * n, j * n, n, n) += area[a](i, j) * of_node;
+    }
   }
   K.triangularView<Eigen::StrictlyUpper>() = K.transpose();
   const Matrix right = missing.leftCols(d);
@@ -129,10 +141,11 @@ double balance_moments(const Mesh& mesh,
 
   double largest = 0;
   for (size_t f = 0; f < faces.size(); ++f) {
-    if (!surface.is_curved(static_cast<std::int32_t>(f))) continue;
+    const Mat3 along = ways(f);
     for (size_t i = 0; i < faces[f].nodes.size(); ++i) {
       Vec3 change = Vec3::Zero();
       change.head(d) = lambda.transpose() * moments.values(mesh.nodes[faces[f].nodes[i]]);
+      change = along * change;
       largest = std::max(largest, change.norm());
       faces[f].area[i] += faces[f].area[i].norm() * change;
     }

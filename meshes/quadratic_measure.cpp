@@ -15,7 +15,7 @@ namespace {
 /// Part of the largest moment by which moments of volumes and areas may differ.
 constexpr double most_difference = 1e-9;
 /// Part of a volume or an area by which it may change so that they do not differ.
-constexpr double most_change = 0.05;
+constexpr double most_change = 0.3;
 
 void add_areas(const FaceArea& face, std::vector<Vec3>& area) {
   for (size_t i = 0; i < face.nodes.size(); ++i)
@@ -42,12 +42,21 @@ void set_patches(const Mesh& mesh, const std::vector<FaceArea>& faces, DualMeasu
   }
 }
 
+void require_small(double change, const BlockUse& use) {
+  if (change <= most_change) return;
+  throw base::InputError(fmt::format(
+      "{}: the mesh is too coarse for operators that sum by parts: volumes or areas of nodes would "
+      "change by {:.2g} of themselves, bound {:.2g}, to agree about moments of cubics; use {}, or "
+      "refine the mesh where it has fewer than four nodes along a line or bends by much from face "
+      "to face",
+      use.asked, change, most_change, use.instead));
+}
+
 void require_agreement(double difference, const BlockUse& use) {
   if (difference <= most_difference) return;
   throw base::InputError(fmt::format(
-      "{}: operators that sum by parts are for bodies of at least four nodes along each line: on "
-      "the boundary of this mesh volumes and areas differ by {:.2g} in the moments of cubics; use "
-      "{}, or refine the mesh",
+      "{}: volumes and areas of this mesh differ by {:.2g} in the moments of cubics, which "
+      "operators that sum by parts do not bear; use {}, or refine the mesh",
       use.asked, difference, use.instead));
 }
 
@@ -67,27 +76,17 @@ void require_positive(const Mesh& mesh, const std::vector<double>& Omega, const 
 
 DualMeasure quadratic_measure(const Mesh& mesh, const BlockUse& use) {
   DualMeasure measure = dual_measure(mesh, Quadrature::exact);  // and its checks of the mesh
-  const std::vector<double> shares = measure.Omega;
   const Surface surface(mesh);
   std::vector<FaceArea> faces = side_areas(mesh, surface, Faces::plane);
   measure.boundary_area = sum_of(faces, mesh.nodes.size());
-  const double of_planes = moment_difference_of_facets(mesh, surface, measure.boundary_area);
-  if (of_planes <= most_difference) {
-    measure.Omega = quadratic_volumes(mesh, shares, nullptr);
-    require_positive(mesh, measure.Omega, use);
-  } else {
-    if (!surface.has_curved_faces()) require_agreement(of_planes, use);
-    faces = side_areas(mesh, surface, Faces::smooth);
-    measure.Omega = quadratic_volumes(mesh, shares, &surface);
-    require_positive(mesh, measure.Omega, use);
-    const double change = balance_moments(mesh, surface, faces, measure.Omega);
-    if (change > most_change) {
-      throw base::InputError(fmt::format(
-          "{}: the mesh is too coarse where its sides are curved: volumes or areas of nodes would "
-          "change by {:.2g} of themselves to agree about moments of cubics, bound {:.2g}; use {}, "
-          "or refine the mesh",
-          use.asked, change, most_change, use.instead));
-    }
+  const bool agrees =
+      moment_difference_of_facets(mesh, surface, measure.boundary_area) <= most_difference;
+  const bool is_curved = !agrees && surface.has_curved_faces();
+  if (is_curved) faces = side_areas(mesh, surface, Faces::smooth);
+  measure.Omega = quadratic_volumes(mesh, measure.Omega, is_curved ? &surface : nullptr);
+  require_positive(mesh, measure.Omega, use);
+  if (!agrees) {
+    require_small(balance_moments(mesh, surface, faces, measure.Omega), use);
     measure.boundary_area = sum_of(faces, mesh.nodes.size());
   }
   require_agreement(moment_difference(mesh, measure.Omega, measure.boundary_area), use);
