@@ -2,6 +2,7 @@
 
 #include "common/closure/summation_by_parts.hpp"
 #include "common/scheme/graph/equal_widths.hpp"
+#include "common/scheme/graph/mesh_edges.hpp"
 #include "fvm/cell_stencil.hpp"
 #include "meshes/dual_measure.hpp"
 #include "meshes/quadratic_measure.hpp"
@@ -104,6 +105,7 @@ scheme::PairGraph graph_by_distances(const meshes::Mesh& mesh) {
   closure::make_sum_by_parts(graph, weights_of(mesh, graph));
   closure::require_no_steep_rows(graph,
                                  meshes::dual_measure(mesh, meshes::Quadrature::vertex).Omega);
+  scheme::set_edges(mesh, graph);
   validate(graph);
   return graph;
 }

@@ -7,6 +7,7 @@
 #include "common/closure/summation_by_parts.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "common/scheme/graph/equal_widths.hpp"
+#include "common/scheme/graph/mesh_edges.hpp"
 #include "meshes/cell_shares.hpp"
 #include "meshes/dual_measure.hpp"
 #include "meshes/quadratic_measure.hpp"
@@ -177,6 +178,7 @@ scheme::PairGraph round_graph_of(const meshes::Mesh& mesh,
     scheme::PairGraph graph = graph_within(mesh, options, by_quadratics, h, true);
     const std::vector<std::int32_t> steep = closure::steep_rows(graph, by_vertices.Omega);
     if (steep.empty()) {
+      scheme::set_edges(mesh, graph);
       validate(graph);
       return graph;
     }

@@ -37,6 +37,7 @@ constexpr double of_mixed = 48;          ///< stored pair
 constexpr double exact_impedance = 200;  ///< a node
 constexpr double frames = 128;           ///< a node, of the objective reconstruction
 constexpr double moments = 96;           ///< a node, of the symmetric reconstruction
+constexpr double hourglass = 460;        ///< a node, of what holds displacements unseen by F
 constexpr double lines = 250;            ///< a node of the graph, of slopes along lines
 constexpr double cell_bytes = 30;
 constexpr double volume_corner = 70;      ///< of a cell that carries pressure
@@ -262,11 +263,13 @@ double bytes_of(const cases::Case& setup,
   const bool has_moments = takes_symmetric_jumps(scheme) &&
                            (scheme.reconstruction == "symmetric" || sums_anywhere(setup, method));
   const Costs& costs = scheme.precision == "single" ? in_single : in_double;
-  double node = costs.node + costs.branch * static_cast<double>(setup.material.branches.size()) +
-                (scheme.impedance == "exact" ? exact_impedance : 0) +
-                (scheme.reconstruction == "objective" ? frames
-                 : has_moments                        ? moments
-                                                      : 0);
+  double node =
+      costs.node + costs.branch * static_cast<double>(setup.material.branches.size()) +
+      (scheme.impedance == "exact" ? exact_impedance : 0) +
+      (scheme.reconstruction == "objective" ? frames
+       : has_moments                        ? moments
+                                            : 0) +
+      (has_moments && scheme.hourglass != 0 && sums_anywhere(setup, method) ? hourglass : 0);
   const double plane = cases::dimension_of(setup.mesh) == 2 ? of_plane : 1;
   const double stored = scheme.precision == "mixed" ? of_mixed : costs.stored_pair;
   const bool commutes = method != "sph" && !is_simplex(setup.mesh.element) &&

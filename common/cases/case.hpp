@@ -138,6 +138,7 @@ struct SchemeCase {
   double face_correction = 0;           ///< kappa_f of notes 3.8, 0: none
   std::string volumes = "auto";         ///< auto, cells or nodes: scheme::Volumes
   double cell_shear = 0.5;              ///< share of mu by gradients of cells, where they are
+  double hourglass = 5;                 ///< stiffness of edges over mu, where it is needed
   std::string precision = "double";     ///< double, mixed or single: scheme::Precision
   bool angular_momentum_projection = false;
 };

@@ -18,7 +18,11 @@ namespace {
 /// With the branches at once (notes 1.4).
 /// @param volumetric  modulus that volumes of cells carry  [Pa]
 /// @param cell_shear  and that their gradients do
-ElasticRatios ratios_of(const cases::MaterialCase& m, double volumetric, double cell_shear) {
+/// @param hourglass   that of scheme/hourglass
+ElasticRatios ratios_of(const cases::MaterialCase& m,
+                        double volumetric,
+                        double cell_shear,
+                        double hourglass) {
   const double half = 0.5 * m.shear_modulus;
   const double zeta = m.zeta_ratio * half, xi = half - zeta;
   double shear = m.shear_modulus, pressure = m.lame + 2 * m.shear_modulus;
@@ -26,7 +30,8 @@ ElasticRatios ratios_of(const cases::MaterialCase& m, double volumetric, double 
     shear += 2 * (b.beta_C * xi + b.beta_G * zeta);
     pressure += 4 * b.beta_C * xi + 8 * b.beta_G * zeta;
   }
-  return {std::sqrt(shear / pressure), volumetric / pressure, cell_shear / pressure};
+  return {std::sqrt(shear / pressure), volumetric / pressure, cell_shear / pressure,
+          hourglass / pressure};
 }
 
 /// What leapfrog takes of its limit at most, where the fastest and the most damped modes meet.
@@ -89,8 +94,8 @@ double sampled_cfl(const cases::Case& setup,
   const std::optional<SamplePart> part = sample_part(graph);
   if (!part) return 0;
   scheme::Body<Dim> body(part->graph, scheme::BodyOptions{});
-  return factor_of(setup, geometric_rate) *
-         step_of<Dim>(setup, ratios_of(setup.material, 0, 0), {body, 0, part->moves}, integrator);
+  return factor_of(setup, geometric_rate) * step_of<Dim>(setup, ratios_of(setup.material, 0, 0, 0),
+                                                         {body, 0, part->moves}, integrator);
 }
 
 template <int Dim>
@@ -99,8 +104,9 @@ double default_cfl(const cases::Case& setup,
                    scheme::Body<Dim>& body,
                    double geometric_rate,
                    const time::Integrator& integrator) {
-  const ElasticRatios ratios = ratios_of(
-      setup.material, body.bulk ? material.volumetric_modulus() : 0, body.options.cell_shear);
+  const ElasticRatios ratios =
+      ratios_of(setup.material, body.bulk ? material.volumetric_modulus() : 0,
+                body.options.cell_shear, body.options.hourglass);
   return factor_of(setup, geometric_rate) *
          step_of<Dim>(setup, ratios, {body, setup.scheme.face_correction}, integrator);
 }
@@ -122,6 +128,7 @@ double default_cfl(const cases::Case& setup,
   options.volumes = volumes_of(setup, graph);
   options.cell_shear = cell_shear_of(setup, options.volumes);
   options.has_moments = is_symmetric(setup);
+  options.hourglass = hourglass_of(setup, graph);
   const auto material = model_menu().at(setup.material.model).model(setup.material);
   const double rate = scheme::geometric_rate(graph);
   const double sampled = graph.dimension == 2 ? sampled_cfl<2>(setup, graph, rate, integrator)

@@ -117,8 +117,13 @@ void LargestRates<Dim>::apply(const Vectors& u,
   put_velocities(u);
   scheme::velocity_gradients(body_, kappa_f_);
   put_stresses(ratios);
+  if (body_.hourglass) {
+    body_.hourglass->evaluate_linear(body_, ratios.hourglass);
+    body_.hourglass->take_stresses(body_);
+  }
   sum_forces(strength);
   if (body_.bulk) body_.bulk->add_linear_forces(body_, ratios.cells, ratios.cell_shear);
+  if (body_.hourglass) body_.hourglass->add_forces(body_);
   divide_forces(out);
 }
 

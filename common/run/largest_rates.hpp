@@ -19,6 +19,7 @@ struct ElasticRatios {
   double shear = 1;  ///< c_s/c_p
   double cells = 0;  ///< part of rho_R c_p^2 that volumes of cells carry, where the body has them
   double cell_shear = 0;  ///< and that of their gradients
+  double hourglass = 0;   ///< and that of scheme/hourglass
 };
 
 template <int Dim>

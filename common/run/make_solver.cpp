@@ -160,6 +160,7 @@ scheme::BodyOptions body_options_of(const cases::Case& setup,
   options.face_correction = setup.scheme.face_correction != 0;
   options.volumes = volumes_of(setup, graph);
   options.cell_shear = cell_shear_of(setup, options.volumes);
+  options.hourglass = hourglass_of(setup, graph);
   return options;
 }
 
@@ -299,6 +300,11 @@ scheme::Volumes volumes_of(const cases::Case& setup, const scheme::PairGraph& gr
 double cell_shear_of(const cases::Case& setup, scheme::Volumes volumes) {
   return volumes == scheme::Volumes::cells ? setup.scheme.cell_shear * setup.material.shear_modulus
                                            : 0;
+}
+
+double hourglass_of(const cases::Case& setup, const scheme::PairGraph& graph) {
+  if (graph.edges.empty() || !is_symmetric(setup)) return 0;
+  return setup.scheme.hourglass * setup.material.shear_modulus;
 }
 
 std::unique_ptr<Solver> make_solver(const cases::Case& setup, const scheme::PairGraph& graph) {

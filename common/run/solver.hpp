@@ -119,6 +119,10 @@ bool is_symmetric(const cases::Case& setup);
 /// scheme.cell_shear asks for.  [Pa]
 double cell_shear_of(const cases::Case& setup, scheme::Volumes volumes);
 
+/// Stiffness of displacements that F of the nodes does not see (scheme/hourglass), where the graph
+/// has edges and the reconstruction is symmetric.  [Pa]
+double hourglass_of(const cases::Case& setup, const scheme::PairGraph& graph);
+
 /// What carries the pressure of this case on this graph (scheme.volumes), never "automatic".
 /// @pre graph comes from the program's method menu: its lines and cells are left out where "auto"
 /// leaves the pressure to nodes

@@ -29,6 +29,7 @@ void archive_body(MovingBody<Dim>& moving, Archive& archive) {
   if (archive.is_loading() && !body.in_runs()) copy_velocities(body);
   // bulk volumes remember the forces that they added, to body.T too, which is loaded next
   if (archive.is_loading() && body.bulk) body.bulk->add_forces(body, moving.sweeps.material());
+  if (archive.is_loading() && body.hourglass) body.hourglass->evaluate(body);
   scheme::archive_fields(body, Role::accumulated, archive);
 }
 

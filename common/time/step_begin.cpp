@@ -129,6 +129,7 @@ void StepBegin<Dim>::restore(MovingBody<Dim>& moving) {
     moving.body.bulk->add_forces(moving.body, moving.sweeps.material());
     put_back(moving.body);
   }
+  if (moving.body.hourglass) moving.body.hourglass->evaluate(moving.body);
   if (limits_.size() == 1) return;
   const double t_limit = limits_.back();
   limits_.pop_back();

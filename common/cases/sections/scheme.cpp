@@ -68,6 +68,15 @@ SectionKeys<SchemeCase> scheme_keys() {
             "where their volumes carry the bulk pressure: what holds waves that nodes see badly. "
             "Coarse bodies of long cells bend the stiffer for it.",
             "0"})
+      .key("hourglass", &SchemeCase::hourglass,
+           {"-", between(0, 20),
+            "Stiffness of the mesh's edges, in shear moduli, against displacements that gradients "
+            "of "
+            "nodes do not see (zero-energy modes), where operators sum by parts off boxes and the "
+            "reconstruction is symmetric (notes 3.12). Zero in quadratic motions, of fourth order "
+            "in "
+            "others.",
+            "0"})
       .key("precision", &SchemeCase::precision,
            one_of(scheme::precision_menu().names(),
                   "Precision of what the sweeps keep. mixed: pseudo-areas C_ab in single, half the "
@@ -103,6 +112,13 @@ void check(const SectionValues& section, const SchemeCase& scheme) {
   if (scheme.volumes == "nodes" || scheme.volumes == "lines") {
     section.refuse("cell_shear", fmt::format("has no effect with volumes = \"{}\"; it is for cells",
                                              scheme.volumes));
+  }
+  if ((scheme.reconstruction != "auto" && scheme.reconstruction != "symmetric") ||
+      scheme.limiter != "none" || scheme.face_correction != 0) {
+    section.refuse(
+        "hourglass",
+        "goes with the symmetric reconstruction alone, which has neither limiters nor the "
+        "face correction; use reconstruction = \"auto\" or \"symmetric\"");
   }
   if (scheme.precision == "single" && scheme.impedance == "exact") {
     section.fail("precision",

@@ -22,6 +22,7 @@ Body<Dim>::Body(const PairGraph& whole, const BodyOptions& what, SweepGraph<Dim>
   list_fields();
   allocate();
   bulk = make_bulk_volumes<Dim>(whole, options.volumes, options.cell_shear != 0);
+  if (options.hourglass != 0) hourglass = std::make_unique<HourglassControl<Dim>>(whole);
 }
 
 template <int Dim>
@@ -135,7 +136,7 @@ std::int64_t Body<Dim>::bytes() const {
       counted.push_back(field.table);
     }
   }
-  return sum + (bulk ? bulk->bytes() : 0);
+  return sum + (bulk ? bulk->bytes() : 0) + (hourglass ? hourglass->bytes() : 0);
 }
 
 template <int Dim>

@@ -12,6 +12,7 @@
 #include "common/algebra/layout.hpp"
 #include "common/parallel/part.hpp"
 #include "common/scheme/graph/sweep_graph.hpp"
+#include "common/scheme/hourglass/hourglass_control.hpp"
 #include "common/scheme/volumes/bulk_volumes.hpp"
 
 #include <memory>
@@ -94,6 +95,7 @@ struct BodyOptions {
   bool face_correction = false;
   Volumes volumes = Volumes::nodes;  ///< what carries the pressure, resolved
   double cell_shear = 0;  ///< Pa, shear modulus that gradients of cells carry (notes 3.11)
+  double hourglass = 0;   ///< Pa, s of scheme/hourglass; takes the symmetric reconstruction
 };
 
 /// What of a body is worked where it is divided among ranks (ranks/division.hpp).
@@ -163,6 +165,8 @@ struct Body {
   /// What carries the pressure in place of J of the nodes (notes 3.9); P of the records is then
   /// without it, and without what gradients of cells carry of the shear (3.11). Null: nodes do.
   std::unique_ptr<BulkVolumes<Dim>> bulk;
+  /// What holds displacements that F of the nodes does not see; null: nothing does.
+  std::unique_ptr<HourglassControl<Dim>> hourglass;
   /// Among ranks; null: this one works all of it.
   std::shared_ptr<Division> division;
 

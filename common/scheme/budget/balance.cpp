@@ -78,6 +78,12 @@ Balance balance(const MaterialModel& material, const Body<Dim>& body) {
     for (size_t c = 0; c < parts.size(); ++c)
       parts[c].strain += shear[c];
   }
+  if (body.hourglass) {
+    std::vector<double> energy(parts.size());
+    body.hourglass->add_energies(body, energy);
+    for (size_t c = 0; c < parts.size(); ++c)
+      parts[c].strain += energy[c];
+  }
   body.part().complete(parts);
   Balance sum;
   sum.least_J = 1e300;

@@ -224,6 +224,7 @@ void release_pairs(PairGraph& graph) {
 
 void release_volumes(PairGraph& graph) {
   graph.cells = {};
+  free_array(graph.edges);
   graph.lines = {};
 }
 

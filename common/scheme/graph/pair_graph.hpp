@@ -53,6 +53,9 @@ struct PairGraph {
   /// Where the factory knows them, which takes that rows stand in their common order; else empty.
   RowClasses classes;
   VolumeCells cells;  ///< those between its nodes
+  /// [.][2] nodes a < b of pairs that edges of the mesh join, where rows leave displacements that
+  /// F of the nodes hardly sees (scheme/hourglass); else empty.
+  std::vector<std::array<std::int32_t, 2>> edges;
   VolumeLines lines;  ///< those of its nodes, where boundary areas are theirs
   /// Pairs for which it makes |X_b - X_a| more than one dissipate nothing (dissipation_area.hpp).
   /// [1/m]
@@ -95,7 +98,7 @@ Mat3 metric_of_lines(const Mat3& edges);
 /// areas that only factories need. n_pairs() is 0 from now on.
 void release_pairs(PairGraph& graph);
 
-/// Frees cells and lines, of which a solver makes its own too, but for those of other ranks.
+/// Frees cells, lines and edges, of which a solver makes its own too, but for those of other ranks.
 void release_volumes(PairGraph& graph);
 
 /// Fills graph.reverse from rows and neighbours (which must be structurally symmetric).

@@ -97,6 +97,7 @@ void share_nodes(Communicator& ranks, PairGraph& graph, Volumes volumes) {
     share(ranks, graph.cells.share);
   }
   if (volumes == Volumes::lines) share_lines(ranks, graph.lines);
+  share(ranks, graph.edges);
 }
 
 template <int Dim>

@@ -62,6 +62,7 @@ void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
   sweep_with(body, {&Body<Dim>::records, &Body<Dim>::frames},
              [&](Share share) { scheme::sum_forces(sweep, momentum_, share); });
   if (body.bulk) body.bulk->add_forces(body, *material_);
+  if (body.hourglass) body.hourglass->add_forces(body);
   if (with_step && speeds == Speeds::bound) {
     for_chunks_of(body, Share::whole, [&](auto begin, auto end, auto chunk) {
       largest_rate_[chunk] = geometric_rate_ * largest_speed(body, begin, end);
@@ -117,8 +118,13 @@ void Sweeps<Dim>::strain_rates(Body<Dim>& body,
   if (body.options.has_frames)
     for_blocks(body, Share::whole, [&](auto begin, auto end) { set_frames(body, begin, end); });
   if (moments_ == nullptr) return;
+  if (body.hourglass) {
+    old_hourglass_power_ = drift != 0 ? body.hourglass->power(body) : 0;
+    body.hourglass->evaluate(body);
+  }
   sweep_with(body, {&Body<Dim>::records},
              [&](Share share) { sum_moments(momentum_sweep(body, false), moments_, share); });
+  if (body.hourglass) body.hourglass->add_moments(body);
   take_moments(body);
 }
 
@@ -135,7 +141,8 @@ std::int64_t Sweeps<Dim>::limited_pairs() const {
 template <int Dim>
 double Sweeps<Dim>::old_numerical_power(const Body<Dim>& body, double loads) const {
   const double bulk = body.bulk ? body.bulk->power(body) : 0;
-  return loads + bulk - parallel::sum_in_order(old_power_);
+  const double hourglass = body.hourglass ? old_hourglass_power_ : 0;
+  return loads + bulk + hourglass - parallel::sum_in_order(old_power_);
 }
 
 template <int Dim>

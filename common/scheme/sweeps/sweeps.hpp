@@ -80,6 +80,7 @@ class Sweeps {
   double geometric_rate_;
   double undeformed_speed_;
   double stable_dt_ = 0;
+  double old_hourglass_power_ = 0;  ///< W, leapfrog: as old_power_, of what holds unseen motions
   // results of the sweeps, one per chunk
   std::vector<double> viscous_dissipation_, old_power_, least_J_, numerical_power_, largest_rate_,
       limited_pairs_;

@@ -5,6 +5,7 @@
 #include "common/run/model_menu.hpp"
 #include "common/scheme/budget/balance.hpp"
 #include "common/scheme/sweeps/sweeps.hpp"
+#include "fvm/fvm_graph.hpp"
 #include "sph/sph_graph.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
@@ -29,9 +30,11 @@ inline cases::MaterialCase rubber(double nu) {
 
 using scheme::Volumes;
 
-/// "sph lines" is SPH that sums by parts, whose lines carry the pressure.
+/// "sph lines" and "sph sbp" are SPH that sums by parts, the former with lines that carry the
+/// pressure; "fvm sbp" are finite volumes that do.
 inline scheme::PairGraph graph_for(const std::string& method, const meshes::Mesh& mesh) {
-  if (method != "sph lines") {
+  if (method == "fvm sbp") return fvm::build_graph(mesh, {"sbp"});
+  if (method != "sph lines" && method != "sph sbp") {
     cases::Case setup = tests::second_order();
     setup.scheme.volumes = "cells";
     return tests::graph_of(method, mesh, setup);
@@ -60,11 +63,12 @@ class StaticBodyIn {
                const std::string& method,
                double nu,
                Volumes volumes,
-               double cell_shear)
+               double cell_shear,
+               double hourglass = 0)
       : graph(graph_for(method, mesh)),
         material(run::model_menu().at("mooney-rivlin").model(rubber(nu))),
-        body(graph, options(*material, volumes, cell_shear)),
-        sweeps_(body, material, quiet(), 1) {}
+        body(graph, options(*material, volumes, cell_shear, hourglass)),
+        sweeps_(body, material, quiet(hourglass), 1) {}
 
   /// Internal forces  [N]
   Displacements forces(const Displacements& u) {
@@ -87,19 +91,23 @@ class StaticBodyIn {
   scheme::Body<Dim> body;
 
  private:
-  static scheme::SweepOptions quiet() {
+  static scheme::SweepOptions quiet(double hourglass) {
     scheme::SweepOptions options;
     options.dissipation_factor = 0;
+    if (hourglass != 0) options.dissipation.reconstruction = scheme::Reconstruction::symmetric;
     return options;
   }
   static scheme::BodyOptions options(const scheme::MaterialModel& material,
                                      Volumes volumes,
-                                     double cell_shear) {
+                                     double cell_shear,
+                                     double hourglass) {
     scheme::BodyOptions options;
     options.rho_R = material.rho_R();
     options.unknowns = scheme::Unknowns::F;
     options.volumes = volumes;
     options.cell_shear = cell_shear;
+    options.hourglass = hourglass;
+    options.has_moments = hourglass != 0;
     return options;
   }
   /// u, and F as its discrete gradient.
