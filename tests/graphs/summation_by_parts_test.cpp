@@ -184,7 +184,6 @@ std::string refusal(const meshes::Mesh& mesh) {
 }
 
 TEST(SummationByParts, SaysWhatItTakesAndWhatToUseInstead) {
-  EXPECT_THAT(refusal(test_box(CellType::quadrilateral, 2, 0.1)), HasSubstr("four nodes"));
   meshes::Mesh coarse = test_box(CellType::tetrahedron, 4, 0);
   for (Vec3& X : coarse.nodes) {
     const double r = 0.6 + X[2], angle = -3 * X[1];
