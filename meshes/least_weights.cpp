@@ -22,12 +22,27 @@ using MomentVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_monomials,
 /// Reciprocal condition number from which these moments tell the polynomials apart.
 constexpr double least_condition = 1e-10;
 
-/// x of least norm with S x = right, or as nearly as can be. @pre S symmetric, not negative
-MomentVector solution(const Moments& S, const MomentVector& right) {
+/// Part of the right side that a solution may leave.
+constexpr double least_residual = 1e-9;
+
+/// x of least norm with S x = right; where there is none, that of the polynomials of the highest
+/// degree that have one, and zero for the others: few nodes keep the volume or the area, and its
+/// middle. @pre S symmetric, not negative
+MomentVector solution(const Moments& S, const MomentVector& right, int dimension, int degree) {
   const Eigen::LLT<Moments> triangle(S);
   if (triangle.info() == Eigen::Success && triangle.rcond() > least_condition)
     return triangle.solve(right);
-  return Matrix(S).completeOrthogonalDecomposition().solve(Vector(right));
+  MomentVector x = MomentVector::Zero(right.size());
+  for (; degree >= 0; --degree) {
+    const int n = algebra::n_monomials(dimension, degree);
+    const Vector wanted = right.head(n);
+    const Matrix some = S.topLeftCorner(n, n);
+    const Vector found = some.completeOrthogonalDecomposition().solve(wanted);
+    if ((some * found - wanted).norm() > least_residual * wanted.norm() && degree > 0) continue;
+    x.head(n) = found;
+    break;
+  }
+  return x;
 }
 
 }  // namespace
@@ -56,7 +71,7 @@ void meet_moments(const std::vector<Vec3>& at,
     }
   }
   S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
-  const MomentVector factor = solution(S, missing);
+  const MomentVector factor = solution(S, missing, dimension, degree);
   for (int i = 0; i < P.cols(); ++i)
     w[i] += change[i] * P.col(i).dot(factor);
 }

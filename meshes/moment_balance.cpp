@@ -70,6 +70,11 @@ double difference(const Mesh& mesh,
   return (of_volumes - of_areas).cwiseAbs().maxCoeff() / largest.maxCoeff();
 }
 
+/// NaN where the second is.
+double larger(double a, double b) {
+  return b <= a ? a : b;
+}
+
 }  // namespace
 
 double moment_difference(const Mesh& mesh,
@@ -97,11 +102,9 @@ double balance_moments(const Mesh& mesh,
                        std::vector<double>& Omega) {
   const Moments moments(mesh);
   const int n = moments.n(), d = mesh.dimension;
-  // of a plane side in its direction alone, and not at all where there are curved ones
-  const bool has_curved_faces = surface.has_curved_faces();
+  // of a plane side in its direction alone
   const auto ways = [&](size_t f) -> Mat3 {
-    if (surface.is_curved(static_cast<std::int32_t>(f))) return Mat3::Identity();
-    if (has_curved_faces) return Mat3::Zero();
+    if (!surface.is_of_plane(static_cast<std::int32_t>(f))) return Mat3::Identity();
     const Vec3 N = surface.facet_area(static_cast<std::int32_t>(f)).normalized();
     return N * N.transpose();
   };
@@ -146,14 +149,14 @@ double balance_moments(const Mesh& mesh,
       Vec3 change = Vec3::Zero();
       change.head(d) = lambda.transpose() * moments.values(mesh.nodes[faces[f].nodes[i]]);
       change = along * change;
-      largest = std::max(largest, change.norm());
+      largest = larger(largest, change.norm());
       faces[f].area[i] += faces[f].area[i].norm() * change;
     }
   }
   for (size_t a = 0; a < Omega.size(); ++a) {
     const double change =
         readiness * moments.gradients(mesh.nodes[a]).leftCols(d).cwiseProduct(lambda).sum();
-    largest = std::max(largest, std::abs(change));
+    largest = larger(largest, std::abs(change));
     Omega[a] -= Omega[a] * change;
   }
   return largest;

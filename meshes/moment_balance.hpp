@@ -12,7 +12,7 @@
 
 namespace diptych::meshes {
 
-/// By how much moments of these volumes and areas differ, over the largest moment of the areas.
+/// By how much moments of these volumes and areas differ, over the largest moment of the areas [-].
 double moment_difference(const Mesh& mesh,
                          const std::vector<double>& Omega,
                          const std::vector<Vec3>& boundary_area);
@@ -22,9 +22,11 @@ double moment_difference_of_facets(const Mesh& mesh,
                                    const Surface& surface,
                                    const std::vector<Vec3>& boundary_area);
 
-/// Changes volumes, and areas of curved faces, least beside what they are, so that they agree.
+/// Changes volumes and areas, those of plane sides in their direction, least beside what they are,
+/// so that they agree.
 /// @param faces  [boundary faces]
-/// @return the largest change of a volume or an area over what it was
+/// @param Omega  [n_nodes] m^3 (m^2 in 2-D)
+/// @return the largest change of a volume or an area over what it was [-]; NaN where there is none
 double balance_moments(const Mesh& mesh,
                        const Surface& surface,
                        std::vector<FaceArea>& faces,

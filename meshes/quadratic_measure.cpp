@@ -14,8 +14,11 @@ namespace {
 
 /// Part of the largest moment by which moments of volumes and areas may differ.
 constexpr double most_difference = 1e-9;
-/// Part of a volume or an area by which it may change so that they do not differ.
-constexpr double most_change = 0.3;
+/// Part of a volume or an area by which it may change so that they do not differ: where sides are
+/// curved, and where they are plane and have few nodes across.
+constexpr double most_change[] = {0.05, 0.3};
+/// The same of the area of a boundary group.
+constexpr double most_of_a_group = 0.01;
 
 void add_areas(const FaceArea& face, std::vector<Vec3>& area) {
   for (size_t i = 0; i < face.nodes.size(); ++i)
@@ -42,14 +45,39 @@ void set_patches(const Mesh& mesh, const std::vector<FaceArea>& faces, DualMeasu
   }
 }
 
-void require_small(double change, const BlockUse& use) {
-  if (change <= most_change) return;
+void require_small(double change, double most, const BlockUse& use) {
+  if (change <= most) return;
   throw base::InputError(fmt::format(
       "{}: the mesh is too coarse for operators that sum by parts: volumes or areas of nodes would "
       "change by {:.2g} of themselves, bound {:.2g}, to agree about moments of cubics; use {}, or "
       "refine the mesh where it has fewer than four nodes along a line or bends by much from face "
       "to face",
-      use.asked, change, most_change, use.instead));
+      use.asked, change, most, use.instead));
+}
+
+/// Groups of few faces would pay for it with the load on them.
+void require_group_areas(const Mesh& mesh,
+                         const Surface& surface,
+                         bool is_curved,
+                         const std::vector<FaceArea>& faces,
+                         const BlockUse& use) {
+  for (const BoundaryGroup& group : mesh.boundary_groups) {
+    Vec3 exact = Vec3::Zero(), area = Vec3::Zero();
+    double size = 0;
+    for (const std::int32_t f : group.faces) {
+      for (const SurfacePoint& point : surface.points(f, is_curved ? 1 : 0)) {
+        exact += point.area;
+        size += point.area.norm();
+      }
+      for (const Vec3& A : faces[f].area)
+        area += A;
+    }
+    if ((area - exact).norm() <= most_of_a_group * size) continue;
+    throw base::InputError(fmt::format(
+        "{}: the area of group '{}' would change by {:.2g} of itself, bound {:.2g}, for operators "
+        "that sum by parts: it has too few faces; use {}, or refine the mesh there",
+        use.asked, group.name, (area - exact).norm() / size, most_of_a_group, use.instead));
+  }
 }
 
 void require_agreement(double difference, const BlockUse& use) {
@@ -86,7 +114,9 @@ DualMeasure quadratic_measure(const Mesh& mesh, const BlockUse& use) {
   measure.Omega = quadratic_volumes(mesh, measure.Omega, is_curved ? &surface : nullptr);
   require_positive(mesh, measure.Omega, use);
   if (!agrees) {
-    require_small(balance_moments(mesh, surface, faces, measure.Omega), use);
+    require_small(balance_moments(mesh, surface, faces, measure.Omega),
+                  most_change[is_curved ? 0 : 1], use);
+    require_group_areas(mesh, surface, is_curved, faces, use);
     measure.boundary_area = sum_of(faces, mesh.nodes.size());
   }
   require_agreement(moment_difference(mesh, measure.Omega, measure.boundary_area), use);

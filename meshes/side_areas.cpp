@@ -60,11 +60,12 @@ class Sides {
                                    visit(b);
                                }
                              });
-    if (faces_ == Faces::smooth && surface_.is_curved(f)) {
+    const bool is_curved = faces_ == Faces::smooth && surface_.is_curved(f);
+    if (is_curved && !surface_.is_of_plane(f)) {
       for (int i = 0; i < mesh_.dimension; ++i)
         add(f, 1, Vec3::Unit(i), face);
     } else {
-      add(f, 0, area_[f].normalized(), face);
+      add(f, is_curved ? 1 : 0, area_[f].normalized(), face);
     }
     return face;
   }

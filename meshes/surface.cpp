@@ -1,6 +1,5 @@
 #include "meshes/surface.hpp"
 
-#include "common/parallel/for_each.hpp"
 #include "meshes/least_weights.hpp"
 #include "meshes/shape_integrals.hpp"
 

@@ -36,6 +36,8 @@ class Surface {
   /// Whether a face is not its facet.
   bool is_curved(std::int32_t f) const { return is_curved_[f] != 0; }
   bool has_curved_faces() const;
+  /// Whether the side of a face is plane; a face of it may have a curved rim.
+  bool is_of_plane(std::int32_t f) const { return is_plane_[f] != 0; }
 
   /// Area vector of the facet, outward, m^2 (m in 2-D).
   const Vec3& facet_area(std::int32_t f) const { return area_[f]; }

@@ -1,12 +1,12 @@
 #include "meshes/quadratic_measure.hpp"
 
 #include "common/algebra/monomials.hpp"
+#include "common/base/error.hpp"
 #include "meshes/moment_balance.hpp"
 #include "tests/graphs/graph_checks.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
+#include <gmock/gmock.h>
 #include <numeric>
 
 namespace diptych::graphs {
@@ -93,6 +93,45 @@ TEST(QuadraticMeasure, TakesCurvedSidesForWhatTheyStandFor) {
       }
       EXPECT_LE(largest, 0.1 * std::pow(6.0 / n, 2)) << name_of(type) << n;
     }
+  }
+}
+
+/// A group keeps its area however few faces it has, or is refused.
+TEST(QuadraticMeasure, LeavesSmallPatchesTheirArea) {
+  for (const CellType type : {CellType::tetrahedron, CellType::hexahedron}) {
+    for (const size_t n_faces : {1, 2, 6}) {
+      meshes::Mesh mesh = test_box(type, 6, 0.2);
+      meshes::BoundaryGroup small{"small", mesh.group("z_max").faces};
+      small.faces.resize(n_faces);
+      mesh.boundary_groups.push_back(small);
+      Vec3 exact = Vec3::Zero();
+      for (const std::int32_t f : small.faces) {
+        for (const Vec3& share : meshes::face_area_shares(mesh.boundary_faces[f], mesh.nodes,
+                                                          meshes::Quadrature::exact))
+          exact += share;
+      }
+      Vec3 area = Vec3::Zero();
+      try {
+        const meshes::DualMeasure measure = meshes::quadratic_measure(mesh);
+        for (const Vec3& A : measure.patches.back().area)
+          area += A;
+        EXPECT_LE((area - exact).norm(), 0.01 * exact.norm()) << name_of(type) << n_faces;
+      } catch (const base::InputError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("group 'small'")) << n_faces;
+        EXPECT_GT(n_faces, 1);
+      }
+    }
+  }
+}
+
+/// Also at rims, where faces of plane sides are curved.
+TEST(QuadraticMeasure, LeavesPlaneSidesTheirDirection) {
+  const meshes::Mesh mesh = bent_box(CellType::tetrahedron, 6, 0.2);
+  const meshes::DualMeasure measure = meshes::quadratic_measure(mesh);
+  for (const meshes::PatchArea& patch : measure.patches) {
+    if (patch.name.front() != 'z') continue;
+    for (const Vec3& A : patch.area)
+      EXPECT_LE(A.head<2>().norm(), 1e-14 * std::abs(A[2])) << patch.name;
   }
 }
 
