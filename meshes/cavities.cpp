@@ -1,30 +1,13 @@
 #include "meshes/cavities.hpp"
 
 #include "meshes/face_flux.hpp"
+#include "meshes/joined.hpp"
 
 #include <map>
-#include <numeric>
 
 namespace diptych::meshes {
 
 namespace {
-
-/// Sets of numbers that have been joined.
-class Joined {
- public:
-  explicit Joined(std::int64_t n) : parent_(static_cast<size_t>(n)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  std::int32_t of(std::int32_t a) {
-    while (parent_[a] != a)
-      a = parent_[a] = parent_[parent_[a]];
-    return a;
-  }
-  void join(std::int32_t a, std::int32_t b) { parent_[of(b)] = of(a); }
-
- private:
-  std::vector<std::int32_t> parent_;
-};
 
 /// What a face has of the volume that its surface encloses.
 /// @param origin  a point near, so that no digits are lost

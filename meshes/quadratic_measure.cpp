@@ -6,6 +6,7 @@
 #include "meshes/side_areas.hpp"
 #include "meshes/surface.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace diptych::meshes {
@@ -19,6 +20,9 @@ constexpr double most_difference = 1e-9;
 constexpr double most_change[] = {0.05, 0.3};
 /// The same of the area of a boundary group.
 constexpr double most_of_a_group = 0.01;
+/// Part of the nodes that are inside, where volumes and areas do not agree at once: bodies one cell
+/// thick have none, and rows that leave the wall nothing to hold it.
+constexpr double least_inside = 0.05;
 
 void add_areas(const FaceArea& face, std::vector<Vec3>& area) {
   for (size_t i = 0; i < face.nodes.size(); ++i)
@@ -53,6 +57,17 @@ void require_small(double change, double most, const BlockUse& use) {
       "refine the mesh where it has fewer than four nodes along a line or bends by much from face "
       "to face",
       use.asked, change, most, use.instead));
+}
+
+void require_inner_nodes(const std::vector<Vec3>& boundary_area, const BlockUse& use) {
+  const auto n = static_cast<double>(boundary_area.size());
+  const auto inside = static_cast<double>(std::count_if(boundary_area.begin(), boundary_area.end(),
+                                                        [](const Vec3& A) { return A.isZero(0); }));
+  if (inside >= least_inside * n) return;
+  throw base::InputError(fmt::format(
+      "{}: {:.2g} of the nodes are inside the body, operators that sum by parts ask for "
+      "{:.2g}: its walls are hardly more than one cell thick; use {}, or refine the mesh",
+      use.asked, inside / n, least_inside, use.instead));
 }
 
 /// Groups of few faces would pay for it with the load on them.
@@ -109,6 +124,7 @@ DualMeasure quadratic_measure(const Mesh& mesh, const BlockUse& use) {
   measure.boundary_area = sum_of(faces, mesh.nodes.size());
   const bool agrees =
       moment_difference_of_facets(mesh, surface, measure.boundary_area) <= most_difference;
+  if (!agrees) require_inner_nodes(measure.boundary_area, use);
   const bool is_curved = !agrees && surface.has_curved_faces();
   if (is_curved) faces = side_areas(mesh, surface, Faces::smooth);
   measure.Omega = quadratic_volumes(mesh, measure.Omega, is_curved ? &surface : nullptr);

@@ -55,9 +55,7 @@ std::map<std::int64_t, std::vector<std::int32_t>> curved_faces_of_cells(const Me
 /// Calls visit(N, X, dV) at points of a rule between a face and its facet.
 template <class Visit>
 void for_points_between(const Surface& surface, std::int32_t f, const Visit& visit) {
-  const double g = std::sqrt(0.15);
-  for (const auto& [height, weight] :
-       {std::pair(0.5 - g, 5. / 18), {0.5, 8. / 18}, {0.5 + g, 5. / 18}}) {
+  for (const auto& [height, weight] : unit_line) {
     for (const SurfacePoint& point : surface.points(f, height))
       visit(point.N, point.X, weight * point.area.dot(point.bulge));
   }

@@ -2,14 +2,13 @@
 
 #include "common/algebra/monomials.hpp"
 #include "common/parallel/for_each.hpp"
+#include "meshes/joined.hpp"
 #include "meshes/least_weights.hpp"
 
 #include <Eigen/Dense>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 #include <span>
 
 namespace diptych::meshes {
@@ -42,12 +41,12 @@ class Sides {
       for (const std::int32_t f : mesh.boundary_groups[g].faces)
         groups[f].push_back(static_cast<std::int32_t>(g));
     }
-    std::iota(side_.begin(), side_.end(), 0);
+    Joined sides(std::ssize(side_));
     surface.for_joints(faces == Faces::plane, [&](std::int32_t f, std::int32_t g) {
-      if (groups[f] == groups[g]) join(f, g);
+      if (groups[f] == groups[g]) sides.join(f, g);
     });
     for (std::int32_t f = 0; f < static_cast<std::int32_t>(side_.size()); ++f)
-      side_[f] = root(f);
+      side_[f] = sides.of(f);
   }
 
   FaceArea area_of(std::int32_t f) const {
@@ -115,21 +114,11 @@ class Sides {
       face.area[i] += value[static_cast<int>(i)] * direction;
   }
 
-  std::int32_t root(std::int32_t f) const {
-    while (side_[f] != f)
-      f = side_[f];
-    return f;
-  }
-  void join(std::int32_t f, std::int32_t g) {
-    const std::int32_t a = root(f), b = root(g);
-    side_[std::max(a, b)] = std::min(a, b);
-  }
-
   const Mesh& mesh_;
   const Surface& surface_;
   Faces faces_;
   std::vector<std::vector<std::int32_t>> around_;  ///< faces of a node
-  std::vector<std::int32_t> side_;                 ///< of a face: the first face of it
+  std::vector<std::int32_t> side_;                 ///< of a face: one of its faces
   std::vector<Vec3> area_;
 };
 

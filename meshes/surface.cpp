@@ -1,5 +1,6 @@
 #include "meshes/surface.hpp"
 
+#include "meshes/joined.hpp"
 #include "meshes/least_weights.hpp"
 #include "meshes/shape_integrals.hpp"
 
@@ -9,7 +10,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 
 namespace diptych::meshes {
 
@@ -36,12 +36,6 @@ Vec3 tangent(const Vec3& before, const Vec3& a, const Vec3& b) {
   const Vec3 first = a - before, second = b - a;
   const double d = first.norm(), e = second.norm();
   return (e * e / d * first + d * second) / (d + e);
-}
-
-std::int32_t root(std::vector<std::int32_t>& of, std::int32_t f) {
-  while (of[f] != f)
-    f = of[f] = of[of[f]];
-  return f;
 }
 
 }  // namespace
@@ -131,15 +125,12 @@ void Surface::find_kinks() {
 }
 
 void Surface::join_sides() {
-  side_.resize(normal_.size());
-  std::iota(side_.begin(), side_.end(), 0);
-  for_joints(false, [&](std::int32_t f, std::int32_t g) {
-    const std::int32_t a = root(side_, f), b = root(side_, g);
-    side_[std::max(a, b)] = std::min(a, b);
-  });
+  Joined sides(static_cast<std::int64_t>(normal_.size()));
+  for_joints(false, [&](std::int32_t f, std::int32_t g) { sides.join(f, g); });
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(normal_.size()); ++f)
+    side_.push_back(sides.of(f));
   is_plane_.assign(normal_.size(), 1);
   for (std::int32_t f = 0; f < static_cast<std::int32_t>(side_.size()); ++f) {
-    side_[f] = root(side_, f);
     if (turn(f, side_[f]) > rounding) is_plane_[side_[f]] = 0;
   }
   for (size_t f = 0; f < side_.size(); ++f)
@@ -268,10 +259,8 @@ std::vector<SurfacePoint> Surface::points(std::int32_t f, double height) const {
   const auto& bulge = bulge_[f];
   std::vector<SurfacePoint> points;
   if (nodes.size() == 2) {
-    const double g = std::sqrt(0.15);
     const Vec3 edge = mesh_.nodes[nodes[1]] - mesh_.nodes[nodes[0]];
-    for (const auto& [s, weight] :
-         {std::pair(0.5 - g, 5. / 18), {0.5, 8. / 18}, {0.5 + g, 5. / 18}}) {
+    for (const auto& [s, weight] : unit_line) {
       SurfacePoint point;
       point.N = {1 - s, s, 0, 0};
       point.bulge = 4 * s * (1 - s) * bulge[0];

@@ -28,6 +28,10 @@ struct SurfacePoint {
   Vec3 bulge = Vec3::Zero();  ///< of the face over its facet, m
 };
 
+/// Places and weights of Gauss's rule of three points between 0 and 1.
+inline constexpr std::array<std::array<double, 2>, 3> unit_line{
+    {{0.5 - 0.3872983346207417, 5. / 18}, {0.5, 8. / 18}, {0.5 + 0.3872983346207417, 5. / 18}}};
+
 class Surface {
  public:
   /// @pre mesh.boundary_faces are filled and outward, and the mesh outlives the surface
@@ -83,7 +87,7 @@ class Surface {
   std::vector<Vec3> area_, normal_;                ///< of the facets, normals of length one
   std::vector<std::vector<std::int32_t>> around_;  ///< faces of a node
   std::vector<Joint> joints_;
-  std::vector<std::int32_t> side_;          ///< smooth side of a face: its first face
+  std::vector<std::int32_t> side_;          ///< smooth side of a face: one of its faces
   std::vector<std::uint8_t> is_plane_;      ///< of a face: its side is plane
   std::vector<std::array<Vec3, 4>> bulge_;  ///< of the middles of a face's edges
   std::vector<std::uint8_t> is_curved_;

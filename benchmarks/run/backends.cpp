@@ -59,6 +59,10 @@ constexpr const char* sign_notice =
     "strong "
     "pressure may come apart (notes 4.5)";
 
+constexpr const char* hourglass_notice =
+    "scheme.hourglass has no effect: it is for operators that sum by parts off boxes and curved "
+    "blocks (notes 3.12)";
+
 /// Whether jumps are those of linear reconstructions without the adjoint of their slopes.
 bool leaves_jumps(const cases::SchemeCase& scheme) {
   return scheme.limiter == "none" && scheme.reconstruction != "none" &&
@@ -92,6 +96,9 @@ scheme::Operators finished(scheme::Operators operators,
   if (setup.scheme.volumes == "auto" && may_press && !graph.commutes && graph.cells.empty() &&
       graph.lines.empty())
     operators.notices.emplace_back(pressure_notice);
+  if (setup.scheme.hourglass != cases::SchemeCase().hourglass && setup.scheme.hourglass != 0 &&
+      graph.edges.empty())
+    operators.notices.emplace_back(hourglass_notice);
   set_precision(graph, scheme::precision_menu().at(setup.scheme.precision));
   return operators;
 }

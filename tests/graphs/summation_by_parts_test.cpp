@@ -41,6 +41,12 @@ std::vector<Scene> make_scenes() {
     all.push_back({"sph " + name_of(type), sph_graph(mesh, 1.6)});
     all.push_back({"fvm " + name_of(type), fvm::build_graph(mesh, {"sbp"})});
   }
+  for (const CellType type : {CellType::tetrahedron, CellType::hexahedron}) {
+    meshes::Mesh plate = meshes::box(type, {0, 0, 0}, {1, 1, 0.4}, {5, 5, 2});
+    meshes::perturb_interior(plate, 0.1, 11);
+    all.push_back({"sph on a plate of " + name_of(type), sph_graph(plate, 1.6)});
+    all.push_back({"fvm on a plate of " + name_of(type), fvm::build_graph(plate, {"sbp"})});
+  }
   for (const CellType type : {CellType::triangle, CellType::tetrahedron}) {
     const meshes::Mesh mesh = bent_box(type, is_flat(type) ? 10 : 6, 0.2);
     all.push_back({"sph on a ring of " + name_of(type), sph_graph(mesh, 1.6)});
@@ -190,6 +196,8 @@ TEST(SummationByParts, SaysWhatItTakesAndWhatToUseInstead) {
     X = Vec3(X[0], r * std::cos(angle), r * std::sin(angle));
   }
   EXPECT_THAT(refusal(coarse), AllOf(HasSubstr("too coarse"), HasSubstr("corrected")));
+  const meshes::Mesh wall = meshes::box(CellType::tetrahedron, {0, 0, 0}, {5, 5, 1}, {5, 5, 1});
+  EXPECT_THAT(refusal(wall), AllOf(HasSubstr("one cell thick"), HasSubstr("corrected")));
 }
 
 }  // namespace

@@ -71,11 +71,9 @@ SectionKeys<SchemeCase> scheme_keys() {
       .key("hourglass", &SchemeCase::hourglass,
            {"-", between(0, 20),
             "Stiffness of the mesh's edges, in shear moduli, against displacements that gradients "
-            "of "
-            "nodes do not see (zero-energy modes), where operators sum by parts off boxes and the "
-            "reconstruction is symmetric (notes 3.12). Zero in quadratic motions, of fourth order "
-            "in "
-            "others.",
+            "of nodes do not see (zero-energy modes), where operators sum by parts off boxes and "
+            "the reconstruction is symmetric (notes 3.12). Zero in quadratic motions, of fourth "
+            "order in others.",
             "0"})
       .key("precision", &SchemeCase::precision,
            one_of(scheme::precision_menu().names(),

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 namespace diptych {
 namespace {
@@ -55,6 +56,55 @@ TEST_P(Hourglass, ForceIsTheDerivativeOfTheEnergy) {
   const Displacements u = noisy(affine(body.graph, sheared()), 0.02);
   const Displacements direction = noisy(Displacements(u.size(), Vec3::Zero()), 1);
   expect_derivative_of_energy(body, u, direction);
+}
+
+/// The budget of leapfrog takes this power for the rate of the energy.
+template <int Dim>
+void expect_power_of_energy(StaticBodyIn<Dim> body, Displacements u, Displacements v) {
+  auto& control = *body.body.hourglass;
+  const auto energy = [&](double step) {
+    Displacements moved = u;
+    for (size_t a = 0; a < u.size(); ++a)
+      moved[a] += step * v[a];
+    body.forces(moved);
+    std::vector<double> sums(static_cast<size_t>(parallel::n_chunks_of(body.body.n_blocks)));
+    control.add_energies(body.body, sums);
+    return std::accumulate(sums.begin(), sums.end(), 0.0);
+  };
+  const double h = 1e-5, slope = (energy(h) - energy(-h)) / (2 * h);
+  body.forces(u);
+  for (size_t a = 0; a < u.size(); ++a) {
+    for (int i = 0; i < Dim; ++i) {
+      body.body.v.set(static_cast<std::int64_t>(a), i, v[a][i]);
+      if (!body.body.in_runs())
+        body.body.records.set(static_cast<std::int64_t>(a), scheme::NodeRecord<Dim>::v(false) + i,
+                              v[a][i]);
+    }
+  }
+  scheme::velocity_gradients(body.body, 0);
+  EXPECT_NEAR(control.power(body.body), -slope, 1e-7 * std::abs(slope));
+}
+
+TEST_P(Hourglass, HasThePowerOfItsEnergy) {
+  StaticBody body = body_with(5);
+  const Displacements u = noisy(affine(body.graph, sheared()), 0.02);
+  const Displacements v = noisy(quadratic(body.graph), 0.1);
+  expect_power_of_energy<3>(std::move(body), u, v);
+}
+
+TEST(HourglassInThePlane, HasThePowerOfItsEnergy) {
+  for (const auto type : {quadrilateral, triangle}) {
+    for (const char* method : {"sph sbp", "fvm sbp"}) {
+      StaticBodyIn<2> body(block(type, 0.2, {6, 6, 1}), method, 0.3, Volumes::nodes, 0, 5);
+      ASSERT_FALSE(body.graph.edges.empty());
+      Displacements u, v;
+      for (const Vec3& X : body.graph.X) {
+        u.emplace_back(0.02 * std::sin(40 * X[0] + 30 * X[1]), 0.03 * std::cos(50 * X[1]), 0);
+        v.emplace_back(std::cos(60 * X[0]), std::sin(45 * X[1] + 20 * X[0]), 0);
+      }
+      expect_power_of_energy<2>(std::move(body), u, v);
+    }
+  }
 }
 
 TEST_P(Hourglass, KeepsMomentumAndAngularMomentum) {
