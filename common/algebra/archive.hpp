@@ -6,7 +6,10 @@
 
 #include "common/algebra/vectors.hpp"
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +19,10 @@ class Archive {
  public:
   /// As many rows as the table has.
   static constexpr std::int64_t any_number = -1;
+
+  /// The rows of any part of a table, from `first` on: puts them into values, [n][n_columns], or
+  /// takes them where the archive is loading.
+  using Rows = std::function<void(std::int64_t first, std::span<double> values)>;
 
   virtual ~Archive() = default;
   /// Whether values are taken from it (true) or put into it.
@@ -31,6 +38,12 @@ class Archive {
                      std::vector<double>& values,
                      int n_columns = 1,
                      std::int64_t n_rows = any_number) = 0;
+  /// The same a part after the other, so that nobody holds the whole of it.
+  virtual void rows(const std::string& name,
+                    const std::string& unit,
+                    int n_columns,
+                    std::int64_t n_rows,
+                    const Rows& part) = 0;
   /// The same of whole numbers, [n_rows].
   virtual void integers(const std::string& name,
                         std::vector<std::int64_t>& values,
@@ -79,5 +92,16 @@ class Archive {
       values[k / 3][static_cast<int>(k % 3)] = flat[k];
   }
 };
+
+/// use(first, n) of the parts that the rows of a table come in; no table comes in none.
+template <class Use>
+void for_parts(std::int64_t n_rows, const Use& use) {
+  constexpr std::int64_t length = 1 << 15;
+  std::int64_t first = 0;
+  do {
+    use(first, std::min(length, n_rows - first));
+    first += length;
+  } while (first < n_rows);
+}
 
 }  // namespace diptych::algebra

@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace diptych::io {
 namespace {
@@ -72,14 +73,22 @@ class Descriptor {
       fmt::format("cannot {} '{}': {}{}", what, path, reason(error), advice(error)));
 }
 
-void write_all(int descriptor, std::string_view text, const std::string& path) {
-  const std::string what = fmt::format("write {} bytes to", text.size());
-  while (!text.empty()) {
-    const ssize_t n = ::write(descriptor, text.data(), text.size());
+/// All of the bytes. Where they are not there errno is 0.
+bool read_at(int descriptor, std::int64_t begin, std::span<char> bytes) noexcept {
+  errno = 0;
+  while (!bytes.empty()) {
+    const ssize_t n = ::pread(descriptor, bytes.data(), bytes.size(), begin);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) give_up(path, what, errno);
-    text.remove_prefix(static_cast<size_t>(n));
+    if (n <= 0) return false;
+    bytes = bytes.subspan(static_cast<size_t>(n));
+    begin += n;
   }
+  return true;
+}
+
+[[noreturn]] void fail_to_read(const std::string& path, int error) {
+  throw EnvironmentError(fmt::format("cannot read '{}': {}", path,
+                                     error == 0 ? "it has become shorter" : reason(error)));
 }
 
 /// The rename itself is durable only once the folder is on disk. File systems that cannot sync a
@@ -108,18 +117,73 @@ void make_directory(const std::string& directory) {
   }
 }
 
-void write_file_atomically(const std::string& path, const std::string& text) {
-  const std::string unfinished = unfinished_name(path);
+UnfinishedFile::UnfinishedFile(std::string path) : path_(std::move(path)) {
+  const std::string unfinished = unfinished_name(path_);
   // A leftover of a killed run is replaced; O_EXCL then refuses a link planted in its place.
-  if (::unlink(unfinished.c_str()) != 0 && errno != ENOENT) give_up(path, "write", errno);
-  Descriptor descriptor(
-      ::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0644));
-  if (descriptor.get() < 0) give_up(path, "write", errno);
-  write_all(descriptor.get(), text, path);
-  if (::fsync(descriptor.get()) != 0) give_up(path, "sync", errno);
-  if (!descriptor.close()) give_up(path, "close", errno);
-  if (::rename(unfinished.c_str(), path.c_str()) != 0) give_up(path, "write", errno);
-  sync_folder(path);
+  if (::unlink(unfinished.c_str()) != 0 && errno != ENOENT) give_up(path_, "write", errno);
+  descriptor_ =
+      ::open(unfinished.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0644);
+  if (descriptor_ < 0) give_up(path_, "write", errno);
+}
+
+UnfinishedFile::~UnfinishedFile() {
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  ::unlink(unfinished_name(path_).c_str());
+}
+
+bool UnfinishedFile::put(std::int64_t begin, std::string_view bytes) noexcept {
+  const auto n_bytes = static_cast<std::int64_t>(bytes.size());
+  while (error_ == 0 && !bytes.empty()) {
+    const ssize_t n = ::pwrite(descriptor_, bytes.data(), bytes.size(), begin);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) {
+      error_ = errno;
+      wanted_ = n_bytes;
+      break;
+    }
+    bytes.remove_prefix(static_cast<size_t>(n));
+    begin += n;
+  }
+  return error_ == 0;
+}
+
+bool UnfinishedFile::get(std::int64_t begin, std::span<char> bytes) const noexcept {
+  return read_at(descriptor_, begin, bytes);
+}
+
+void UnfinishedFile::take(std::int64_t begin, std::span<char> bytes) const {
+  if (!get(begin, bytes)) fail_to_read(path_, errno);
+}
+
+void UnfinishedFile::require_written() const {
+  if (error_ != 0) give_up(path_, fmt::format("write {} bytes to", wanted_), error_);
+}
+
+void UnfinishedFile::cut(std::int64_t size) {
+  require_written();
+  if (::ftruncate(descriptor_, size) != 0) give_up(path_, "write", errno);
+}
+
+void UnfinishedFile::append(std::string_view bytes) {
+  struct stat found {};
+  if (::fstat(descriptor_, &found) != 0) give_up(path_, "write", errno);
+  put(found.st_size, bytes);
+  require_written();
+}
+
+void UnfinishedFile::publish() {
+  require_written();
+  if (::fsync(descriptor_) != 0) give_up(path_, "sync", errno);
+  if (::close(std::exchange(descriptor_, -1)) != 0) give_up(path_, "close", errno);
+  if (::rename(unfinished_name(path_).c_str(), path_.c_str()) != 0) give_up(path_, "write", errno);
+  sync_folder(path_);
+}
+
+void write_file_atomically(const std::string& path, const std::string& text) {
+  UnfinishedFile file(path);
+  file.append(text);
+  file.publish();
 }
 
 bool write_over(const std::string& path, const std::string& text) {
@@ -137,18 +201,40 @@ bool write_over(const std::string& path, const std::string& text) {
          ::fsync(descriptor.get()) == 0 && descriptor.close();
 }
 
+ReadableFile::ReadableFile(std::string path)
+    : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC)) {
+  if (descriptor_ < 0) fail_to_read(path_, errno);
+  struct stat found {};
+  if (::fstat(descriptor_, &found) == 0) {
+    size_ = found.st_size;
+    return;
+  }
+  const int error = errno;
+  ::close(descriptor_);
+  fail_to_read(path_, error);
+}
+
+ReadableFile::~ReadableFile() {
+  ::close(descriptor_);
+}
+
+bool ReadableFile::get(std::int64_t begin, std::span<char> bytes) const noexcept {
+  return read_at(descriptor_, begin, bytes);
+}
+
+void ReadableFile::take(std::int64_t begin, std::span<char> bytes) const {
+  if (!get(begin, bytes)) fail_to_read(path_, errno);
+}
+
 std::string read_file(const std::string& path) {
   Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  const auto fail = [&path](int error) {
-    throw EnvironmentError(fmt::format("cannot read '{}': {}", path, reason(error)));
-  };
-  if (descriptor.get() < 0) fail(errno);
+  if (descriptor.get() < 0) fail_to_read(path, errno);
   std::string text;
   char block[1 << 16];
   for (;;) {
     const ssize_t n = ::read(descriptor.get(), block, sizeof block);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail(errno);
+    if (n < 0) fail_to_read(path, errno);
     if (n == 0) return text;
     text.append(block, static_cast<size_t>(n));
   }

@@ -30,7 +30,7 @@ std::string text_in(const Hdf5File& file, const std::string& name) {
 }  // namespace
 
 CheckpointWriter::CheckpointWriter(const std::string& path)
-    : path_(path), file_(Hdf5File::create(path)) {
+    : path_(path), file_(Hdf5File::create_on_disk(path)) {
   file_.write(format_name, std::span(&checkpoint_format, 1));
 }
 
@@ -55,6 +55,21 @@ void CheckpointWriter::reals(const std::string& name,
   file_.write_attribute(name, unit_name, unit);
 }
 
+void CheckpointWriter::rows(const std::string& name,
+                            const std::string& unit,
+                            int n_columns,
+                            std::int64_t n_rows,
+                            const Rows& part) {
+  begin(name);
+  std::vector<double> values;
+  algebra::for_parts(n_rows, [&](std::int64_t first, std::int64_t n) {
+    values.resize(static_cast<size_t>(n * n_columns));
+    part(first, values);
+    file_.write_rows<double>(name, values, n_columns, first, n_rows);
+  });
+  file_.write_attribute(name, unit_name, unit);
+}
+
 void CheckpointWriter::integers(const std::string& name,
                                 std::vector<std::int64_t>& values,
                                 std::int64_t) {
@@ -73,7 +88,7 @@ void CheckpointWriter::publish() {
 }
 
 CheckpointReader::CheckpointReader(const std::string& path)
-    : path_(path), file_(Hdf5File::open_image(path, read_sealed_file(path))) {
+    : path_(path), file_((check_sealed_file(path), Hdf5File::open_alone(path))) {
   if (!file_.contains(format_name) || !file_.contains(index_name)) refuse("is no checkpoint");
   const std::vector<std::int64_t> format = file_.read_integers(format_name);
   if (format.size() != 1 || format.front() != checkpoint_format) {
@@ -97,18 +112,36 @@ std::vector<std::int64_t> CheckpointReader::shape_of(const std::string& name) {
   return file_.shape(name);
 }
 
-void CheckpointReader::reals(const std::string& name,
-                             const std::string&,
-                             std::vector<double>& values,
-                             int n_columns,
-                             std::int64_t n_rows) {
+void CheckpointReader::require_reals(const std::string& name, int n_columns, std::int64_t n_rows) {
   const std::vector<std::int64_t> shape = shape_of(name);
   const bool fits = n_columns == 1 ? shape.size() == 1 : shape.size() == 2 && shape[1] == n_columns;
   if (!fits || (n_rows != any_number && shape[0] != n_rows)) {
     refuse(fmt::format("has '{}' as {}, this run needs {} of {}", name, fmt::join(shape, " x "),
                        n_rows == any_number ? "rows" : fmt::format("{} rows", n_rows), n_columns));
   }
+}
+
+void CheckpointReader::reals(const std::string& name,
+                             const std::string&,
+                             std::vector<double>& values,
+                             int n_columns,
+                             std::int64_t n_rows) {
+  require_reals(name, n_columns, n_rows);
   values = file_.read_doubles(name);
+}
+
+void CheckpointReader::rows(const std::string& name,
+                            const std::string&,
+                            int n_columns,
+                            std::int64_t n_rows,
+                            const Rows& part) {
+  require_reals(name, n_columns, n_rows);
+  std::vector<double> values;
+  algebra::for_parts(n_rows, [&](std::int64_t first, std::int64_t n) {
+    values.resize(static_cast<size_t>(n * n_columns));
+    file_.read_rows(name, values, n_columns, first);
+    part(first, values);
+  });
 }
 
 void CheckpointReader::integers(const std::string& name,

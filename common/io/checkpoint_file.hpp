@@ -29,6 +29,11 @@ class CheckpointWriter : public algebra::Archive {
              std::vector<double>& values,
              int n_columns,
              std::int64_t n_rows) override;
+  void rows(const std::string& name,
+            const std::string& unit,
+            int n_columns,
+            std::int64_t n_rows,
+            const Rows& part) override;
   void integers(const std::string& name,
                 std::vector<std::int64_t>& values,
                 std::int64_t n_rows) override;
@@ -59,6 +64,11 @@ class CheckpointReader : public algebra::Archive {
              std::vector<double>& values,
              int n_columns,
              std::int64_t n_rows) override;
+  void rows(const std::string& name,
+            const std::string& unit,
+            int n_columns,
+            std::int64_t n_rows,
+            const Rows& part) override;
   void integers(const std::string& name,
                 std::vector<std::int64_t>& values,
                 std::int64_t n_rows) override;
@@ -71,6 +81,8 @@ class CheckpointReader : public algebra::Archive {
  private:
   /// The shape of a table that is there, and from now on is taken.
   std::vector<std::int64_t> shape_of(const std::string& name);
+  /// The same of a table of doubles that must have this shape.
+  void require_reals(const std::string& name, int n_columns, std::int64_t n_rows);
   [[noreturn]] void refuse(const std::string& what) const;
 
   std::string path_;

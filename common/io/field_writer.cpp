@@ -230,8 +230,8 @@ std::string FieldWriter::write(double time,
         throw std::logic_error(fmt::format("field '{}' has {} values for {} nodes x {} components",
                                            field.name, field.values.size(), end - begin, n));
       }
-      file.write_rows(in_root("PointData/" + stored_name(field.name)), narrowed(field, begin), n,
-                      begin, n_points_);
+      file.write_rows<float>(in_root("PointData/" + stored_name(field.name)),
+                             narrowed(field, begin), n, begin, n_points_);
     }
   }
   file.create_group(in_root("FieldData"));

@@ -1,6 +1,7 @@
 #include "common/io/hdf5_file.hpp"
 
 #include "common/base/error.hpp"
+#include "common/io/hdf5_driver.hpp"
 #include "common/io/sealed_file.hpp"
 
 #include <hdf5.h>
@@ -53,14 +54,17 @@ void be_quiet() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-/// In memory, without a file behind it. The format is bounded above by HDF5 1.10, so that VTK 9.1
-/// and ParaView 5.11 read it, and below by the earliest: H5Fget_file_image of 1.10.8 clears the
-/// mark "open for writing" of the newer superblocks without renewing the checksum over it, and
-/// nothing could then open the file.
-bool set_access(hid_t access) {
+/// The format is bounded above by HDF5 1.10, so that VTK 9.1 and ParaView 5.11 read it, and below
+/// by the earliest: H5Fget_file_image of 1.10.8 clears the mark "open for writing" of the newer
+/// superblocks without renewing the checksum over it, and nothing could then open the file.
+bool set_format(hid_t access) {
+  return H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V110) >= 0;
+}
+
+/// Without a file behind it.
+bool set_in_memory(hid_t access) {
   constexpr size_t growth = size_t{1} << 20;
-  return access >= 0 && H5Pset_fapl_core(access, growth, false) >= 0 &&
-         H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V110) >= 0;
+  return access >= 0 && H5Pset_fapl_core(access, growth, false) >= 0;
 }
 
 herr_t append_name(hid_t, const char* name, const H5L_info_t*, void* names) {
@@ -82,24 +86,46 @@ bool compress(hid_t properties, hsize_t n_rows) {
          H5Pset_deflate(properties, 1) >= 0;
 }
 
+hid_t type_of(float) {
+  return H5T_NATIVE_FLOAT;
+}
+hid_t type_of(double) {
+  return H5T_NATIVE_DOUBLE;
+}
+
 std::array<unsigned long long, 2> table_shape(size_t n_values, int n_columns) {
   return {n_values / static_cast<size_t>(n_columns), static_cast<unsigned long long>(n_columns)};
 }
 
 }  // namespace
 
-Hdf5File::Hdf5File(std::string path, std::int64_t file, const std::string& what)
-    : path_(std::move(path)), file_(file) {
+Hdf5File::Hdf5File(std::string path,
+                   std::int64_t file,
+                   const std::string& what,
+                   std::unique_ptr<OnDisk> on_disk)
+    : path_(std::move(path)), on_disk_(std::move(on_disk)), file_(file) {
   if (file_ < 0) fail(what);
 }
 
 Hdf5File Hdf5File::create(const std::string& path) {
   be_quiet();
   const Owned access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  const hid_t file = set_access(access.get())
+  const hid_t file = set_in_memory(access.get()) && set_format(access.get())
                          ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get())
                          : -1;
   return {path, file, "cannot create it in memory"};
+}
+
+Hdf5File Hdf5File::create_on_disk(const std::string& path) {
+  be_quiet();
+  auto on_disk = std::make_unique<OnDisk>();
+  on_disk->out.emplace(path);
+  const Owned access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  const hid_t file =
+      set_driver(access.get(), *on_disk->out, on_disk->end) && set_format(access.get())
+          ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get())
+          : -1;
+  return {path, file, "cannot create it", std::move(on_disk)};
 }
 
 Hdf5File Hdf5File::open_for_reading(const std::string& path) {
@@ -107,27 +133,28 @@ Hdf5File Hdf5File::open_for_reading(const std::string& path) {
   return {path, H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "cannot open it"};
 }
 
-Hdf5File Hdf5File::open_image(const std::string& path, const std::string& image) {
+Hdf5File Hdf5File::open_alone(const std::string& path) {
   be_quiet();
+  auto on_disk = std::make_unique<OnDisk>();
+  on_disk->in.emplace(path);
   const Owned access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  // HDF5 takes a copy and does not write to it
-  const bool is_set =
-      set_access(access.get()) &&
-      H5Pset_file_image(access.get(), const_cast<char*>(image.data()), image.size()) >= 0;
-  // under a name that no file has: HDF5 refuses an image of one that is there
-  const std::string name = path + ".image";
-  return {path, is_set ? H5Fopen(name.c_str(), H5F_ACC_RDONLY, access.get()) : -1,
-          "cannot open it"};
+  const hid_t file = set_driver(access.get(), *on_disk->in)
+                         ? H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get())
+                         : -1;
+  return {path, file, "cannot open it", std::move(on_disk)};
 }
 
 Hdf5File::Hdf5File(Hdf5File&& other) noexcept
-    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)) {}
+    : path_(std::move(other.path_)),
+      on_disk_(std::move(other.on_disk_)),
+      file_(std::exchange(other.file_, -1)) {}
 
 Hdf5File::~Hdf5File() {
   if (file_ >= 0) H5Fclose(file_);
 }
 
 void Hdf5File::fail(const std::string& what) const {
+  if (on_disk_ && on_disk_->out) on_disk_->out->require_written();
   throw base::EnvironmentError(fmt::format("HDF5 file '{}': {}: {}", path_, what, hdf5_reason()));
 }
 
@@ -191,8 +218,9 @@ void Hdf5File::write(const std::string& name, std::span<const double> values, in
                std::span(shape).first(n_columns == 1 ? 1 : 2), false);
 }
 
+template <class Real>
 void Hdf5File::write_rows(const std::string& name,
-                          std::span<const float> values,
+                          std::span<const Real> values,
                           int n_columns,
                           std::int64_t first,
                           std::int64_t n_rows) {
@@ -202,21 +230,26 @@ void Hdf5File::write_rows(const std::string& name,
   const hsize_t whole[2] = {static_cast<hsize_t>(n_rows), columns};
   const hsize_t begin[2] = {static_cast<hsize_t>(first), 0};
   const hsize_t part[2] = {values.size() / columns, columns};
+  const hid_t type = type_of(Real{});
   const Owned space(H5Screate_simple(n_dimensions, whole, nullptr), H5Sclose);
   const Owned memory(H5Screate_simple(n_dimensions, part, nullptr), H5Sclose);
   if (space.failed() || memory.failed()) fail(what);
-  Owned set(first == 0 ? H5Dcreate2(file_, name.c_str(), stored_type(H5T_NATIVE_FLOAT), space.get(),
+  Owned set(first == 0 ? H5Dcreate2(file_, name.c_str(), stored_type(type), space.get(),
                                     H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)
                        : H5Dopen2(file_, name.c_str(), H5P_DEFAULT),
             H5Dclose);
   if (set.failed() ||
       H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, begin, nullptr, part, nullptr) < 0 ||
-      H5Dwrite(set.get(), H5T_NATIVE_FLOAT, memory.get(), space.get(), H5P_DEFAULT, values.data()) <
-          0 ||
+      H5Dwrite(set.get(), type, memory.get(), space.get(), H5P_DEFAULT, values.data()) < 0 ||
       !set.close()) {
     fail(what);
   }
 }
+
+template void Hdf5File::write_rows(
+    const std::string&, std::span<const float>, int, std::int64_t, std::int64_t);
+template void Hdf5File::write_rows(
+    const std::string&, std::span<const double>, int, std::int64_t, std::int64_t);
 
 void Hdf5File::write(const std::string& name,
                      std::span<const std::int64_t> values,
@@ -253,7 +286,13 @@ std::string Hdf5File::take_image() {
 }
 
 void Hdf5File::publish() {
-  write_sealed_file(path_, take_image());
+  if (!on_disk_) {
+    write_sealed_file(path_, take_image());
+    return;
+  }
+  if (H5Fclose(std::exchange(file_, -1)) < 0) fail("cannot close it");
+  seal(*on_disk_->out, on_disk_->end);
+  on_disk_->out->publish();
 }
 
 bool Hdf5File::contains(const std::string& name) const {
@@ -292,15 +331,14 @@ std::vector<std::int64_t> Hdf5File::shape(const std::string& name) const {
   return {extent.begin(), extent.end()};
 }
 
-template <class Number>
-std::vector<Number> Hdf5File::read_values(const std::string& name, std::int64_t memory_type) const {
+/// A damaged header may promise any size: contiguous storage that is shorter is refused before
+/// memory is asked for.  @return how many values there are
+std::uint64_t Hdf5File::require_values(const std::string& name) const {
   const std::string what = "cannot read '" + name + "'";
   std::uint64_t n_values = 1;
   for (const std::int64_t n : shape(name))
     n_values *= static_cast<std::uint64_t>(n);
   const Owned set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  // A damaged header may promise any size: contiguous storage that is shorter is refused before
-  // memory is asked for.
   const Owned properties(set.failed() ? -1 : H5Dget_create_plist(set.get()), H5Pclose);
   const Owned type(set.failed() ? -1 : H5Dget_type(set.get()), H5Tclose);
   if (set.failed() || properties.failed() || type.failed()) fail(what);
@@ -308,6 +346,15 @@ std::vector<Number> Hdf5File::read_values(const std::string& name, std::int64_t 
       H5Dget_storage_size(set.get()) / H5Tget_size(type.get()) < n_values) {
     fail(what + ": the file holds fewer values than it says");
   }
+  return n_values;
+}
+
+template <class Number>
+std::vector<Number> Hdf5File::read_values(const std::string& name, std::int64_t memory_type) const {
+  const std::string what = "cannot read '" + name + "'";
+  const std::uint64_t n_values = require_values(name);
+  const Owned set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (set.failed()) fail(what);
   std::vector<Number> values(n_values);
   if (H5Dread(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) fail(what);
   return values;
@@ -315,6 +362,25 @@ std::vector<Number> Hdf5File::read_values(const std::string& name, std::int64_t 
 
 std::vector<double> Hdf5File::read_doubles(const std::string& name) const {
   return read_values<double>(name, H5T_NATIVE_DOUBLE);
+}
+
+void Hdf5File::read_rows(const std::string& name,
+                         std::span<double> values,
+                         int n_columns,
+                         std::int64_t first) const {
+  const std::string what = "cannot read '" + name + "'";
+  const auto columns = static_cast<hsize_t>(n_columns);
+  const hsize_t begin[2] = {static_cast<hsize_t>(first), 0};
+  const hsize_t part[2] = {values.size() / columns, columns};
+  const Owned set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  const Owned space(set.failed() ? -1 : H5Dget_space(set.get()), H5Sclose);
+  const Owned memory(H5Screate_simple(n_columns == 1 ? 1 : 2, part, nullptr), H5Sclose);
+  if (set.failed() || space.failed() || memory.failed() ||
+      H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, begin, nullptr, part, nullptr) < 0 ||
+      H5Dread(set.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, values.data()) <
+          0) {
+    fail(what);
+  }
 }
 
 std::vector<std::int64_t> Hdf5File::read_integers(const std::string& name) const {

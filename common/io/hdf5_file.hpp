@@ -5,12 +5,15 @@
 /// and HDF5's own reason. HDF5's printing to stderr is switched off in each thread that opens a
 /// file here. HDF5 itself is included in hdf5_file.cpp and in no header.
 ///
-/// A file is made in memory and written by write_sealed_file: HDF5 1.10 that cannot flush to a
-/// full disk leaves the file half open and crashes when the program exits, while our own write
-/// says errno and removes what it began. The price is twice the size of the file in memory.
-/// Test: tests/common/io/field_writer_test.cpp
+/// Small files are made in memory and written by write_sealed_file, at the price of twice their
+/// size; large ones on the disk (hdf5_driver.hpp), a part of a data set at a time. Either way what
+/// fails has an errno, and what was begun is removed. Test: tests/common/io/field_writer_test.cpp
+
+#include "common/io/atomic_file.hpp"
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,9 +24,11 @@ class Hdf5File {
  public:
   /// Starts a file in memory; nothing is at `path` before publish().
   static Hdf5File create(const std::string& path);
+  /// The same on the disk, under another name. @throws base::EnvironmentError
+  static Hdf5File create_on_disk(const std::string& path);
   static Hdf5File open_for_reading(const std::string& path);
-  /// Opens the bytes of a file for reading. @param path  for messages
-  static Hdf5File open_image(const std::string& path, const std::string& image);
+  /// The same without locks on the file, and without links to others.
+  static Hdf5File open_alone(const std::string& path);
 
   Hdf5File(Hdf5File&& other) noexcept;
   Hdf5File(const Hdf5File&) = delete;
@@ -42,8 +47,10 @@ class Hdf5File {
   void write(const std::string& name, std::span<const double> values, int n_columns = 1);
   /// Rows [first, first + values.size() / n_columns) of a data set of n_rows, which is made with
   /// the first of them.
+  /// @param values  of float or double
+  template <class Real>
   void write_rows(const std::string& name,
-                  std::span<const float> values,
+                  std::span<const Real> values,
                   int n_columns,
                   std::int64_t first,
                   std::int64_t n_rows);
@@ -66,20 +73,37 @@ class Hdf5File {
   std::vector<std::string> names(const std::string& group) const;  ///< sorted
   std::vector<std::int64_t> shape(const std::string& name) const;
   std::vector<double> read_doubles(const std::string& name) const;  ///< row by row
+  /// Rows of a data set from `first` on, as many as there is room for.
+  void read_rows(const std::string& name,
+                 std::span<double> values,
+                 int n_columns,
+                 std::int64_t first) const;
   std::vector<std::int64_t> read_integers(const std::string& name) const;
 
  private:
-  Hdf5File(std::string path, std::int64_t file, const std::string& what);
+  /// What HDF5 writes to, or reads, where that is a file of ours.
+  struct OnDisk {
+    std::optional<UnfinishedFile> out;
+    std::optional<ReadableFile> in;
+    std::int64_t end = 0;
+  };
+
+  Hdf5File(std::string path,
+           std::int64_t file,
+           const std::string& what,
+           std::unique_ptr<OnDisk> on_disk = nullptr);
   void write_values(const std::string& name,
                     const void* values,
                     std::int64_t memory_type,
                     std::span<const unsigned long long> shape,
                     bool compressed);
+  std::uint64_t require_values(const std::string& name) const;
   template <class Number>
   std::vector<Number> read_values(const std::string& name, std::int64_t memory_type) const;
   [[noreturn]] void fail(const std::string& what) const;
 
-  std::string path_;   ///< where the file is or will be
+  std::string path_;  ///< where the file is or will be
+  std::unique_ptr<OnDisk> on_disk_;
   std::int64_t file_;  ///< hid_t; negative once closed
 };
 

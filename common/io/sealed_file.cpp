@@ -50,15 +50,50 @@ size_t promised_size(std::string_view line) {
   return read.ec == std::errc() && read.ptr == digits.data() + digits.size() ? size : 0;
 }
 
+/// What stands behind the content.
+struct Seal {
+  std::string list;
+  void add(std::string_view piece) { list += piece_hash(piece); }
+  std::string of(size_t size) const { return list + last_line_of(size, list); }
+};
+
+/// Checks what take(begin, n) gives of a file of this size.  @return size of the content
+template <class Take>
+size_t checked(const std::string& path, size_t all, const Take& take) {
+  const size_t n_end = std::min(all, last_line);
+  const std::string end(take(all - n_end, n_end));
+  if (n_end < last_line || !end.starts_with(mark)) {
+    refuse(path,
+           fmt::format("is cut off, or damaged at its end, or no sealed file: its {} bytes do "
+                       "not end with a seal",
+                       all));
+  }
+  const size_t size = promised_size(end);
+  if (size > all || size + n_pieces_of(size) * piece_line + last_line != all) {
+    refuse(path, fmt::format("is damaged: its {} bytes are not those of a content of {} bytes with "
+                             "its seal",
+                             all, size));
+  }
+  const std::string list(take(size, n_pieces_of(size) * piece_line));
+  if (last_line_of(size, list) != end)
+    refuse(path, fmt::format("is damaged in its seal, from byte {} on", size));
+  for (size_t k = 0; k < n_pieces_of(size); ++k) {
+    const size_t begin = k * sealed_piece, n = std::min(sealed_piece, size - begin);
+    if (piece_hash(take(begin, n)) == std::string_view(list).substr(k * piece_line, piece_line))
+      continue;
+    refuse(path, fmt::format("is damaged between byte {} and byte {}", begin, begin + n - 1));
+  }
+  return size;
+}
+
 }  // namespace
 
 std::string sealed(std::string content) {
   const size_t size = content.size();
-  std::string list;
+  Seal marks;
   for (size_t k = 0; k < n_pieces_of(size); ++k)
-    list += piece_hash(std::string_view(content).substr(k * sealed_piece, sealed_piece));
-  content += list;
-  content += last_line_of(size, list);
+    marks.add(std::string_view(content).substr(k * sealed_piece, sealed_piece));
+  content += marks.of(size);
   return content;
 }
 
@@ -66,34 +101,35 @@ void write_sealed_file(const std::string& path, std::string content) {
   write_file_atomically(path, sealed(std::move(content)));
 }
 
+void seal(UnfinishedFile& file, std::int64_t size) {
+  file.cut(size);
+  const auto n = static_cast<size_t>(size);
+  Seal marks;
+  std::string piece;
+  for (size_t begin = 0; begin < n; begin += sealed_piece) {
+    piece.resize(std::min(sealed_piece, n - begin));
+    file.take(static_cast<std::int64_t>(begin), piece);
+    marks.add(piece);
+  }
+  file.append(marks.of(n));
+}
+
 std::string read_sealed_file(const std::string& path) {
   std::string text = read_file(path);
-  const std::string_view all = text;
-  const std::string_view end = all.substr(all.size() - std::min(all.size(), last_line));
-  if (end.size() < last_line || !end.starts_with(mark)) {
-    refuse(path,
-           fmt::format("is cut off, or damaged at its end, or no sealed file: its {} bytes do "
-                       "not end with a seal",
-                       all.size()));
-  }
-  const size_t size = promised_size(end);
-  if (size > all.size() || size + n_pieces_of(size) * piece_line + last_line != all.size()) {
-    refuse(path, fmt::format("is damaged: its {} bytes are not those of a content of {} bytes with "
-                             "its seal",
-                             all.size(), size));
-  }
-  const std::string_view list = all.substr(size, n_pieces_of(size) * piece_line);
-  if (last_line_of(size, list) != end)
-    refuse(path, fmt::format("is damaged in its seal, from byte {} on", size));
-  for (size_t k = 0; k < n_pieces_of(size); ++k) {
-    const size_t begin = k * sealed_piece;
-    const std::string_view piece = all.substr(begin, std::min(sealed_piece, size - begin));
-    if (piece_hash(piece) == list.substr(k * piece_line, piece_line)) continue;
-    refuse(path,
-           fmt::format("is damaged between byte {} and byte {}", begin, begin + piece.size() - 1));
-  }
-  text.resize(size);
+  text.resize(checked(path, text.size(), [&text](size_t begin, size_t n) {
+    return std::string_view(text).substr(begin, n);
+  }));
   return text;
+}
+
+void check_sealed_file(const std::string& path) {
+  const ReadableFile file(path);
+  std::string piece;
+  checked(path, static_cast<size_t>(file.size()), [&](size_t begin, size_t n) {
+    piece.resize(n);
+    file.take(static_cast<std::int64_t>(begin), piece);
+    return std::string_view(piece);
+  });
 }
 
 }  // namespace diptych::io

@@ -4,6 +4,8 @@
 /// at what a file begins with, as HDF5 does, read the content as if the seal were not there.
 /// Test: tests/common/io/sealed_file_test.cpp
 
+#include "common/io/atomic_file.hpp"
+
 #include <string>
 
 namespace diptych::io {
@@ -18,8 +20,15 @@ std::string sealed(std::string content);
 /// @throws base::EnvironmentError with path and errno
 void write_sealed_file(const std::string& path, std::string content);
 
+/// Puts its seal behind a content of this size that the file begins with; what it had there is
+/// gone. Content of any size takes little memory.
+void seal(UnfinishedFile& file, std::int64_t size);
+
 /// The content. @throws base::InputError where the file is cut off, damaged or without a seal, with
 /// the path and the first damaged bytes; base::EnvironmentError where it cannot be read
 std::string read_sealed_file(const std::string& path);
+
+/// Throws the same, and takes little memory.
+void check_sealed_file(const std::string& path);
 
 }  // namespace diptych::io

@@ -3,6 +3,7 @@
 #include "common/base/error.hpp"
 #include "common/run/initial_state.hpp"
 #include "common/run/lanczos.hpp"
+#include "common/run/ranks/divided_archive.hpp"
 #include "common/run/ranks/rank_set_up.hpp"
 #include "common/run/ranks/sharing_archive.hpp"
 #include "common/run/state_hash.hpp"
@@ -115,7 +116,8 @@ void BodySolver<Dim>::divide(parallel::Communicator& ranks, const std::string& p
   scheme::divide(moving_.body, ranks, partition);
   scheme::share_geometry(moving_.body);
   SharingArchive state(ranks);
-  archive(state);
+  keep_or_take(state);
+  moving_.sweeps.remember_forces(moving_.body);
   scheme::share_last_block(moving_.body);
   moving_.boundary.begin_constant_loads(moving_.body, time());
   begin_budget();
@@ -132,13 +134,6 @@ void BodySolver<Dim>::release_fields() {
   has_fields_of_others_ = false;
   scheme::release_fields(moving_.body);
   begin_.release(moving_.body.division->untouched.owned);
-}
-
-template <int Dim>
-void BodySolver<Dim>::gather() {
-  has_fields_of_others_ = true;
-  scheme::gather_state(moving_.body);
-  moving_.boundary.complete(moving_.body.part());
 }
 
 template <int Dim>
@@ -199,18 +194,28 @@ std::string BodySolver<Dim>::state_hash(const std::vector<std::int32_t>& order) 
 }
 
 template <int Dim>
-void BodySolver<Dim>::archive(algebra::Archive& archive) {
-  const scheme::Undivided<Dim> gathered(moving_.body);  // and what is loaded is loaded by all
+void BodySolver<Dim>::keep_or_take(algebra::Archive& archive) {
   time::archive(moving_, archive);
   if (known_) known_->archive(archive);
   if (!archive.is_loading()) return;
   begun_.reset();
   begin_ = time::StepBegin<Dim>(moving_);  // which keeps nothing of the steps until then
-  has_fields_of_others_ = true;
   if (!time::is_sound(moving_)) {
     throw base::InputError(
         "the state to go on from is not sound: a node has J <= 0 or a value that is not finite");
   }
+}
+
+template <int Dim>
+void BodySolver<Dim>::archive(algebra::Archive& archive) {
+  if (moving_.body.division) {
+    if (!archive.is_loading()) moving_.boundary.complete(moving_.body.part());
+    DividedArchive divided(moving_.body.part(), archive);
+    keep_or_take(divided);
+  } else {
+    keep_or_take(archive);
+  }
+  if (archive.is_loading()) moving_.sweeps.remember_forces(moving_.body);
 }
 
 template <int Dim>

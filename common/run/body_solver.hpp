@@ -27,7 +27,6 @@ class BodySolver : public Solver {
   bool take_back() override;
   void give(parallel::Communicator& ranks, scheme::PairGraph& graph) override;
   void divide(parallel::Communicator& ranks, const std::string& partition) override;
-  void gather() override;
   double imbalance() const override;
   double time() const override { return moving_.clock.time; }
   bool is_sound() const override { return time::is_sound(moving_); }
@@ -53,6 +52,7 @@ class BodySolver : public Solver {
   }
 
  private:
+  void keep_or_take(algebra::Archive& archive);
   void release_fields();
   void begin_budget();
   EnergyBudget budget() const { return {balance(), moving_.audit}; }

@@ -122,7 +122,10 @@ void LargestRates<Dim>::apply(const Vectors& u,
     body_.hourglass->take_stresses(body_);
   }
   sum_forces(strength);
-  if (body_.bulk) body_.bulk->add_linear_forces(body_, ratios.cells, ratios.cell_shear);
+  if (body_.bulk) {
+    body_.bulk->evaluate_linear(body_, ratios.cells, ratios.cell_shear);
+    body_.bulk->add_forces(body_);
+  }
   if (body_.hourglass) body_.hourglass->add_forces(body_);
   divide_forces(out);
 }

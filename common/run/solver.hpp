@@ -56,13 +56,11 @@ class Solver {
   virtual void give(parallel::Communicator& ranks, scheme::PairGraph& graph) = 0;
   /// Shares the body, and the state that it has on rank 0, with other ranks, which have been given
   /// a solver: each works its part from now on. All ranks then make the same calls of what is not
-  /// const, of balance(), take_snapshot(), motion() and exact_state(); rank 0 alone has
-  /// their whole results.
+  /// const, of balance(), take_snapshot(), motion(), state_hash() and exact_state(); rank 0 alone
+  /// has their whole results, and alone has a file to archive.
   /// @param partition  of parallel::partitioners()
   /// @throws base::InputError where there are too many ranks, on all of them
   virtual void divide(parallel::Communicator& ranks, const std::string& partition) = 0;
-  /// Brings all that state_hash() and archive() read to rank 0.
-  virtual void gather() = 0;
   /// Largest work of a rank over the mean.
   virtual double imbalance() const = 0;
   /// Whether all nodes have J > 0, internal variables that are positive definite and finite values.
@@ -82,7 +80,8 @@ class Solver {
   virtual Motion motion() const = 0;
   /// Force of supports and walls on these nodes (ascending) at the time of the state  [N]
   virtual algebra::Vec3 reaction(const std::vector<std::int32_t>& nodes) = 0;
-  /// XXH3 (128 bits) of the unknowns and the time; `order[a]` is the user's number of node a.
+  /// A fingerprint of the unknowns and the time (state_hash.hpp); `order[a]` is the user's number
+  /// of node a, on rank 0.
   virtual std::string state_hash(const std::vector<std::int32_t>& order) const = 0;
   /// Keeps all that later steps read in the archive, or takes it from there: the steps that follow
   /// then have the same bits.

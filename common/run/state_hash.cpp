@@ -1,26 +1,66 @@
 #include "common/run/state_hash.hpp"
 
+#include "common/scheme/ranks/own_entries.hpp"
+
 #include <fmt/format.h>
 #include <xxhash.h>
 
 namespace diptych::run {
 
+namespace {
+
+using algebra::n_lanes;
+
+/// Modulo 2^64 each.
+struct HashSum {
+  std::uint64_t high = 0, low = 0;
+  HashSum& operator+=(const HashSum& other) {
+    high += other.high;
+    low += other.low;
+    return *this;
+  }
+};
+
+template <int Dim>
+HashSum hash_of_node(const scheme::Body<Dim>& body,
+                     std::int64_t a,
+                     std::int32_t number,
+                     std::vector<double>& values) {
+  values.assign(1, number);
+  for (const scheme::Field<Dim>& field : body.fields()) {
+    if (field.role != scheme::Role::unknown) continue;
+    for (int c = 0; c < field.n_components; ++c)
+      values.push_back(field.at(body, a, c));
+  }
+  const XXH128_hash_t hash = XXH3_128bits(values.data(), values.size() * sizeof(double));
+  return {hash.high64, hash.low64};
+}
+
+}  // namespace
+
 template <int Dim>
 std::string state_hash(const scheme::Body<Dim>& body,
                        const std::vector<std::int32_t>& order,
                        double time) {
-  std::vector<std::int64_t> node_of(order.size());
-  for (size_t a = 0; a < order.size(); ++a)
-    node_of[order[a]] = static_cast<std::int64_t>(a);
-  std::vector<double> all{time};
-  std::string_view last;
-  for (const scheme::Field<Dim>& field : body.fields()) {
-    if (field.role != scheme::Role::unknown || field.name == last) continue;
-    const auto values = scheme::values_of(body, field.name, node_of);
-    all.insert(all.end(), values.begin(), values.end());
-    last = field.name;
-  }
-  const XXH128_hash_t hash = XXH3_128bits(all.data(), all.size() * sizeof(double));
+  const parallel::Part& part = body.part();
+  const scheme::OwnEntries numbers(part, order, body.n_owned);
+  std::vector<HashSum> sums(static_cast<size_t>(parallel::n_chunks_of(body.n_blocks)));
+  parallel::for_chunks(
+      part, body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
+        const std::int64_t last = std::min(end * n_lanes, body.n_owned);
+        const std::span<const std::int32_t> number = numbers.of_chunk(chunk);
+        std::vector<double> values;
+        for (std::int64_t a = begin * n_lanes; a < last; ++a)
+          sums[chunk] += hash_of_node(body, a, number[a - begin * n_lanes], values);
+      });
+  part.complete(sums);
+  const HashSum sum = parallel::sum_in_order(sums);
+  struct {
+    double time;
+    std::int64_t n_nodes;
+    HashSum sum;
+  } const all{time, body.n_owned, sum};
+  const XXH128_hash_t hash = XXH3_128bits(&all, sizeof all);
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 

@@ -8,9 +8,10 @@
 
 namespace diptych::run {
 
-/// XXH3 (128 bits) of the time and of all unknowns, in the order of the table of fields, as 32
-/// hexadecimal digits.
-/// @param order  [node] its number in the user's mesh
+/// XXH3 (128 bits) of the time and of the sum of the hashes of all nodes, each of the number of the
+/// node and its unknowns in the order of the table of fields, as 32 hexadecimal digits. A sum has
+/// no order: ranks hash what they own. Among ranks all call this together.
+/// @param order  [node] its number in the user's mesh, on rank 0
 template <int Dim>
 std::string state_hash(const scheme::Body<Dim>& body,
                        const std::vector<std::int32_t>& order,

@@ -1,6 +1,7 @@
 #include "common/time/moving_body_archive.hpp"
 
 #include "common/scheme/body/body_archive.hpp"
+#include "common/scheme/ranks/division.hpp"
 
 #include <string>
 
@@ -14,10 +15,11 @@ using algebra::Archive;
 template <int Dim>
 void copy_velocities(scheme::Body<Dim>& body) {
   const int first = scheme::NodeRecord<Dim>::v(body.options.exact_impedance);
-  for (std::int64_t a = 0; a < body.n_stored; ++a) {
+  const scheme::Blocks untouched = body.division ? body.division->untouched.read : scheme::Blocks();
+  scheme::for_touched(untouched, 0, body.n_stored, [&](std::int64_t a) {
     for (int i = 0; i < Dim; ++i)
       body.records.set(a, first + i, body.v.at(a, i));
-  }
+  });
 }
 
 template <int Dim>
@@ -27,9 +29,6 @@ void archive_body(MovingBody<Dim>& moving, Archive& archive) {
   scheme::archive_fields(body, Role::unknown, archive);
   scheme::archive_fields(body, Role::derived, archive);
   if (archive.is_loading() && !body.in_runs()) copy_velocities(body);
-  // bulk volumes remember the forces that they added, to body.T too, which is loaded next
-  if (archive.is_loading() && body.bulk) body.bulk->add_forces(body, moving.sweeps.material());
-  if (archive.is_loading() && body.hourglass) body.hourglass->evaluate(body);
   scheme::archive_fields(body, Role::accumulated, archive);
 }
 

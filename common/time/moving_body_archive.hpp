@@ -9,6 +9,7 @@
 
 namespace diptych::time {
 
+/// Where it was loading, all ranks call Sweeps::remember_forces() next.
 /// @pre where it is loading: the body is that of the same case on the same graph
 /// @throws base::InputError where it is loading what does not fit
 template <int Dim>

@@ -125,11 +125,7 @@ void StepBegin<Dim>::restore(MovingBody<Dim>& moving) {
     return;
   }
   moving.sweeps.set_results(results_);
-  if (moving.body.bulk) {  // they remember the forces that they added
-    moving.body.bulk->add_forces(moving.body, moving.sweeps.material());
-    put_back(moving.body);
-  }
-  if (moving.body.hourglass) moving.body.hourglass->evaluate(moving.body);
+  moving.sweeps.remember_forces(moving.body);
   if (limits_.size() == 1) return;
   const double t_limit = limits_.back();
   limits_.pop_back();

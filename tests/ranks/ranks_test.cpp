@@ -1,60 +1,19 @@
 /// Runs among ranks have the bits of a run of one process: state and histories, for both methods,
 /// rows and runs of pairs, both precisions, and all that ranks tell each other of.
 
+#include "tests/ranks/ranks.hpp"
+
 #include "tests/command_line/frames.hpp"
-#include "tests/command_line/program.hpp"
-#include "tests/trials.hpp"
 
 #include <gtest/gtest.h>
 
 #include <gmock/gmock.h>
-#include <random>
-#include <regex>
 
 namespace diptych::tests {
 namespace {
 
 using testing::HasSubstr;
 
-const std::string mpirun =
-    "export OMP_WAIT_POLICY=passive; mpirun --oversubscribe --allow-run-as-root --bind-to none ";
-
-/// A case with what tests change by --set; 1331 nodes, six chunks of them.
-const std::string cube = R"toml(title = "Cube among ranks"
-[mesh]
-element = "hexahedron"
-lower = [0, 0, 0]
-upper = [1, 1, 1]
-cells = [10, 10, 10]
-[material]
-model = "mooney-rivlin"
-density = 1100
-youngs_modulus = 17e6
-poissons_ratio = 0.3
-zeta_ratio = 0.5
-[initial]
-velocity = ["20*y*z", "-30*x", "10*sin(3*x)"]
-[time]
-end = 5e-3
-max_steps = 12
-[output]
-frames = 40
-fields = false
-)toml";
-const std::string held = R"toml([[boundary]]
-group = "x_min"
-type = "fixed"
-[[boundary]]
-group = "x_max"
-type = "traction"
-value = ["1e5*sin(500*t)", 0, "2e5*y"]
-)toml";
-const std::string branches = R"toml([[material.branch]]
-beta_C = 0.5
-tau_C = 1e-3
-beta_G = 0.5
-tau_G = 2e-3
-)toml";
 const std::string probes = R"toml([[probe]]
 name = "corner"
 unit = "m"
@@ -87,15 +46,6 @@ max_steps = 30
 frames = 200
 fields = false
 )toml";
-
-struct Scene {
-  const char* name;
-  std::string text;
-  std::string options;  ///< of the command line
-};
-std::ostream& operator<<(std::ostream& to, const Scene& scene) {
-  return to << scene.name;
-}
 
 std::vector<Scene> scenes() {
   const std::string wall = R"toml([initial]
@@ -149,14 +99,6 @@ value = ["sin(1000*t)", 0]
       {"RigidWallInStages", plane + wall, ""},
       {"PressureAndVelocity", plane + blown, "--set scheme.volumes=cells"},
   };
-}
-
-/// What may differ: times of the clock, and how it was run.
-std::string hash_in(const std::filesystem::path& run) {
-  const std::string text = text_of(run / "summary.json");
-  std::smatch found;
-  return std::regex_search(text, found, std::regex(R"re("state_hash": "(\w+)")re")) ? found[1].str()
-                                                                                    : "none";
 }
 
 class Ranks : public testing::TestWithParam<Scene> {
@@ -263,26 +205,6 @@ INSTANTIATE_TEST_SUITE_P(OfScenes,
                                                "scheme.precision=single"}),
                          [](const auto& tested) { return tested.param.name; });
 
-TEST(RanksOfARun, GoOnFromACheckpointOfOtherRanks) {
-  const Folder folder;
-  folder.write("case.toml", cube + branches + held);
-  const std::string run = "$diptych run case.toml --method fvm --quiet --threads 1 ";
-  const std::string halves = "--set time.checkpoint_every=6 ";
-  EXPECT_EQ(shell(folder, run + "--out whole").exit_code, 0);
-  for (const auto& [first, second] : {std::pair{3, 2}, {2, 0}, {0, 5}}) {
-    const auto on = [](int n) { return n == 0 ? "" : mpirun + "-n " + std::to_string(n) + " "; };
-    const std::string out = " --out " + std::to_string(first) + "_" + std::to_string(second);
-    Outcome outcome = shell(folder, on(first) + run + halves + "--set time.max_steps=6" + out);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
-    outcome = shell(folder, on(second) + run + halves + "--restart latest" + out);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
-    EXPECT_EQ(
-        hash_in(folder.path() / (std::to_string(first) + "_" + std::to_string(second)) / "fvm"),
-        hash_in(folder.path() / "whole/fvm"))
-        << first << " to " << second << " ranks";
-  }
-}
-
 TEST(RanksOfARun, BreakDownAsOneProcessDoes) {
   const Folder folder;
   folder.write("case.toml", cube);
@@ -388,62 +310,6 @@ TEST(RanksOfARun, AreTakenByAllVerbs) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   outcome = shell(folder, many + regress + "beam");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
-}
-
-/// A rank that is killed or stopped ends all of them within half a minute, is named, and the last
-/// checkpoint goes on with fewer ranks to the bits of the run that was left alone.
-TEST(RanksThatEnd, EndTheJobAndGoOnWithFewer) {
-  const Folder folder;
-  std::string text = cube + branches + held;
-  text.replace(text.find("end = 5e-3\nmax_steps = 12"), 25,
-               "end = 5e-2\nmax_steps = 150\ncheckpoint_every = 1");
-  folder.write("case.toml", text);
-  const std::string run = "$diptych run case.toml --method fvm --threads 1 --quiet --out ";
-  ASSERT_EQ(shell(folder, run + "whole --set time.checkpoint_every=0").exit_code, 0);
-  const std::string wanted = hash_in(folder.path() / "whole/fvm");
-  std::mt19937 random(20);
-  Trials trials("ranks killed or stopped");
-  const int n_trials = Trials::n(2, 50);
-  for (int k = 0; trials.n_made() < n_trials && k < 4 * n_trials; ++k) {
-    const std::string signal = k % 2 == 0 ? "STOP" : "KILL";
-    const auto victim = std::to_string(random() % 3);
-    const std::string delay = "0." + std::to_string(10 + random() % 80);
-    std::filesystem::remove_all(folder.path() / "out");
-    const Outcome ended = shell(
-        folder, "export DIPTYCH_RANK_PATIENCE=3; " + mpirun + "-n 3 " + run + "out &\n" +
-                    "for i in $(seq 400); do ls out/fvm/checkpoint_* >/dev/null 2>&1 && break; "
-                    "sleep 0.05; done; sleep " +
-                    delay +
-                    "\nfor p in $(pgrep -P $!); do tr '\\0' '\\n' </proc/$p/environ | grep -qx "
-                    "OMPI_COMM_WORLD_RANK=" +
-                    victim + " && kill -" + signal +
-                    " $p && hit=yes; done\nstart=$(date +%s)\njob=$!\n"
-                    "for i in $(seq 600); do kill -0 $job 2>/dev/null || break; sleep 0.1; done\n"
-                    "for p in $(pgrep -P $job); do case $(ps -o stat= -p $p) in [TZ]*) ;; ?*) echo "
-                    "waits=$p ;; esac; done\n"
-                    "kill -0 $job 2>/dev/null && { ps -e -o pid,ppid,stat,etime,args | tail -20; "
-                    "pkill -KILL -P $job; kill -KILL $job; }\nwait $job\ncode=$?\n"
-                    "echo \"hit=$hit code=$code after $(($(date +%s) - start)) s\"");
-    const auto says = [&](const char* what) { return ended.text.find(what) != std::string::npos; };
-    // one that is stopped after its last word holds mpirun: all that there was to do is done, and
-    // no other rank waits for it
-    const bool was_over = !says("hit=yes") || says("status done");
-    if (says("waits=")) ADD_FAILURE() << "rank " << victim << " " << signal << "\n" << ended.text;
-    if (was_over) continue;
-    std::smatch after;
-    const bool is_told = std::regex_search(ended.text, after, std::regex(R"(after (\d+) s)")) &&
-                         std::stoi(after[1].str()) < 30;
-    EXPECT_TRUE(is_told) << ended.text;
-    const bool is_named = std::regex_search(ended.text, std::regex("rank " + victim));
-    EXPECT_TRUE(is_named) << "rank " << victim << " " << signal << "\n" << ended.text;
-    const int fewer = static_cast<int>(random() % 2) + 1;
-    const Outcome again =
-        shell(folder, mpirun + "-n " + std::to_string(fewer) + " " + run + "out --restart latest");
-    const bool goes_on = again.exit_code == 0 && hash_in(folder.path() / "out/fvm") == wanted;
-    EXPECT_TRUE(goes_on) << ended.text << again.text;
-    trials.add(is_told && is_named && goes_on);
-  }
-  EXPECT_EQ(trials.n_made(), n_trials) << "too many runs were over before";
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include "common/parallel/pages.hpp"
 #include "common/parallel/ranks.hpp"
 #include "common/parallel/sharing.hpp"
-#include "common/run/ranks/archive_copy.hpp"
+#include "common/run/ranks/divided_archive.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -25,7 +25,8 @@ enum class Task : std::int32_t {
   snapshot_of_nodes,
   motion,
   reaction,
-  gather,
+  state_hash,
+  keep,
   load,
   exact_state,
   costs,
@@ -34,10 +35,21 @@ enum class Task : std::int32_t {
 };
 
 const char* name_of(Task task) {
-  constexpr const char* names[] = {
-      "set-up",         "a step",     "taking a step back", "a balance",   "a snapshot",
-      "probes",         "the motion", "a reaction",         "a gathering", "loading a checkpoint",
-      "an exact state", "the costs",  "the memory",         "the end"};
+  constexpr const char* names[] = {"set-up",
+                                   "a step",
+                                   "taking a step back",
+                                   "a balance",
+                                   "a snapshot",
+                                   "probes",
+                                   "the motion",
+                                   "a reaction",
+                                   "a state hash",
+                                   "writing a checkpoint",
+                                   "loading a checkpoint",
+                                   "an exact state",
+                                   "the costs",
+                                   "the memory",
+                                   "the end"};
   return names[static_cast<int>(task)];
 }
 
@@ -185,12 +197,13 @@ void carry_out(const Order& order,
     case Task::reaction:
       solver.reaction(received<std::int32_t>(ranks, order.n));
       break;
-    case Task::gather:
-      solver.gather();
+    case Task::state_hash:
+      (void)solver.state_hash({});
       break;
+    case Task::keep:
     case Task::load: {
-      ArchiveCopy copy(received<std::byte>(ranks, order.n));
-      solver.archive(copy);
+      NoArchive none(order.task == Task::load);
+      solver.archive(none);
       break;
     }
     case Task::exact_state:
@@ -249,11 +262,6 @@ void LeadingSolver::give(parallel::Communicator&, scheme::PairGraph&) {}
 
 void LeadingSolver::divide(parallel::Communicator&, const std::string&) {}
 
-void LeadingSolver::gather() {
-  ask(ranks_, Task::gather);
-  work_together(ranks_, Task::gather, [&] { solver_->gather(); });
-}
-
 scheme::Balance LeadingSolver::balance() const {
   ask(ranks_, Task::balance);
   return work_together(ranks_, Task::balance, [&] { return solver_->balance(); });
@@ -280,22 +288,14 @@ algebra::Vec3 LeadingSolver::reaction(const std::vector<std::int32_t>& nodes) {
 }
 
 std::string LeadingSolver::state_hash(const std::vector<std::int32_t>& order) const {
-  ask(ranks_, Task::gather);
-  work_together(ranks_, Task::gather, [&] { solver_->gather(); });
-  return solver_->state_hash(order);
+  ask(ranks_, Task::state_hash);
+  return work_together(ranks_, Task::state_hash, [&] { return solver_->state_hash(order); });
 }
 
 void LeadingSolver::archive(algebra::Archive& archive) {
-  if (!archive.is_loading()) {
-    gather();
-    solver_->archive(archive);
-    return;
-  }
-  CopyingArchive copying(archive);
-  solver_->archive(copying);
-  std::vector<std::byte>& copy = copying.copy();
-  ask(ranks_, Task::load, 0, std::ssize(copy));
-  ranks_.broadcast(copy.data(), std::ssize(copy));
+  const Task task = archive.is_loading() ? Task::load : Task::keep;
+  ask(ranks_, task);
+  work_together(ranks_, task, [&] { solver_->archive(archive); });
 }
 
 std::optional<Snapshot> LeadingSolver::exact_state(double t) const {

@@ -41,7 +41,6 @@ class LeadingSolver : public Solver {
   bool take_back() override;
   void give(parallel::Communicator& ranks, scheme::PairGraph& graph) override;
   void divide(parallel::Communicator& ranks, const std::string& partition) override;
-  void gather() override;
   double imbalance() const override { return solver_->imbalance(); }
   double time() const override { return solver_->time(); }
   bool is_sound() const override { return solver_->is_sound(); }

@@ -1,6 +1,6 @@
 #pragma once
-/// The state that rank 0 has, for all ranks: what rank 0 keeps in it is what the others load, table
-/// by table, so that no rank holds a copy of the whole. Test: tests/ranks
+/// The state that rank 0 has, for all ranks: what rank 0 keeps in it is what the others load, part
+/// by part of each table, so that no rank holds a copy of the whole. Test: tests/ranks
 
 #include "common/algebra/archive.hpp"
 #include "common/parallel/sharing.hpp"
@@ -17,6 +17,20 @@ class SharingArchive : public algebra::Archive {
              int,
              std::int64_t) override {
     parallel::share(ranks_, values);
+  }
+  void rows(const std::string&,
+            const std::string&,
+            int n_columns,
+            std::int64_t n_rows,
+            const Rows& part) override {
+    std::vector<double> values;
+    algebra::for_parts(n_rows, [&](std::int64_t first, std::int64_t n) {
+      values.resize(static_cast<size_t>(n * n_columns));
+      if (!is_loading()) part(first, values);
+      ranks_.broadcast(parallel::bytes_of(values.data()),
+                       std::ssize(values) * static_cast<std::int64_t>(sizeof(double)));
+      if (is_loading()) part(first, values);
+    });
   }
   void integers(const std::string&, std::vector<std::int64_t>& values, std::int64_t) override {
     parallel::share(ranks_, values);

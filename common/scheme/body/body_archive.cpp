@@ -1,5 +1,7 @@
 #include "common/scheme/body/body_archive.hpp"
 
+#include "common/scheme/ranks/untouched.hpp"
+
 #include <string>
 
 namespace diptych::scheme {
@@ -32,23 +34,27 @@ void archive_field(Body<Dim>& body,
   int n = 0;
   for (const Field<Dim>* place : places)
     n += place->n_components;
-  std::vector<double> values;
-  if (!archive.is_loading()) values.reserve(static_cast<size_t>(body.n_stored * n));
-  for (std::int64_t a = 0; !archive.is_loading() && a < body.n_stored; ++a) {
-    for (const Field<Dim>* place : places) {
-      for (int c = 0; c < place->n_components; ++c)
-        values.push_back(place->at(body, a, c));
-    }
-  }
-  archive.reals(name, std::string(places.front()->unit), values, n, body.n_stored);
-  if (!archive.is_loading()) return;
-  size_t k = 0;
-  for (std::int64_t a = 0; a < body.n_stored; ++a) {
-    for (const Field<Dim>* place : places) {
-      for (int c = 0; c < place->n_components; ++c)
-        place->set(body, a, c, values[k++]);
-    }
-  }
+  const bool is_loading = archive.is_loading();
+  archive.rows(name, std::string(places.front()->unit), n, body.n_stored,
+               [&](std::int64_t first, std::span<double> values) {
+                 const std::int64_t last = first + std::ssize(values) / n;
+                 int column = 0;
+                 for (const Field<Dim>* place : places) {
+                   // what is kept may be shared with ranks that have other nodes
+                   const Blocks untouched = is_loading ? untouched_of(body, *place) : Blocks();
+                   for_touched(untouched, first, last, [&](std::int64_t a) {
+                     double* const row = &values[static_cast<size_t>((a - first) * n + column)];
+                     for (int c = 0; c < place->n_components; ++c) {
+                       if (is_loading) {
+                         place->set(body, a, c, row[c]);
+                       } else {
+                         row[c] = place->at(body, a, c);
+                       }
+                     }
+                   });
+                   column += place->n_components;
+                 }
+               });
 }
 
 }  // namespace

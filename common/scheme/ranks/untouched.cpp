@@ -63,16 +63,22 @@ Untouched untouched_of(std::int64_t n_blocks,
 }
 
 template <int Dim>
-void release_fields(Body<Dim>& body) {
+Blocks untouched_of(const Body<Dim>& body, const Field<Dim>& field) {
+  if (!body.division) return {};
   const Untouched& untouched = body.division->untouched;
+  if (field.block != nullptr) return untouched.owned;
+  return field.role == Role::accumulated ? untouched.written : untouched.read;
+}
+
+template <int Dim>
+void release_fields(Body<Dim>& body) {
   for (const Field<Dim>& field : body.fields()) {
+    const Blocks untouched = untouched_of(body, field);
     if (field.block != nullptr) {
-      give_back_blocks(body.*field.block, untouched.owned);
-      continue;
+      give_back_blocks(body.*field.block, untouched);
+    } else {
+      release_table(body.*field.table, field.first, field.n_components, untouched);
     }
-    const bool is_force = field.role == Role::accumulated;
-    release_table(body.*field.table, field.first, field.n_components,
-                  is_force ? untouched.written : untouched.read);
   }
 }
 
@@ -89,8 +95,9 @@ void release_graph(Body<Dim>& body) {
   if (!body.bulk) give_back_blocks(body.X.data(), std::ssize(body.X), n_lanes, untouched.owned);
 }
 
-#define DIPTYCH_INSTANTIATE(Dim)            \
-  template void release_fields(Body<Dim>&); \
+#define DIPTYCH_INSTANTIATE(Dim)                                     \
+  template Blocks untouched_of(const Body<Dim>&, const Field<Dim>&); \
+  template void release_fields(Body<Dim>&);                          \
   template void release_graph(Body<Dim>&);
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)

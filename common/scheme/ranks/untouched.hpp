@@ -31,6 +31,25 @@ Untouched untouched_of(std::int64_t n_blocks,
                        const std::vector<char>& written,
                        const std::vector<char>& worked);
 
+/// What the rank does not touch of a field; nothing where there is one rank.
+template <int Dim>
+Blocks untouched_of(const Body<Dim>& body, const Field<Dim>& field);
+
+/// use(a) of the nodes of [begin, end) that are in none of these blocks.
+template <class Use>
+void for_touched(const Blocks& untouched, std::int64_t begin, std::int64_t end, const Use& use) {
+  auto gap = untouched.begin();
+  for (std::int64_t a = begin; a < end;) {
+    while (gap != untouched.end() && gap->end * algebra::n_lanes <= a)
+      ++gap;
+    const std::int64_t next =
+        gap == untouched.end() ? end : std::min(end, gap->begin * algebra::n_lanes);
+    for (; a < next; ++a)
+      use(a);
+    if (a < end) a = std::min(end, gap->end * algebra::n_lanes);
+  }
+}
+
 /// Gives back what the rank does not touch of the fields: after they have been gathered or loaded.
 /// @pre body.division
 template <int Dim>

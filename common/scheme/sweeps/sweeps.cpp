@@ -61,7 +61,10 @@ void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
   const auto sweep = momentum_sweep(body, with_step && speeds == Speeds::exact);
   sweep_with(body, {&Body<Dim>::records, &Body<Dim>::frames},
              [&](Share share) { scheme::sum_forces(sweep, momentum_, share); });
-  if (body.bulk) body.bulk->add_forces(body, *material_);
+  if (body.bulk) {
+    body.bulk->evaluate(body, *material_);
+    body.bulk->add_forces(body);
+  }
   if (body.hourglass) body.hourglass->add_forces(body);
   if (with_step && speeds == Speeds::bound) {
     for_chunks_of(body, Share::whole, [&](auto begin, auto end, auto chunk) {
@@ -74,6 +77,12 @@ void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
     complete(body, {&numerical_power_, &limited_pairs_, &largest_rate_}, with_step ? 3 : 2);
   }
   if (with_step) stable_dt_ = options_.time_step.limit() / rate();
+}
+
+template <int Dim>
+void Sweeps<Dim>::remember_forces(Body<Dim>& body) const {
+  if (body.bulk) body.bulk->evaluate(body, *material_);
+  if (body.hourglass) body.hourglass->evaluate(body);
 }
 
 /// See scheme/time_step.hpp  [1/s]

@@ -60,6 +60,10 @@ class Sweeps {
   /// Of the last strain_rates; NaN where a node has not J > 0 and finite dF/dt.
   double least_J() const;
 
+  /// Of a state that has been put back or loaded with its forces: what those of volumes and edges
+  /// were, of which the next step takes the power.
+  void remember_forces(Body<Dim>& body) const;
+
   /// To go back to a state whose sweeps are not to be made again.
   SweepResults results() const;
   void set_results(const SweepResults& results);

@@ -75,7 +75,7 @@ void BulkVolumes<Dim>::exchange(const Body<Dim>& body, Array& values, int n) con
 }
 
 template <int Dim>
-void BulkVolumes<Dim>::add_rows(Body<Dim>& body) const {
+void BulkVolumes<Dim>::add_forces(Body<Dim>& body) const {
   const auto add =
       algebra::version_here<algebra::Versions<AddRowsKernel<Dim>, const double*, Body<Dim>&,
                                               std::int64_t, std::int64_t>>();

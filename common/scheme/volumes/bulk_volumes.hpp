@@ -47,16 +47,19 @@ class BulkVolumes {
   virtual std::vector<CellWork> work_of(const parallel::Part& part,
                                         std::vector<char>& read) const = 0;
 
-  /// Adds the forces of the pressure U'(J_a) of the material to body.T, for the displacements as
-  /// they stand, and those of what cells carry of the shear (BodyOptions::cell_shear).
-  virtual void add_forces(Body<Dim>& body, const MaterialModel& material) = 0;
+  /// Forces of the pressure U'(J_a) of the material for the displacements as they stand, and those
+  /// of what cells carry of the shear (BodyOptions::cell_shear).
+  virtual void evaluate(const Body<Dim>& body, const MaterialModel& material) = 0;
 
-  /// The same linearised: adds the forces of modulus (dV_a/V_a), dV_a the change of volume with the
-  /// body's velocities in the place of a change of displacement, and those of the modulus `shear`
-  /// by gradients of cells [both moduli in the same unit]. For the frequencies of set-up.
-  virtual void add_linear_forces(Body<Dim>& body, double modulus, double shear) = 0;
+  /// The same linearised: forces of modulus (dV_a/V_a), dV_a the change of volume with the body's
+  /// velocities in the place of a change of displacement, and those of the modulus `shear` by
+  /// gradients of cells [both moduli in the same unit]. For the frequencies of set-up.
+  virtual void evaluate_linear(const Body<Dim>& body, double modulus, double shear) = 0;
 
-  /// Power of the forces that were added last with the velocities as they are now  [W]
+  /// Forces of what was evaluated last to body.T.
+  void add_forces(Body<Dim>& body) const;
+
+  /// Power of what was evaluated last with the velocities as they are now  [W]
   double power(const Body<Dim>& body) const;
 
   /// What cells carry of the shear energy: by chunks of nodes, added to `sums`  [J]
@@ -81,9 +84,6 @@ class BulkVolumes {
   void put_positions(const Body<Dim>& body, Array& x) const;
   /// What neighbours of its nodes have in rows of n numbers, from their ranks.
   void exchange(const Body<Dim>& body, Array& values, int n) const;
-  /// Adds force_ to T.
-  void add_rows(Body<Dim>& body) const;
-
   Array V_0_;    ///< [n_nodes, padded] m^Dim
   Array x_;      ///< [n_nodes, padded][4] m, deformed positions
   Array force_;  ///< [n_nodes, padded][4] N

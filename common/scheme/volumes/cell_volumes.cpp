@@ -272,7 +272,7 @@ void CellVolumes<Dim>::sharpen(const Body<Dim>& body, Array& values, Array& of_c
 }
 
 template <int Dim>
-void CellVolumes<Dim>::add_forces(Body<Dim>& body, const MaterialModel& material) {
+void CellVolumes<Dim>::evaluate(const Body<Dim>& body, const MaterialModel& material) {
   put_positions(body, x_);
   put_volumes(&body, x_, nullptr, of_cells_);
   put_ratios(body.part(), of_cells_, pressure_);
@@ -289,7 +289,6 @@ void CellVolumes<Dim>::add_forces(Body<Dim>& body, const MaterialModel& material
       laplacian_.add_forces(x_, s, begin, end, force_);
     });
   }
-  this->add_rows(body);
 }
 
 template <int Dim>
@@ -304,7 +303,7 @@ void CellVolumes<Dim>::add_shear_energies(const Body<Dim>& body, std::vector<dou
 }
 
 template <int Dim>
-void CellVolumes<Dim>::add_linear_forces(Body<Dim>& body, double modulus, double shear) {
+void CellVolumes<Dim>::evaluate_linear(const Body<Dim>& body, double modulus, double shear) {
   put_positions(body, x_);
   Array rate(x_.size());
   for (std::int64_t a = 0; a < n_nodes(); ++a) {
@@ -323,7 +322,6 @@ void CellVolumes<Dim>::add_linear_forces(Body<Dim>& body, double modulus, double
       laplacian_.add_linear_forces(rate, shear, begin, end, force_);
     });
   }
-  this->add_rows(body);
 }
 
 template <int Dim>
@@ -340,7 +338,7 @@ void CellVolumes<Dim>::clear_forces(const Body<Dim>& body) {
 }
 
 template <int Dim>
-void CellVolumes<Dim>::put_forces(Body<Dim>& body) {
+void CellVolumes<Dim>::put_forces(const Body<Dim>& body) {
   exchange(body, pressure_, 1);
   clear_forces(body);
   for (size_t g = 0; g < groups_.size(); ++g) {

@@ -47,8 +47,8 @@ class CellVolumes : public BulkVolumes<Dim> {
 
   std::int64_t bytes() const override;
   std::vector<CellWork> work_of(const parallel::Part& part, std::vector<char>& read) const override;
-  void add_forces(Body<Dim>& body, const MaterialModel& material) override;
-  void add_linear_forces(Body<Dim>& body, double modulus, double shear) override;
+  void evaluate(const Body<Dim>& body, const MaterialModel& material) override;
+  void evaluate_linear(const Body<Dim>& body, double modulus, double shear) override;
   void add_shear_energies(const Body<Dim>& body, std::vector<double>& sums) const override;
   std::vector<double> ratios(const Body<Dim>& body) const override;
   /// Those of the deformed faces.
@@ -74,7 +74,7 @@ class CellVolumes : public BulkVolumes<Dim> {
   void sharpen(const Body<Dim>& body, Array& values, Array& of_cells) const;
   void clear_forces(const Body<Dim>& body);
   /// force_ <- that of the pressures.
-  void put_forces(Body<Dim>& body);
+  void put_forces(const Body<Dim>& body);
   void list_cells_of_nodes(const VolumeCells& cells, const std::vector<std::int64_t>& place);
 
   std::vector<CellGroup> groups_;

@@ -261,7 +261,7 @@ void LineVolumes<Dim>::put_tangents(const parallel::Part& part,
 }
 
 template <int Dim>
-void LineVolumes<Dim>::add_forces(Body<Dim>& body, const MaterialModel& material) {
+void LineVolumes<Dim>::evaluate(const Body<Dim>& body, const MaterialModel& material) {
   put_positions(body, x_);
   put_tangents(body.part(), x_, nullptr, pressure_, &normal_);
   parallel::for_chunks(
@@ -273,7 +273,7 @@ void LineVolumes<Dim>::add_forces(Body<Dim>& body, const MaterialModel& material
 }
 
 template <int Dim>
-void LineVolumes<Dim>::add_linear_forces(Body<Dim>& body, double modulus, double) {
+void LineVolumes<Dim>::evaluate_linear(const Body<Dim>& body, double modulus, double) {
   put_positions(body, x_);
   Array rate(x_.size());
   for (std::int64_t a = 0; a < n_nodes(); ++a) {
@@ -287,7 +287,7 @@ void LineVolumes<Dim>::add_linear_forces(Body<Dim>& body, double modulus, double
 }
 
 template <int Dim>
-void LineVolumes<Dim>::sum_forces(Body<Dim>& body) {
+void LineVolumes<Dim>::sum_forces(const Body<Dim>& body) {
   const auto for_own = [&](const auto& work) {
     parallel::for_chunks(body.part(), body.n_blocks, work);
   };
@@ -310,7 +310,6 @@ void LineVolumes<Dim>::sum_forces(Body<Dim>& body) {
   for_own([&](std::int64_t begin, std::int64_t end, std::int64_t) {
     run(rows_, pi, force_.data(), begin, end);
   });
-  this->add_rows(body);
 }
 
 template <int Dim>

@@ -33,8 +33,8 @@ class LineVolumes : public BulkVolumes<Dim> {
 
   std::int64_t bytes() const override;
   std::vector<CellWork> work_of(const parallel::Part& part, std::vector<char>& read) const override;
-  void add_forces(Body<Dim>& body, const MaterialModel& material) override;
-  void add_linear_forces(Body<Dim>& body, double modulus, double) override;
+  void evaluate(const Body<Dim>& body, const MaterialModel& material) override;
+  void evaluate_linear(const Body<Dim>& body, double modulus, double) override;
   std::vector<double> ratios(const Body<Dim>& body) const override;
   /// Cofactors of the nodes' own derivatives along lines times A_aN_a.
   std::vector<algebra::Vec3> deformed_areas(const Body<Dim>& body,
@@ -62,7 +62,7 @@ class LineVolumes : public BulkVolumes<Dim> {
   /// n_d of node a, as columns  [m^(Dim-1)]
   algebra::Mat3 cofactors_at(std::int64_t a) const;
   /// Adds the forces of the pressures times the normals that stand.
-  void sum_forces(Body<Dim>& body);
+  void sum_forces(const Body<Dim>& body);
 
   std::array<LineRows, Dim> rows_;
   double inverse_cell_ = 0;          ///< m^-Dim
