@@ -85,11 +85,20 @@ scheme::Operators sbp_on_box(const meshes::Mesh& mesh, int order) {
   return operators;
 }
 
+/// On any nodes.
+scheme::Operators sbp_on_cells(const meshes::Mesh& mesh) {
+  return {sbp_graph_of_cells(mesh),
+          fmt::format("sbp: order 2 on the cells around {} nodes", mesh.n_nodes()),
+          {},
+          true};
+}
+
+/// Lines of three nodes along several directions are none to derive along.
 /// @param blocks  of the mesh, smooth; empty where it is none
 scheme::Operators sbp_off_boxes(const meshes::Mesh& mesh,
                                 const std::vector<meshes::LatticeBlock>& blocks,
                                 const Options& options) {
-  if (!blocks.empty()) {
+  if (!blocks.empty() && !is_too_small(blocks)) {
     std::vector<std::string> notices = blocks_notices(blocks, options.order);
     if (!options.jumps_are_symmetric && gives_energy(blocks, options.order)) {
       notices.emplace_back(
@@ -100,10 +109,7 @@ scheme::Operators sbp_off_boxes(const meshes::Mesh& mesh,
     return {sbp_blocks_graph(mesh, blocks, options.order), blocks_text(blocks, options.order),
             std::move(notices), true};
   }
-  return {sbp_graph_of_cells(mesh),
-          fmt::format("sbp: order 2 on the cells around {} nodes", mesh.n_nodes()),
-          {},
-          true};
+  return sbp_on_cells(mesh);
 }
 
 /// Edges of other cells than simplices bend too stiffly themselves.
@@ -139,9 +145,8 @@ scheme::Operators chosen_on(const meshes::Mesh& mesh, const Options& options) {
   if (!options.strong_pressure_because.empty())
     return edge_because(mesh, options.strong_pressure_because);
   const std::vector<meshes::LatticeBlock> blocks = smooth_blocks(mesh);
-  if (is_too_small(blocks))
-    return edge_because(mesh, "lines of three nodes along several directions");
-  if (!options.jumps_are_symmetric && gives_energy(blocks, options.order)) {
+  if (!is_too_small(blocks) && !options.jumps_are_symmetric &&
+      gives_energy(blocks, options.order)) {
     return edge_because(
         mesh,
         "curved lines of six nodes, on which D_ab of sbp gives energy; five or seven take it");

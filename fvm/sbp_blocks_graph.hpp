@@ -35,7 +35,7 @@ scheme::PairGraph sbp_blocks_graph(const meshes::Mesh& mesh,
 std::string blocks_text(const std::vector<meshes::LatticeBlock>& blocks, int order);
 
 /// Whether a block has lines of three nodes along more than one direction: what D_ab gives energy
-/// to there breaks bodies (2 x 2 x 2 cells moved by 20 %: 3 of 16 meshes; notes 4.6).
+/// to there breaks bodies, or is not braked (notes 4.6). They sum by parts as any nodes do.
 bool is_too_small(const std::vector<meshes::LatticeBlock>& blocks);
 
 /// Whether D_ab of unlimited reconstructions feeds some motions faster than others of its pairs

@@ -17,6 +17,8 @@ namespace {
 
 const meshes::BlockUse use{"fvm.stencil = \"sbp\"", "fvm.stencil = \"edge\""};
 
+/// Rings of neighbours by which rows reach further where two or three do not do.
+constexpr int most_rings_more = 2;
 /// Neighbours below which a row reaches a ring further, by dimension: a row has 5 or 9 conditions,
 /// but neighbours of corners may lie in few planes.
 constexpr std::int64_t enough[] = {12, 24};
@@ -27,32 +29,38 @@ struct Rows {
   std::vector<std::int32_t> neighbour;
 };
 
-/// The neighbours of the neighbours of node a besides those that `wide` has.
-std::vector<std::int32_t> next_ring(const scheme::PairGraph& edges,
-                                    std::int32_t a,
-                                    std::vector<std::int32_t> nodes) {
-  const size_t n = nodes.size();
-  for (size_t i = 0; i < n; ++i) {
-    const std::int32_t b = nodes[i];
-    nodes.insert(nodes.end(), edges.neighbour.begin() + edges.row[b],
-                 edges.neighbour.begin() + edges.row[b + 1]);
+/// Nodes that so many rings of neighbours around node a reach, without itself.
+std::vector<std::int32_t> reached(const scheme::PairGraph& edges, std::int32_t a, int n_rings) {
+  std::vector<std::int32_t> nodes{a};
+  for (int ring = 0; ring < n_rings; ++ring) {
+    const size_t n = nodes.size();
+    for (size_t i = 0; i < n; ++i) {
+      const std::int32_t b = nodes[i];
+      nodes.insert(nodes.end(), edges.neighbour.begin() + edges.row[b],
+                   edges.neighbour.begin() + edges.row[b + 1]);
+    }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   std::erase(nodes, a);
   return nodes;
 }
 
+/// How many rings of neighbours each row reaches: two, and a third where they are few.
+std::vector<int> rings_of(const scheme::PairGraph& edges) {
+  std::vector<int> rings(edges.X.size(), 2);
+  for (std::int32_t a = 0; a < edges.n_nodes(); ++a) {
+    if (static_cast<std::int64_t>(reached(edges, a, 2).size()) < enough[edges.dimension - 2])
+      rings[a] = 3;
+  }
+  return rings;
+}
+
 /// Symmetric: a row that reaches a ring further joins the rows of whom it reaches.
-Rows wide_rows(const scheme::PairGraph& edges) {
+Rows wide_rows(const scheme::PairGraph& edges, const std::vector<int>& rings) {
   std::vector<std::vector<std::int32_t>> all(edges.X.size());
   for (std::int32_t a = 0; a < edges.n_nodes(); ++a) {
-    std::vector<std::int32_t> nodes(edges.neighbour.begin() + edges.row[a],
-                                    edges.neighbour.begin() + edges.row[a + 1]);
-    nodes = next_ring(edges, a, std::move(nodes));
-    if (static_cast<std::int64_t>(nodes.size()) < enough[edges.dimension - 2])
-      nodes = next_ring(edges, a, std::move(nodes));
-    for (const std::int32_t b : nodes) {
+    for (const std::int32_t b : reached(edges, a, rings[a])) {
       all[a].push_back(b);
       all[b].push_back(a);
     }
@@ -97,17 +105,26 @@ scheme::PairGraph graph_by_distances(const meshes::Mesh& mesh) {
                              std::move(patch.faces)});
   }
   find_pairs(mesh, meshes::Quadrature::vertex, graph);
-  Rows rows = wide_rows(graph);
-  graph.row = std::move(rows.row);
-  graph.neighbour = std::move(rows.neighbour);
-  link_reverse_pairs(graph);
-  add_cells(mesh, meshes::Quadrature::vertex, graph);
-  closure::make_sum_by_parts(graph, weights_of(mesh, graph));
-  closure::require_no_steep_rows(graph,
-                                 meshes::dual_measure(mesh, meshes::Quadrature::vertex).Omega);
-  scheme::set_edges(mesh, graph);
-  validate(graph);
-  return graph;
+  std::vector<int> rings = rings_of(graph);
+  scheme::PairGraph summing = closure::summing_by_parts(
+      meshes::dual_measure(mesh, meshes::Quadrature::vertex).Omega, most_rings_more,
+      [&] {
+        scheme::PairGraph wide = graph;
+        Rows rows = wide_rows(graph, rings);
+        wide.row = std::move(rows.row);
+        wide.neighbour = std::move(rows.neighbour);
+        link_reverse_pairs(wide);
+        add_cells(mesh, meshes::Quadrature::vertex, wide);
+        std::vector<double> k = weights_of(mesh, wide);
+        return closure::WeightedGraph{std::move(wide), std::move(k)};
+      },
+      [&](const auto& rows, const scheme::PairGraph&) {
+        for (const std::int32_t a : rows)
+          ++rings[a];
+      });
+  scheme::set_edges(mesh, summing);
+  validate(summing);
+  return summing;
 }
 
 }  // namespace

@@ -61,7 +61,8 @@ std::vector<std::int32_t> surrounding(std::span<const std::int32_t> corners,
 }
 
 /// Changes weights least, beside what a node has by the vertex rule, so that they integrate the
-/// polynomials as `exact` does; where nodes are too few, those of a lower degree.
+/// polynomials as `exact` does; where nodes are too few, or would change by half of their share,
+/// those of a lower degree: the volume or the area stays at least.
 /// @param at     [nodes] places from the middle, over h
 /// @param share  [nodes] volume or area by that rule, in any unit
 void meet_moments(const std::vector<Vec3>& at,

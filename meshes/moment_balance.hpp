@@ -23,12 +23,15 @@ double moment_difference_of_facets(const Mesh& mesh,
                                    const std::vector<Vec3>& boundary_area);
 
 /// Changes volumes and areas, those of plane sides in their direction, least beside what they are,
-/// so that they agree.
+/// so that they agree, or agree as well as they can: where nodes of a side stand nearly in three
+/// lines, cubics are told apart by next to nothing, and what that would take of changes is left.
+/// @param most   change of a volume or an area over what it was, if less can be had
 /// @param faces  [boundary faces]
 /// @param Omega  [n_nodes] m^3 (m^2 in 2-D)
 /// @return the largest change of a volume or an area over what it was [-]; NaN where there is none
 double balance_moments(const Mesh& mesh,
                        const Surface& surface,
+                       double most,
                        std::vector<FaceArea>& faces,
                        std::vector<double>& Omega);
 

@@ -114,13 +114,11 @@ void repair_closure(const Kernel& kernel, const std::vector<double>& h, scheme::
   closure::repair_closure_pairs(graph, weights_of(kernel, h, graph));
 }
 
-/// With smoothing lengths h.
+/// Pairs with smoothing lengths h, whose rows are exact for linear fields.
 scheme::PairGraph graph_within(const meshes::Mesh& mesh,
-                               const Options& options,
+                               const Kernel& kernel,
                                meshes::DualMeasure measure,
-                               const std::vector<double>& h,
-                               bool sums_by_parts) {
-  const Kernel kernel = kernels().at(options.kernel);
+                               const std::vector<double>& h) {
   scheme::PairGraph graph;
   graph.dimension = mesh.dimension;
   graph.X = mesh.nodes;
@@ -134,11 +132,6 @@ scheme::PairGraph graph_within(const meshes::Mesh& mesh,
   graph.neighbour = std::move(rows.neighbour);
   link_reverse_pairs(graph);
   set_corrected_gradients(kernel, h, graph);
-  if (sums_by_parts) {
-    closure::make_sum_by_parts(graph, wide_weights_of(kernel, h, graph));
-  } else if (options.closure) {
-    repair_closure(kernel, h, graph);
-  }
   return graph;
 }
 
@@ -157,34 +150,42 @@ void widen(const std::vector<std::int32_t>& rows,
   }
 }
 
-/// By round supports, wider where rows of operators that sum by parts are steep.
+/// Of volumes and areas, such that cells can carry the pressure: that of finite volumes where faces
+/// are parallelograms.
+meshes::Quadrature rule_of_cells(const meshes::Mesh& mesh) {
+  return meshes::areas_are_of_cells(mesh, meshes::Quadrature::vertex) ? meshes::Quadrature::vertex
+                                                                      : meshes::Quadrature::exact;
+}
+
+/// By round supports, wider where operators that sum by parts take it.
 scheme::PairGraph round_graph_of(const meshes::Mesh& mesh,
                                  const Options& options,
                                  bool sums_by_parts) {
-  constexpr int most_times = 4;
+  constexpr int most_times = 6;
+  const Kernel kernel = kernels().at(options.kernel);
   const meshes::DualMeasure by_vertices = meshes::dual_measure(mesh, meshes::Quadrature::vertex);
   std::vector<double> h = smoothing_lengths(mesh, by_vertices.Omega, options.kappa);
-  if (!sums_by_parts) {
-    scheme::PairGraph graph = graph_within(mesh, options, by_vertices, h, false);
-    if (meshes::areas_are_of_cells(mesh, meshes::Quadrature::vertex)) {
-      auto cells = meshes::cell_shares(mesh, meshes::Quadrature::vertex);
-      graph.cells = {std::move(cells.row), std::move(cells.corner), std::move(cells.share)};
-    }
-    validate(graph);
-    return graph;
+  scheme::PairGraph graph;
+  if (sums_by_parts) {
+    const meshes::DualMeasure by_quadratics = meshes::quadratic_measure(mesh, sums_use);
+    graph = closure::summing_by_parts(
+        by_vertices.Omega, most_times,
+        [&] {
+          scheme::PairGraph pairs = graph_within(mesh, kernel, by_quadratics, h);
+          std::vector<double> k = wide_weights_of(kernel, h, pairs);
+          return closure::WeightedGraph{std::move(pairs), std::move(k)};
+        },
+        [&](const auto& rows, const scheme::PairGraph& pairs) { widen(rows, pairs, h); });
+    scheme::set_edges(mesh, graph);
+  } else {
+    const meshes::Quadrature rule = rule_of_cells(mesh);
+    graph = graph_within(mesh, kernel, meshes::dual_measure(mesh, rule), h);
+    if (options.closure) repair_closure(kernel, h, graph);
+    auto cells = meshes::cell_shares(mesh, rule);
+    graph.cells = {std::move(cells.row), std::move(cells.corner), std::move(cells.share)};
   }
-  const meshes::DualMeasure by_quadratics = meshes::quadratic_measure(mesh, sums_use);
-  for (int times = 0;; ++times) {
-    scheme::PairGraph graph = graph_within(mesh, options, by_quadratics, h, true);
-    const std::vector<std::int32_t> steep = closure::steep_rows(graph, by_vertices.Omega);
-    if (steep.empty()) {
-      scheme::set_edges(mesh, graph);
-      validate(graph);
-      return graph;
-    }
-    if (times == most_times) closure::require_no_steep_rows(graph, by_vertices.Omega);
-    widen(steep, graph, h);
-  }
+  validate(graph);
+  return graph;
 }
 
 /// On any nodes; supports are ellipsoids where cells are long.
@@ -193,7 +194,7 @@ scheme::PairGraph graph_of(const meshes::Mesh& mesh, const Options& options, boo
     return round_graph_of(equal_widths, options, sums_by_parts);
   });
   if (!sums_by_parts && scheme::has_long_cells(mesh))  // to the bits of finite volumes
-    set_measure(meshes::dual_measure(mesh, meshes::Quadrature::vertex), graph);
+    set_measure(meshes::dual_measure(mesh, rule_of_cells(mesh)), graph);
   return graph;
 }
 

@@ -38,6 +38,45 @@ Matrix inverse_of(const Matrix& moments) {
          solver.eigenvectors().transpose();
 }
 
+/// sum k q q^T of a row, q of X/reach, and reach, the root of its mean square distance.
+template <int D>
+auto moments_of(const scheme::PairGraph& graph,
+                const std::vector<double>& k,
+                std::int64_t a,
+                double& reach) {
+  using Correction = QuadraticCorrection<D>;
+  typename Correction::Square moments = Correction::Square::Zero();
+  double sum = 0, square = 0;
+  for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+    sum += k[p];
+    square += k[p] * (graph.X[graph.neighbour[p]] - graph.X[a]).squaredNorm();
+  }
+  reach = std::sqrt(square / sum);
+  for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+    const auto q = Correction::terms((graph.X[graph.neighbour[p]] - graph.X[a]) / reach);
+    for (int m = 0; m < Correction::n_terms; ++m)
+      moments.col(m) += k[p] * q[m] * q;
+  }
+  return moments;
+}
+
+template <int D>
+std::vector<std::int32_t> undetermined(const scheme::PairGraph& graph,
+                                       const std::vector<double>& k) {
+  std::vector<char> is_one(graph.X.size(), 0);
+  for_each_node(is_one.size(), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      double reach = 0;
+      is_one[a] = inverse_of(moments_of<D>(graph, k, a, reach)).isZero(0) ? 1 : 0;
+    }
+  });
+  std::vector<std::int32_t> rows;
+  for (std::int32_t a = 0; a < graph.n_nodes(); ++a) {
+    if (is_one[a] != 0) rows.push_back(a);
+  }
+  return rows;
+}
+
 template <class Square, class Terms>
 Terms product(const Square& inverse, const Terms& q) {
   Terms sum = Terms::Zero();
@@ -47,6 +86,11 @@ Terms product(const Square& inverse, const Terms& q) {
 }
 
 }  // namespace
+
+std::vector<std::int32_t> undetermined_rows(const scheme::PairGraph& graph,
+                                            const std::vector<double>& k) {
+  return graph.dimension == 2 ? undetermined<2>(graph, k) : undetermined<3>(graph, k);
+}
 
 std::vector<double> spacings(const scheme::PairGraph& graph) {
   std::vector<double> h(graph.Omega.size());
@@ -77,19 +121,7 @@ QuadraticCorrection<D>::QuadraticCorrection(const scheme::PairGraph& graph,
       closure_(graph.n_nodes()) {
   for_each_node(inverse_.size(), [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t a = begin; a < end; ++a) {
-      Square moments = Square::Zero();
-      double sum = 0, square = 0;
-      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-        sum += k[p];
-        square += k[p] * (graph.X[graph.neighbour[p]] - graph.X[a]).squaredNorm();
-      }
-      reach_[a] = std::sqrt(square / sum);
-      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-        const Terms q = terms((graph.X[graph.neighbour[p]] - graph.X[a]) / reach_[a]);
-        for (int m = 0; m < n_terms; ++m)
-          moments.col(m) += k[p] * q[m] * q;
-      }
-      inverse_[a] = inverse_of(moments);
+      inverse_[a] = inverse_of(moments_of<D>(graph, k, a, reach_[a]));
       first_moment_[a].setZero();
       for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
         first_moment_[a] += k[p] * terms(graph.X[graph.neighbour[p]] - graph.X[a]);

@@ -24,6 +24,11 @@ namespace diptych::closure {
 /// Spacing of each node, Omega_a^(1/d).  [m]
 std::vector<double> spacings(const scheme::PairGraph& graph);
 
+/// Nodes whose neighbours do not determine a quadratic.
+/// @param k  [n_pairs] weights > 0
+std::vector<std::int32_t> undetermined_rows(const scheme::PairGraph& graph,
+                                            const std::vector<double>& k);
+
 template <class Correction>
 struct QuadraticRows;
 

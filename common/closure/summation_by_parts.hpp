@@ -13,6 +13,7 @@
 #include "common/scheme/graph/pair_graph.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace diptych::closure {
@@ -28,6 +29,7 @@ struct SummationByParts {
   double before = 0;
   double after = 0;
   int iterations = 0;
+  std::vector<std::int32_t> open;  ///< nodes whose adjoint misses its conditions in the end
 };
 
 /// @param k [n_pairs] weights > 0, k_ab = k_ba
@@ -46,5 +48,26 @@ std::vector<std::int32_t> steep_rows(const scheme::PairGraph& graph, const std::
 
 /// @throws base::InputError where there are steep rows, with the place of the worst
 void require_no_steep_rows(const scheme::PairGraph& graph, const std::vector<double>& V);
+
+/// A graph that is to change, and the weights of that.
+struct WeightedGraph {
+  scheme::PairGraph graph;
+  std::vector<double> k;
+};
+
+/// Lets these rows reach further.
+using Widen =
+    std::function<void(const std::vector<std::int32_t>& rows, const scheme::PairGraph& graph)>;
+
+/// A graph that sums by parts, with rows that reach further where neighbours do not determine a
+/// quadratic, where the conditions are not met, or where rows are steep: a few nodes of a body that
+/// stand badly are no reason for it to do without.
+/// @param V           [n_nodes] volumes of the nodes, shares of their cells
+/// @param most_times  that rows are widened
+/// @throws base::InputError where it still fails then
+scheme::PairGraph summing_by_parts(const std::vector<double>& V,
+                                   int most_times,
+                                   const std::function<WeightedGraph()>& make,
+                                   const Widen& widen);
 
 }  // namespace diptych::closure
