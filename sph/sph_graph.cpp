@@ -135,26 +135,26 @@ scheme::PairGraph graph_within(const meshes::Mesh& mesh,
   return graph;
 }
 
-/// Supports of `rows` and of their neighbours by a tenth.
+/// Supports of `rows` and of what is around them by a tenth. Of rows and their neighbours alone,
+/// rows beside them become stiff: steps on frusta of hexahedra were a fourth of what they are.
 void widen(const std::vector<std::int32_t>& rows,
            const scheme::PairGraph& graph,
            std::vector<double>& h) {
+  constexpr int n_rings = 2;
   std::vector<char> is_wider(h.size(), 0);
-  for (const std::int32_t a : rows) {
+  for (const std::int32_t a : rows)
     is_wider[a] = 1;
-    for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
-      is_wider[graph.neighbour[p]] = 1;
+  for (int ring = 0; ring < n_rings; ++ring) {
+    const std::vector<char> inner = is_wider;
+    for (size_t a = 0; a < h.size(); ++a) {
+      if (inner[a] == 0) continue;
+      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
+        is_wider[graph.neighbour[p]] = 1;
+    }
   }
   for (size_t a = 0; a < h.size(); ++a) {
     if (is_wider[a] != 0) h[a] *= 1.1;
   }
-}
-
-/// Of volumes and areas, such that cells can carry the pressure: that of finite volumes where faces
-/// are parallelograms.
-meshes::Quadrature rule_of_cells(const meshes::Mesh& mesh) {
-  return meshes::areas_are_of_cells(mesh, meshes::Quadrature::vertex) ? meshes::Quadrature::vertex
-                                                                      : meshes::Quadrature::exact;
 }
 
 /// By round supports, wider where operators that sum by parts take it.
@@ -178,11 +178,12 @@ scheme::PairGraph round_graph_of(const meshes::Mesh& mesh,
         [&](const auto& rows, const scheme::PairGraph& pairs) { widen(rows, pairs, h); });
     scheme::set_edges(mesh, graph);
   } else {
-    const meshes::Quadrature rule = rule_of_cells(mesh);
-    graph = graph_within(mesh, kernel, meshes::dual_measure(mesh, rule), h);
+    graph = graph_within(mesh, kernel, by_vertices, h);
     if (options.closure) repair_closure(kernel, h, graph);
-    auto cells = meshes::cell_shares(mesh, rule);
-    graph.cells = {std::move(cells.row), std::move(cells.corner), std::move(cells.share)};
+    if (meshes::areas_are_of_cells(mesh, meshes::Quadrature::vertex)) {
+      auto cells = meshes::cell_shares(mesh, meshes::Quadrature::vertex);
+      graph.cells = {std::move(cells.row), std::move(cells.corner), std::move(cells.share)};
+    }
   }
   validate(graph);
   return graph;
@@ -194,7 +195,7 @@ scheme::PairGraph graph_of(const meshes::Mesh& mesh, const Options& options, boo
     return round_graph_of(equal_widths, options, sums_by_parts);
   });
   if (!sums_by_parts && scheme::has_long_cells(mesh))  // to the bits of finite volumes
-    set_measure(meshes::dual_measure(mesh, rule_of_cells(mesh)), graph);
+    set_measure(meshes::dual_measure(mesh, meshes::Quadrature::vertex), graph);
   return graph;
 }
 
