@@ -109,15 +109,16 @@ TEST(Scene, TakesOperatorsThatSumByPartsByDefaultWhereTheyAreSure) {
               testing::StartsWith("sbp"));
 }
 
-// On which D_ab of linear jumps breaks bodies, and symmetric ones leave waves that SSP-RK2 feeds;
-// explicit ones are what was asked for.
-TEST(Scene, TakesEdgesOnMovedBlocksOfThreeNodesAlongSeveralDirections) {
+// On whose lines D_ab of linear jumps breaks bodies, and symmetric ones leave waves that SSP-RK2
+// feeds: they sum by parts as any nodes do.
+TEST(Scene, TakesCellsOnMovedBlocksOfThreeNodesAlongSeveralDirections) {
   const auto operators = [](const std::vector<std::string>& overrides) {
     return graph_with("fvm", overrides).operators;
   };
   const std::string moved = "mesh.perturbation=0.2";
+  EXPECT_THAT(operators({"mesh.cells=[4, 2]", moved}), testing::StartsWith("sbp"));
   EXPECT_THAT(operators({"mesh.cells=[2, 2]", moved}),
-              testing::HasSubstr("lines of three nodes along several directions"));
+              testing::StartsWith("sbp: order 2 on the cells"));
   EXPECT_THAT(operators({"mesh.cells=[3, 3]", moved}), testing::StartsWith("sbp"));
   EXPECT_THAT(operators({"mesh.cells=[2, 2]"}), testing::StartsWith("sbp"));
   EXPECT_THAT(operators({"mesh.cells=[2, 2]", moved, "fvm.stencil=sbp"}),
