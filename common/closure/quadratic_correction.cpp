@@ -24,7 +24,8 @@ using Matrix = Eigen::MatrixXd;  // of a size known at run time only: quicker to
   const Vec3& X = graph.X[a];
   throw base::InputError(fmt::format(
       "node {} at ({:.6g}, {:.6g}, {:.6g}) has {} neighbours that do not determine a quadratic, "
-      "which operators that sum by parts ask for: raise kappa, or refine the mesh there",
+      "which operators that sum by parts ask for: refine the mesh there, or, with SPH, raise "
+      "sph.kappa",
       a, X[0], X[1], X[2], graph.row[a + 1] - graph.row[a]));
 }
 

@@ -20,6 +20,11 @@ namespace {
 /// (meshes/moment_balance.hpp).
 constexpr double most_residual = 0.03;
 
+/// For messages.
+constexpr const char* what_to_do =
+    "with SPH raise sph.kappa, or use sph.gradient = \"corrected\"; with finite volumes use "
+    "fvm.stencil = \"edge\"";
+
 /// Nodes whose adjoint misses its conditions.
 template <int D>
 std::vector<std::int32_t> open_nodes(const Field& r, const std::vector<double>& unit) {
@@ -71,9 +76,8 @@ void require_met(const scheme::PairGraph& graph, const SummationByParts& result)
   if (result.after <= most_residual && result.open.empty()) return;
   throw base::InputError(fmt::format(
       "operators that sum by parts: after {} iterations the adjoint misses its conditions by "
-      "{:.2g} of an area; rows have {} neighbours in the mean: raise sph.kappa, or use gradient = "
-      "\"corrected\" (SPH), stencil = \"edge\" (finite volumes)",
-      result.iterations, result.after, graph.n_pairs() / graph.n_nodes()));
+      "{:.2g} of an area; rows have {} neighbours in the mean: {}",
+      result.iterations, result.after, graph.n_pairs() / graph.n_nodes(), what_to_do));
 }
 
 /// V_a^(1/d)/Omega_a 1/2 sum_b |C_ab| of every row, in space 3.5 on a lattice.
@@ -146,10 +150,9 @@ void require_no_steep_rows(const scheme::PairGraph& graph, const std::vector<dou
   throw base::InputError(fmt::format(
       "operators that sum by parts: derivatives at {} of {} nodes, such as {} at ({:.6g}, {:.6g}, "
       "{:.6g}), have weights {:.0f} times those of a lattice, and need steps as much smaller: the "
-      "mesh is too coarse or too uneven there; refine it, raise sph.kappa, or use gradient = "
-      "\"corrected\" (SPH), stencil = \"edge\" (finite volumes)",
+      "mesh is too coarse or too uneven there; refine it; {}",
       rows.size(), graph.n_nodes(), rows[0], X[0], X[1], X[2],
-      slopes_of(graph, V)[rows[0]] / of_lattice));
+      slopes_of(graph, V)[rows[0]] / of_lattice, what_to_do));
 }
 
 }  // namespace diptych::closure
