@@ -154,8 +154,11 @@ scheme::Operators chosen_on(const meshes::Mesh& mesh, const Options& options) {
   try {
     return sbp_off_boxes(mesh, blocks, options);
   } catch (const base::InputError& refusal) {
-    return edge_because(mesh, "sbp does not go with this mesh",
-                        {fmt::format("edge stencil, since {}", refusal.what())});
+    return edge_because(
+        mesh, "sbp does not go with this mesh",
+        {fmt::format("edge stencil, since {}. Where few cells are across bodies then "
+                     "bend tens of percent too little or too far; compare levels",
+                     refusal.what())});
   }
 }
 

@@ -240,8 +240,11 @@ scheme::Operators chosen_on(const meshes::Mesh& mesh, const Options& options) {
   try {
     return sbp_on(mesh, options);
   } catch (const base::InputError& refusal) {
-    return corrected_because(mesh, options, "sbp does not go with these nodes",
-                             {fmt::format("corrected gradient, since {}", refusal.what())});
+    return corrected_because(
+        mesh, options, "sbp does not go with these nodes",
+        {fmt::format("corrected gradient, since {}. Where few cells are across "
+                     "bodies then bend tens of percent too little or too far; compare levels",
+                     refusal.what())});
   }
 }
 
