@@ -5,6 +5,7 @@
 #include "common/scheme/boundary/boundary_condition.hpp"
 #include "meshes/cavities.hpp"
 #include "meshes/curved_groups.hpp"
+#include "meshes/parts.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -24,6 +25,15 @@ void note_cavities(const meshes::Mesh& mesh, std::vector<std::string>& notices) 
         cavity.volume, mesh.dimension == 2 ? "m^2" : "m^3", cavity.n_faces, cavity.centre[0],
         cavity.centre[1], cavity.centre[2]));
   }
+}
+
+/// Of a file, whose parts may be meant to be one body.
+void note_parts(const meshes::Mesh& mesh, std::vector<std::string>& notices) {
+  const std::int64_t n = meshes::n_parts(mesh);
+  if (n == 1) return;
+  notices.push_back(fmt::format(
+      "mesh: {} parts that share no node: each moves by itself, and they pass through each other",
+      n));
 }
 
 /// What keeps the normals of the undeformed body cannot guide one that slides along a curve.
@@ -99,7 +109,10 @@ CaseGraph graph_of(const cases::Case& setup,
   if (!scene.reconstruction.empty())
     scene.operators += fmt::format("; {} reconstruction", scene.reconstruction);
   scene.notices = std::move(operators.notices);
-  if (!setup.mesh.file.empty()) note_cavities(scene.mesh.mesh, scene.notices);
+  if (!setup.mesh.file.empty()) {
+    note_cavities(scene.mesh.mesh, scene.notices);
+    note_parts(scene.mesh.mesh, scene.notices);
+  }
   note_curved_symmetries(setup, scene.mesh.mesh, scene.notices);
   note_single_cells(setup, level, scene.notices);
   if (made) made(ScenePart::graph, scene);

@@ -1,13 +1,11 @@
 #include "common/closure/quadratic_correction.hpp"
 
-#include "common/base/error.hpp"
 #include "common/closure/pair_correction.hpp"
 #include "common/closure/quadratic_passes.hpp"
 
 #include <Eigen/Dense>
 
 #include <cmath>
-#include <fmt/format.h>
 
 namespace diptych::closure {
 
@@ -19,16 +17,6 @@ constexpr double least_condition = 1e-9;
 
 using Matrix = Eigen::MatrixXd;  // of a size known at run time only: quicker to compile by minutes
 
-/// Of the first node that has too few neighbours.
-[[noreturn]] void refuse_row(const scheme::PairGraph& graph, std::int64_t a) {
-  const Vec3& X = graph.X[a];
-  throw base::InputError(fmt::format(
-      "node {} at ({:.6g}, {:.6g}, {:.6g}) has {} neighbours that do not determine a quadratic, "
-      "which operators that sum by parts ask for: refine the mesh there, or, with SPH, raise "
-      "sph.kappa",
-      a, X[0], X[1], X[2], graph.row[a + 1] - graph.row[a]));
-}
-
 /// Zero where the moments cannot be inverted.
 Matrix inverse_of(const Matrix& moments) {
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(moments);
@@ -37,45 +25,6 @@ Matrix inverse_of(const Matrix& moments) {
     return Matrix::Zero(moments.rows(), moments.cols());
   return solver.eigenvectors() * eigenvalues.cwiseInverse().asDiagonal() *
          solver.eigenvectors().transpose();
-}
-
-/// sum k q q^T of a row, q of X/reach, and reach, the root of its mean square distance.
-template <int D>
-auto moments_of(const scheme::PairGraph& graph,
-                const std::vector<double>& k,
-                std::int64_t a,
-                double& reach) {
-  using Correction = QuadraticCorrection<D>;
-  typename Correction::Square moments = Correction::Square::Zero();
-  double sum = 0, square = 0;
-  for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-    sum += k[p];
-    square += k[p] * (graph.X[graph.neighbour[p]] - graph.X[a]).squaredNorm();
-  }
-  reach = std::sqrt(square / sum);
-  for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-    const auto q = Correction::terms((graph.X[graph.neighbour[p]] - graph.X[a]) / reach);
-    for (int m = 0; m < Correction::n_terms; ++m)
-      moments.col(m) += k[p] * q[m] * q;
-  }
-  return moments;
-}
-
-template <int D>
-std::vector<std::int32_t> undetermined(const scheme::PairGraph& graph,
-                                       const std::vector<double>& k) {
-  std::vector<char> is_one(graph.X.size(), 0);
-  for_each_node(is_one.size(), [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t a = begin; a < end; ++a) {
-      double reach = 0;
-      is_one[a] = inverse_of(moments_of<D>(graph, k, a, reach)).isZero(0) ? 1 : 0;
-    }
-  });
-  std::vector<std::int32_t> rows;
-  for (std::int32_t a = 0; a < graph.n_nodes(); ++a) {
-    if (is_one[a] != 0) rows.push_back(a);
-  }
-  return rows;
 }
 
 template <class Square, class Terms>
@@ -87,11 +36,6 @@ Terms product(const Square& inverse, const Terms& q) {
 }
 
 }  // namespace
-
-std::vector<std::int32_t> undetermined_rows(const scheme::PairGraph& graph,
-                                            const std::vector<double>& k) {
-  return graph.dimension == 2 ? undetermined<2>(graph, k) : undetermined<3>(graph, k);
-}
 
 std::vector<double> spacings(const scheme::PairGraph& graph) {
   std::vector<double> h(graph.Omega.size());
@@ -122,7 +66,19 @@ QuadraticCorrection<D>::QuadraticCorrection(const scheme::PairGraph& graph,
       closure_(graph.n_nodes()) {
   for_each_node(inverse_.size(), [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t a = begin; a < end; ++a) {
-      inverse_[a] = inverse_of(moments_of<D>(graph, k, a, reach_[a]));
+      Square moments = Square::Zero();
+      double sum = 0, square = 0;
+      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+        sum += k[p];
+        square += k[p] * (graph.X[graph.neighbour[p]] - graph.X[a]).squaredNorm();
+      }
+      reach_[a] = std::sqrt(square / sum);
+      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+        const Terms q = terms((graph.X[graph.neighbour[p]] - graph.X[a]) / reach_[a]);
+        for (int m = 0; m < n_terms; ++m)
+          moments.col(m) += k[p] * q[m] * q;
+      }
+      inverse_[a] = inverse_of(moments);
       first_moment_[a].setZero();
       for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
         first_moment_[a] += k[p] * terms(graph.X[graph.neighbour[p]] - graph.X[a]);
@@ -130,10 +86,10 @@ QuadraticCorrection<D>::QuadraticCorrection(const scheme::PairGraph& graph,
         jumps_[a].value[i][3] = fits_[a].value[i][3] = graph.X[a][i];
     }
   });
-  // outside of parallel loops, so that the first node that is refused is the one that is named
-  for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
-    if (inverse_[a].isZero(0)) refuse_row(graph, a);
+  for (std::int32_t a = 0; a < graph.n_nodes(); ++a) {
+    if (inverse_[a].isZero(0)) undetermined_.push_back(a);
   }
+  if (!undetermined_.empty()) return;
   set_blocks();
   set_smooth();
 }

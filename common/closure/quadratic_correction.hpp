@@ -24,11 +24,6 @@ namespace diptych::closure {
 /// Spacing of each node, Omega_a^(1/d).  [m]
 std::vector<double> spacings(const scheme::PairGraph& graph);
 
-/// Nodes whose neighbours do not determine a quadratic.
-/// @param k  [n_pairs] weights > 0
-std::vector<std::int32_t> undetermined_rows(const scheme::PairGraph& graph,
-                                            const std::vector<double>& k);
-
 template <class Correction>
 struct QuadraticRows;
 
@@ -51,8 +46,11 @@ class QuadraticCorrection {
     double value[1 + n_terms][4];
   };
 
-  /// @throws base::InputError where a row has too few neighbours for a quadratic
   QuadraticCorrection(const scheme::PairGraph& graph, const std::vector<double>& k);
+
+  /// Nodes whose neighbours determine no quadratic, ascending. What follows takes that there is
+  /// none.
+  const std::vector<std::int32_t>& undetermined() const { return undetermined_; }
 
   /// Changes every row least to be exact for quadratics.
   void correct_rows(std::vector<Vec3>& C) const;
@@ -80,8 +78,9 @@ class QuadraticCorrection {
   const scheme::PairGraph& graph_;
   const std::vector<double>& k_;
   std::vector<double> h_;
-  std::vector<double> reach_;        ///< root of the mean square distance in each row, by k  [m]
-  std::vector<Square> inverse_;      ///< (sum k q q^T)^-1 with q of X/reach_a
+  std::vector<double> reach_;    ///< root of the mean square distance in each row, by k  [m]
+  std::vector<Square> inverse_;  ///< (sum k q q^T)^-1 with q of X/reach_a
+  std::vector<std::int32_t> undetermined_;
   std::vector<Terms> first_moment_;  ///< sum k q
   std::vector<Block> blocks_;        ///< inverse diagonal blocks of S
   algebra::AlignedArray<Jump> jumps_;

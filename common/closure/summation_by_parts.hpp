@@ -29,7 +29,9 @@ struct SummationByParts {
   double before = 0;
   double after = 0;
   int iterations = 0;
-  std::vector<std::int32_t> open;  ///< nodes whose adjoint misses its conditions in the end
+  std::vector<std::int32_t> undetermined;  ///< nodes whose neighbours determine no quadratic; where
+                                           ///< there is one, nothing has been changed
+  std::vector<std::int32_t> open;          ///< nodes whose adjoint misses its conditions in the end
 };
 
 /// @param k [n_pairs] weights > 0, k_ab = k_ba

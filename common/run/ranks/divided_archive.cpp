@@ -1,23 +1,21 @@
 #include "common/run/ranks/divided_archive.hpp"
 
-#include "common/algebra/lanes.hpp"
 #include "common/base/error.hpp"
 #include "common/parallel/sharing.hpp"
+#include "common/scheme/body/node_chunks.hpp"
 
-#include <cstring>
+#include <algorithm>
 
 namespace diptych::run {
 
 namespace {
 
-constexpr std::int64_t nodes_of_chunk = parallel::chunk_size * algebra::n_lanes;
-
-/// use(begin, end) of the rows of [first, last), by the chunks that they are in.
+/// use(chunk, begin, end) of the rows of [first, last), by the chunks of nodes that they are of.
 template <class Use>
 void for_chunks_of_rows(std::int64_t first, std::int64_t last, const Use& use) {
   for (std::int64_t begin = first; begin < last;) {
-    const std::int64_t chunk = begin / nodes_of_chunk,
-                       end = std::min(last, (chunk + 1) * nodes_of_chunk);
+    const std::int64_t chunk = scheme::chunk_of_node(begin),
+                       end = std::min(last, (chunk + 1) * scheme::chunk_nodes);
     use(chunk, begin, end);
     begin = end;
   }

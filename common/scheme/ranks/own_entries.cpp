@@ -1,5 +1,7 @@
 #include "common/scheme/ranks/own_entries.hpp"
 
+#include "common/scheme/body/node_chunks.hpp"
+
 #include <algorithm>
 
 namespace diptych::scheme {
@@ -7,8 +9,8 @@ namespace diptych::scheme {
 namespace {
 
 std::span<const std::int32_t> entries_of(std::span<const std::int32_t> all, std::int64_t chunk) {
-  const std::int64_t begin = chunk * OwnEntries::nodes_of_chunk,
-                     n = std::min(OwnEntries::nodes_of_chunk, std::ssize(all) - begin);
+  const std::int64_t begin = chunk * chunk_nodes,
+                     n = std::min(chunk_nodes, std::ssize(all) - begin);
   return all.subspan(static_cast<size_t>(begin), static_cast<size_t>(n));
 }
 
@@ -27,7 +29,7 @@ OwnEntries::OwnEntries(const parallel::Part& part,
   parallel::Communicator& ranks = part.ranks();
   std::vector<std::vector<std::int32_t>> of_rank(static_cast<size_t>(ranks.size()));
   if (ranks.rank() == 0) {
-    const std::int64_t n_chunks = (n_nodes + nodes_of_chunk - 1) / nodes_of_chunk;
+    const std::int64_t n_chunks = (n_nodes + chunk_nodes - 1) / chunk_nodes;
     for (std::int64_t chunk = 0; chunk < n_chunks; ++chunk) {
       const auto entries = entries_of(all_, chunk);
       std::vector<std::int32_t>& theirs = of_rank[static_cast<size_t>(part.owner(chunk))];
@@ -44,7 +46,7 @@ OwnEntries::OwnEntries(const parallel::Part& part,
   }
   std::int64_t n_own = 0;
   for (const std::int64_t chunk : part.own_chunks())
-    n_own += std::min(nodes_of_chunk, n_nodes - chunk * nodes_of_chunk);
+    n_own += std::min(chunk_nodes, n_nodes - chunk * chunk_nodes);
   own_.resize(static_cast<size_t>(n_own));
   std::vector<parallel::Parcel> parcels;
   if (n_own > 0) parcels.push_back(parcel_of(0, own_));

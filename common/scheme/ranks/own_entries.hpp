@@ -1,7 +1,6 @@
 #pragma once
 /// What rank 0 has for every node, at the ranks that own them. Test: tests/ranks
 
-#include "common/algebra/lanes.hpp"
 #include "common/parallel/part.hpp"
 
 #include <cstdint>
@@ -12,8 +11,6 @@ namespace diptych::scheme {
 
 class OwnEntries {
  public:
-  static constexpr std::int64_t nodes_of_chunk = parallel::chunk_size * algebra::n_lanes;
-
   /// All ranks call this together.
   /// @param of_nodes  [n_nodes] on rank 0, which must outlive this
   OwnEntries(const parallel::Part& part,
