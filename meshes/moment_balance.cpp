@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace diptych::meshes {
 
@@ -15,10 +16,12 @@ using algebra::Mat3;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr int degree = 3;
+constexpr int most_degree = 3;
 /// Readiness of a volume to change, over that of an area: the mass is that of the body, which areas
 /// are where no curved side can make up for it.
 constexpr double volumes_change_less = 0.01;
+/// Part of the largest moment that is rounding.
+constexpr double rounding = 1e-13;
 /// Eigenvalues of the system, over the largest, below which what is missing is left: at first
 /// rounding, up to the second while volumes or areas would change by too much.
 constexpr double least_eigenvalue = 1e-14, greatest_eigenvalue = 1e-3;
@@ -26,7 +29,7 @@ constexpr double least_eigenvalue = 1e-14, greatest_eigenvalue = 1e-3;
 /// Monomials of places from the middle of the body, over half of its size.
 class Moments {
  public:
-  explicit Moments(const Mesh& mesh) : dimension_(mesh.dimension) {
+  Moments(const Mesh& mesh, int degree) : dimension_(mesh.dimension), degree_(degree) {
     Vec3 lower = mesh.nodes[0], upper = mesh.nodes[0];
     for (const Vec3& X : mesh.nodes) {
       lower = lower.cwiseMin(X);
@@ -36,14 +39,14 @@ class Moments {
     size_ = 0.5 * (upper - lower).maxCoeff();
   }
 
-  int n() const { return algebra::n_monomials(dimension_, degree); }
+  int n() const { return algebra::n_monomials(dimension_, degree_); }
   double size() const { return size_; }
   Vector values(const Vec3& X) const {
-    return algebra::monomials((X - middle_) / size_, dimension_, degree);
+    return algebra::monomials((X - middle_) / size_, dimension_, degree_);
   }
   /// [n][3] 1/m
   Matrix gradients(const Vec3& X) const {
-    return algebra::monomial_gradients((X - middle_) / size_, dimension_, degree) / size_;
+    return algebra::monomial_gradients((X - middle_) / size_, dimension_, degree_) / size_;
   }
   Matrix of_volumes(const Mesh& mesh, const std::vector<double>& Omega) const {
     Matrix sum = Matrix::Zero(n(), 3);
@@ -53,7 +56,7 @@ class Moments {
   }
 
  private:
-  int dimension_;
+  int dimension_, degree_;
   Vec3 middle_;
   double size_ = 1;
 };
@@ -78,42 +81,81 @@ double larger(double a, double b) {
   return b <= a ? a : b;
 }
 
-/// The system of the multipliers, lambda of monomial m and direction i at m + i n: areas change by
+/// Faces that are in the same boundary groups.
+struct FaceSet {
+  std::vector<std::int32_t> faces;
+  Vector is_in;  ///< [groups] 1 or 0
+};
+
+std::vector<FaceSet> face_sets(const Mesh& mesh) {
+  const auto n_groups = std::ssize(mesh.boundary_groups);
+  std::vector<std::vector<std::int32_t>> groups_of(mesh.boundary_faces.size());
+  for (std::int32_t g = 0; g < n_groups; ++g) {
+    for (const std::int32_t f : mesh.boundary_groups[g].faces)
+      groups_of[f].push_back(g);
+  }
+  std::map<std::vector<std::int32_t>, FaceSet> sets;
+  for (size_t f = 0; f < groups_of.size(); ++f) {
+    FaceSet& set = sets[groups_of[f]];
+    if (set.faces.empty()) {
+      set.is_in = Vector::Zero(n_groups);
+      for (const std::int32_t g : groups_of[f])
+        set.is_in[g] = 1;
+    }
+    set.faces.push_back(static_cast<std::int32_t>(f));
+  }
+  std::vector<FaceSet> list;
+  for (auto& [groups, set] : sets)
+    list.push_back(std::move(set));
+  return list;
+}
+
+/// The system of the multipliers, lambda of function m and direction i at m + i n. Functions are
+/// the monomials q of a degree and the boundary groups, whose areas stay: areas change by
 /// |A| sum_m q_m lambda_mi, volumes by -Omega r sum_mi d_i q_m lambda_mi.
 class Balance {
  public:
   Balance(const Mesh& mesh,
           const Surface& surface,
+          int degree,
+          const std::vector<Vec3>& group_areas,
           const std::vector<FaceArea>& faces,
           const std::vector<double>& Omega)
       : mesh_(mesh),
         surface_(surface),
-        moments_(mesh),
+        moments_(mesh, degree),
+        sets_(face_sets(mesh)),
         readiness_(volumes_change_less * moments_.size()) {
-    const int n = moments_.n(), d = mesh.dimension;
-    Matrix missing = moments_.of_volumes(mesh, Omega);
+    const int n = n_functions(), d = mesh.dimension;
+    Matrix missing = Matrix::Zero(n, 3);
+    missing.topRows(moments_.n()) = moments_.of_volumes(mesh, Omega);
+    for (size_t g = 0; g < group_areas.size(); ++g)
+      missing.row(moments_.n() + static_cast<int>(g)) = group_areas[g].transpose();
     Matrix K = Matrix::Zero(n * d, n * d);
+    Matrix of_node = Matrix::Zero(n, d);
     for (size_t a = 0; a < Omega.size(); ++a) {
-      const Matrix of_node = moments_.gradients(mesh.nodes[a]).leftCols(d);
+      of_node.topRows(moments_.n()) = moments_.gradients(mesh.nodes[a]).leftCols(d);
       const Eigen::Map<const Vector> gradients(of_node.data(), K.rows());
       K.selfadjointView<Eigen::Lower>().rankUpdate(gradients, readiness_ * Omega[a]);
     }
-    std::vector<Mat3> area(mesh.nodes.size(), Mat3::Zero());  // that may change
-    for (size_t f = 0; f < faces.size(); ++f) {
-      const Mat3 along = ways(f);
-      for (size_t i = 0; i < faces[f].nodes.size(); ++i) {
-        const std::int32_t a = faces[f].nodes[i];
-        missing -= moments_.values(mesh.nodes[a]) * faces[f].area[i].transpose();
-        area[a] += faces[f].area[i].norm() * along;
+    for (const FaceSet& set : sets_) {
+      std::vector<Mat3> area(mesh.nodes.size(), Mat3::Zero());  // that may change
+      for (const std::int32_t f : set.faces) {
+        const Mat3 along = ways(f);
+        for (size_t i = 0; i < faces[f].nodes.size(); ++i) {
+          const std::int32_t a = faces[f].nodes[i];
+          missing -= values(set, a) * faces[f].area[i].transpose();
+          area[a] += faces[f].area[i].norm() * along;
+        }
       }
-    }
-    for (size_t a = 0; a < area.size(); ++a) {
-      if (area[a].isZero(0)) continue;
-      const Vector values = moments_.values(mesh.nodes[a]);
-      const Matrix of_node = values * values.transpose();
-      for (int i = 0; i < d; ++i) {
-        for (int j = 0; j <= i; ++j)
-          K.block(i * n, j * n, n, n) += area[a](i, j) * of_node;
+      for (size_t a = 0; a < area.size(); ++a) {
+        if (area[a].isZero(0)) continue;
+        const Vector of_set = values(set, a);
+        const Matrix squares = of_set * of_set.transpose();
+        for (int i = 0; i < d; ++i) {
+          for (int j = 0; j <= i; ++j)
+            K.block(i * n, j * n, n, n) += area[a](i, j) * squares;
+        }
       }
     }
     K.triangularView<Eigen::StrictlyUpper>() = K.transpose();
@@ -131,7 +173,7 @@ class Balance {
         parts[k] = right_[k] / eigenvalues[k];
     }
     const Vector solved = solver_.eigenvectors() * parts;
-    return Eigen::Map<const Matrix>(solved.data(), moments_.n(), mesh_.dimension);
+    return Eigen::Map<const Matrix>(solved.data(), n_functions(), mesh_.dimension);
   }
 
   /// Changes them.  @return the largest change over what it was
@@ -140,19 +182,23 @@ class Balance {
                 std::vector<double>& Omega) const {
     const int d = mesh_.dimension;
     double largest = 0;
-    for (size_t f = 0; f < faces.size(); ++f) {
-      const Mat3 along = ways(f);
-      for (size_t i = 0; i < faces[f].nodes.size(); ++i) {
-        Vec3 change = Vec3::Zero();
-        change.head(d) = lambda.transpose() * moments_.values(mesh_.nodes[faces[f].nodes[i]]);
-        change = along * change;
-        largest = larger(largest, change.norm());
-        faces[f].area[i] += faces[f].area[i].norm() * change;
+    for (const FaceSet& set : sets_) {
+      for (const std::int32_t f : set.faces) {
+        const Mat3 along = ways(f);
+        for (size_t i = 0; i < faces[f].nodes.size(); ++i) {
+          Vec3 change = Vec3::Zero();
+          change.head(d) = lambda.transpose() * values(set, faces[f].nodes[i]);
+          change = along * change;
+          largest = larger(largest, change.norm());
+          faces[f].area[i] += faces[f].area[i].norm() * change;
+        }
       }
     }
+    const Matrix of_monomials = lambda.topRows(moments_.n());
     for (size_t a = 0; a < Omega.size(); ++a) {
       const double change =
-          readiness_ * moments_.gradients(mesh_.nodes[a]).leftCols(d).cwiseProduct(lambda).sum();
+          readiness_ *
+          moments_.gradients(mesh_.nodes[a]).leftCols(d).cwiseProduct(of_monomials).sum();
       largest = larger(largest, std::abs(change));
       Omega[a] -= Omega[a] * change;
     }
@@ -160,34 +206,57 @@ class Balance {
   }
 
  private:
+  int n_functions() const { return moments_.n() + static_cast<int>(mesh_.boundary_groups.size()); }
+
+  Vector values(const FaceSet& set, size_t a) const {
+    Vector of_set(n_functions());
+    of_set << moments_.values(mesh_.nodes[a]), set.is_in;
+    return of_set;
+  }
+
   /// Of a plane side in its direction alone.
-  Mat3 ways(size_t f) const {
-    if (!surface_.is_of_plane(static_cast<std::int32_t>(f))) return Mat3::Identity();
-    const Vec3 N = surface_.facet_area(static_cast<std::int32_t>(f)).normalized();
+  Mat3 ways(std::int32_t f) const {
+    if (!surface_.is_of_plane(f)) return Mat3::Identity();
+    const Vec3 N = surface_.facet_area(f).normalized();
     return N * N.transpose();
   }
 
   const Mesh& mesh_;
   const Surface& surface_;
   Moments moments_;
+  std::vector<FaceSet> sets_;
   double readiness_;
   Eigen::SelfAdjointEigenSolver<Matrix> solver_;
   Vector right_;
 };
+
+/// Of the surface, over the points of each group.
+std::vector<Vec3> areas_of_groups(const Mesh& mesh, const Surface& surface) {
+  std::vector<Vec3> areas;
+  for (const BoundaryGroup& group : mesh.boundary_groups) {
+    Vec3 sum = Vec3::Zero();
+    for (const std::int32_t f : group.faces) {
+      for (const SurfacePoint& point : surface.points(f, surface.has_curved_faces() ? 1 : 0))
+        sum += point.area;
+    }
+    areas.push_back(sum);
+  }
+  return areas;
+}
 
 }  // namespace
 
 double moment_difference(const Mesh& mesh,
                          const std::vector<double>& Omega,
                          const std::vector<Vec3>& boundary_area) {
-  const Moments moments(mesh);
+  const Moments moments(mesh, most_degree);
   return difference(mesh, moments, moments.of_volumes(mesh, Omega), boundary_area);
 }
 
 double moment_difference_of_facets(const Mesh& mesh,
                                    const Surface& surface,
                                    const std::vector<Vec3>& boundary_area) {
-  const Moments moments(mesh);
+  const Moments moments(mesh, most_degree);
   Matrix of_boundary = Matrix::Zero(moments.n(), 3);
   for (std::int32_t f = 0; f < static_cast<std::int32_t>(mesh.boundary_faces.size()); ++f) {
     for (const SurfacePoint& point : surface.points(f, 0))
@@ -201,15 +270,28 @@ double balance_moments(const Mesh& mesh,
                        double most,
                        std::vector<FaceArea>& faces,
                        std::vector<double>& Omega) {
-  const Balance balance(mesh, surface, faces, Omega);
-  const std::vector<FaceArea> areas = faces;
-  const std::vector<double> volumes = Omega;
-  for (double least = least_eigenvalue;; least *= 10) {
-    const double largest = balance.change(balance.multipliers(least), faces, Omega);
-    if (largest <= most || least >= greatest_eigenvalue) return largest;
-    faces = areas;
-    Omega = volumes;
+  const std::vector<Vec3> group_areas = areas_of_groups(mesh, surface);
+  double largest = 0;
+  // what is cut off of a degree leaves lower ones missing, too, and without linear fields no
+  // operator closes
+  for (int degree = most_degree; degree > 0; --degree) {
+    const Moments moments(mesh, degree);
+    if (difference(mesh, moments, moments.of_volumes(mesh, Omega),
+                   areas_of_nodes(faces, Omega.size())) <= rounding)
+      continue;
+    const Balance balance(mesh, surface, degree, group_areas, faces, Omega);
+    const std::vector<FaceArea> areas = faces;
+    const std::vector<double> volumes = Omega;
+    double change = 0;
+    for (double least = least_eigenvalue;; least *= 10) {
+      change = balance.change(balance.multipliers(least), faces, Omega);
+      if (change <= most || least >= greatest_eigenvalue) break;
+      faces = areas;
+      Omega = volumes;
+    }
+    largest = larger(largest, change);
   }
+  return largest;
 }
 
 }  // namespace diptych::meshes

@@ -24,7 +24,9 @@ double moment_difference_of_facets(const Mesh& mesh,
 
 /// Changes volumes and areas, those of plane sides in their direction, least beside what they are,
 /// so that they agree, or agree as well as they can: where nodes of a side stand nearly in three
-/// lines, cubics are told apart by next to nothing, and what that would take of changes is left.
+/// lines, cubics are told apart by next to nothing, and what that would take of changes is left,
+/// but not for linear fields. Areas of boundary groups are those of the surface: loads on them are
+/// whole.
 /// @param most   change of a volume or an area over what it was, if less can be had
 /// @param faces  [boundary faces]
 /// @param Omega  [n_nodes] m^3 (m^2 in 2-D)

@@ -22,23 +22,9 @@ constexpr double most_left = 0.1;
 /// Part of a volume or an area by which it may change so that they do not differ: where sides are
 /// curved, and where they are plane and have few nodes across.
 constexpr double most_change[] = {0.05, 0.3};
-/// The same of the area of a boundary group.
-constexpr double most_of_a_group = 0.01;
 /// Part of the nodes that are inside, where volumes and areas do not agree at once: bodies one cell
 /// thick have none, and rows that leave the wall nothing to hold it.
 constexpr double least_inside = 0.05;
-
-void add_areas(const FaceArea& face, std::vector<Vec3>& area) {
-  for (size_t i = 0; i < face.nodes.size(); ++i)
-    area[face.nodes[i]] += face.area[i];
-}
-
-std::vector<Vec3> sum_of(const std::vector<FaceArea>& faces, size_t n_nodes) {
-  std::vector<Vec3> area(n_nodes, Vec3::Zero());
-  for (const FaceArea& face : faces)
-    add_areas(face, area);
-  return area;
-}
 
 void set_patches(const Mesh& mesh, const std::vector<FaceArea>& faces, DualMeasure& measure) {
   std::vector<Vec3> total(mesh.nodes.size(), Vec3::Zero());
@@ -74,31 +60,6 @@ void require_inner_nodes(const std::vector<Vec3>& boundary_area, const BlockUse&
       use.asked, inside / n, least_inside, use.instead));
 }
 
-/// Groups of few faces would pay for it with the load on them.
-void require_group_areas(const Mesh& mesh,
-                         const Surface& surface,
-                         bool is_curved,
-                         const std::vector<FaceArea>& faces,
-                         const BlockUse& use) {
-  for (const BoundaryGroup& group : mesh.boundary_groups) {
-    Vec3 exact = Vec3::Zero(), area = Vec3::Zero();
-    double size = 0;
-    for (const std::int32_t f : group.faces) {
-      for (const SurfacePoint& point : surface.points(f, is_curved ? 1 : 0)) {
-        exact += point.area;
-        size += point.area.norm();
-      }
-      for (const Vec3& A : faces[f].area)
-        area += A;
-    }
-    if ((area - exact).norm() <= most_of_a_group * size) continue;
-    throw base::InputError(fmt::format(
-        "{}: the area of group '{}' would change by {:.2g} of itself, bound {:.2g}, for operators "
-        "that sum by parts: it has too few faces; use {}, or refine the mesh there",
-        use.asked, group.name, (area - exact).norm() / size, most_of_a_group, use.instead));
-  }
-}
-
 void require_agreement(double difference,
                        const std::vector<Vec3>& boundary_area,
                        const BlockUse& use) {
@@ -129,7 +90,7 @@ DualMeasure quadratic_measure(const Mesh& mesh, const BlockUse& use) {
   DualMeasure measure = dual_measure(mesh, Quadrature::exact);  // and its checks of the mesh
   const Surface surface(mesh);
   std::vector<FaceArea> faces = side_areas(mesh, surface, Faces::plane);
-  measure.boundary_area = sum_of(faces, mesh.nodes.size());
+  measure.boundary_area = areas_of_nodes(faces, mesh.nodes.size());
   const bool agrees =
       moment_difference_of_facets(mesh, surface, measure.boundary_area) <= most_difference;
   if (!agrees) require_inner_nodes(measure.boundary_area, use);
@@ -137,11 +98,11 @@ DualMeasure quadratic_measure(const Mesh& mesh, const BlockUse& use) {
   if (is_curved) faces = side_areas(mesh, surface, Faces::smooth);
   measure.Omega = quadratic_volumes(mesh, measure.Omega, is_curved ? &surface : nullptr);
   require_positive(mesh, measure.Omega, use);
-  if (!agrees) {
+  // plane sides agree, too, where their nodes tell cubics apart
+  if (!agrees || moment_difference(mesh, measure.Omega, measure.boundary_area) > most_difference) {
     const double most = most_change[is_curved ? 0 : 1];
     require_small(balance_moments(mesh, surface, most, faces, measure.Omega), most, use);
-    require_group_areas(mesh, surface, is_curved, faces, use);
-    measure.boundary_area = sum_of(faces, mesh.nodes.size());
+    measure.boundary_area = areas_of_nodes(faces, mesh.nodes.size());
   }
   require_agreement(moment_difference(mesh, measure.Omega, measure.boundary_area),
                     measure.boundary_area, use);

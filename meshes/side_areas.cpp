@@ -133,4 +133,16 @@ std::vector<FaceArea> side_areas(const Mesh& mesh, const Surface& surface, Faces
   return areas;
 }
 
+void add_areas(const FaceArea& face, std::vector<Vec3>& area) {
+  for (size_t i = 0; i < face.nodes.size(); ++i)
+    area[face.nodes[i]] += face.area[i];
+}
+
+std::vector<Vec3> areas_of_nodes(const std::vector<FaceArea>& faces, size_t n_nodes) {
+  std::vector<Vec3> area(n_nodes, Vec3::Zero());
+  for (const FaceArea& face : faces)
+    add_areas(face, area);
+  return area;
+}
+
 }  // namespace diptych::meshes

@@ -26,4 +26,10 @@ enum class Faces { plane, smooth };
 /// Of every face. Those of one side are joined by edges and are of the same groups.
 std::vector<FaceArea> side_areas(const Mesh& mesh, const Surface& surface, Faces faces);
 
+/// Adds the areas of a face to those of its nodes.
+void add_areas(const FaceArea& face, std::vector<Vec3>& area);
+
+/// @return [n_nodes] m^2 (m in 2-D), over all faces
+std::vector<Vec3> areas_of_nodes(const std::vector<FaceArea>& faces, size_t n_nodes);
+
 }  // namespace diptych::meshes

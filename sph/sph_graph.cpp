@@ -157,6 +157,12 @@ void widen(const std::vector<std::int32_t>& rows,
   }
 }
 
+/// Of second order: areas must be those of cells, whose pressure acts on them.
+meshes::Quadrature quadrature_of(const meshes::Mesh& mesh) {
+  return meshes::areas_are_of_cells(mesh, meshes::Quadrature::vertex) ? meshes::Quadrature::vertex
+                                                                      : meshes::Quadrature::exact;
+}
+
 /// By round supports, wider where operators that sum by parts take it.
 scheme::PairGraph round_graph_of(const meshes::Mesh& mesh,
                                  const Options& options,
@@ -178,12 +184,11 @@ scheme::PairGraph round_graph_of(const meshes::Mesh& mesh,
         [&](const auto& rows, const scheme::PairGraph& pairs) { widen(rows, pairs, h); });
     scheme::set_edges(mesh, graph);
   } else {
-    graph = graph_within(mesh, kernel, by_vertices, h);
+    const meshes::Quadrature quadrature = quadrature_of(mesh);
+    graph = graph_within(mesh, kernel, meshes::dual_measure(mesh, quadrature), h);
     if (options.closure) repair_closure(kernel, h, graph);
-    if (meshes::areas_are_of_cells(mesh, meshes::Quadrature::vertex)) {
-      auto cells = meshes::cell_shares(mesh, meshes::Quadrature::vertex);
-      graph.cells = {std::move(cells.row), std::move(cells.corner), std::move(cells.share)};
-    }
+    auto cells = meshes::cell_shares(mesh, quadrature);
+    graph.cells = {std::move(cells.row), std::move(cells.corner), std::move(cells.share)};
   }
   validate(graph);
   return graph;
@@ -195,7 +200,7 @@ scheme::PairGraph graph_of(const meshes::Mesh& mesh, const Options& options, boo
     return round_graph_of(equal_widths, options, sums_by_parts);
   });
   if (!sums_by_parts && scheme::has_long_cells(mesh))  // to the bits of finite volumes
-    set_measure(meshes::dual_measure(mesh, meshes::Quadrature::vertex), graph);
+    set_measure(meshes::dual_measure(mesh, quadrature_of(mesh)), graph);
   return graph;
 }
 

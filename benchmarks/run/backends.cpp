@@ -63,6 +63,19 @@ constexpr const char* hourglass_notice =
     "scheme.hourglass has no effect: it is for operators that sum by parts off boxes and curved "
     "blocks (notes 3.12)";
 
+/// Part of an area by which forces of a constant stress may be out of balance.
+constexpr double closed = 1e-9;
+
+/// Few neighbours whose rows are exact for linear fields leave nothing to close them by.
+void note_open_rows(const scheme::PairGraph& graph, std::vector<std::string>& notices) {
+  const double gap = scheme::quality(graph).closure;
+  if (gap <= closed) return;
+  notices.push_back(fmt::format(
+      "forces of a constant stress are out of balance by up to {:.2g} of an area: nodes of this "
+      "mesh have too few neighbours to close them; take more cells across the body",
+      gap));
+}
+
 /// Whether jumps are those of linear reconstructions without the adjoint of their slopes.
 bool leaves_jumps(const cases::SchemeCase& scheme) {
   return scheme.limiter == "none" && scheme.reconstruction != "none" &&
@@ -83,7 +96,8 @@ bool takes_cells(const scheme::Operators& operators,
 scheme::Operators finished(scheme::Operators operators,
                            const meshes::Mesh& mesh,
                            const cases::Case& setup,
-                           const std::string& strong_pressure) {
+                           const std::string& strong_pressure,
+                           bool asks_for_closure) {
   scheme::PairGraph& graph = operators.graph;
   const bool presses = !strong_pressure.empty();
   const bool may_press = presses || is_nearly_incompressible(setup.material);
@@ -99,6 +113,7 @@ scheme::Operators finished(scheme::Operators operators,
   if (setup.scheme.hourglass != cases::SchemeCase().hourglass && setup.scheme.hourglass != 0 &&
       graph.edges.empty())
     operators.notices.emplace_back(hourglass_notice);
+  if (asks_for_closure) note_open_rows(graph, operators.notices);
   set_precision(graph, scheme::precision_menu().at(setup.scheme.precision));
   return operators;
 }
@@ -148,13 +163,14 @@ const base::Registry<GraphMaker>& method_menu() {
           .add("sph",
                [](const meshes::Mesh& mesh, const cases::Case& setup) {
                  check_sph(setup);
-                 const std::string strong = strong_pressure_because(setup, mesh);
-                 return finished(sph_operators(mesh, setup, strong), mesh, setup, strong);
+                 const std::string strong = strong_pressure_because(setup, "sph", mesh);
+                 return finished(sph_operators(mesh, setup, strong), mesh, setup, strong,
+                                 setup.sph.closure);
                })
           .add("fvm", [](const meshes::Mesh& mesh, const cases::Case& setup) {
             check_fvm(setup);
-            const std::string strong = strong_pressure_because(setup, mesh);
-            return finished(fvm_operators(mesh, setup, strong), mesh, setup, strong);
+            const std::string strong = strong_pressure_because(setup, "fvm", mesh);
+            return finished(fvm_operators(mesh, setup, strong), mesh, setup, strong, true);
           });
   return menu;
 }

@@ -129,9 +129,11 @@ bool is_nearly_incompressible(const cases::MaterialCase& material) {
   return material.lame + 2.0 / 3 * material.shear_modulus > least_bulk * material.shear_modulus;
 }
 
-std::string strong_pressure_because(const cases::Case& setup, const meshes::Mesh& mesh) {
+std::string strong_pressure_because(const cases::Case& setup,
+                                    const std::string& method,
+                                    const meshes::Mesh& mesh) {
   if (setup.scheme.volumes != "auto") return "";
-  if (!meshes::is_undistorted_block(mesh) &&
+  if (method != "sph" && !meshes::is_undistorted_block(mesh) &&
       !meshes::areas_are_of_cells(mesh, meshes::Quadrature::vertex))
     return "";
   if (is_nearly_incompressible(setup.material) && is_held_on_all_sides(setup, mesh)) {

@@ -16,11 +16,14 @@ bool is_nearly_incompressible(const cases::MaterialCase& material);
 /// Why `auto` takes operators that bear any bulk pressure, for the record: a follower pressure or a
 /// dead traction presses with more than 1.5 shear moduli (on moved nodes over the cells'
 /// length by width) at a node and one of 65 instants, or a
-/// nearly incompressible body is held on all sides, and the mesh has what bears it. What walls,
+/// nearly incompressible body is held on all sides, and the mesh has what bears it (finite volumes
+/// have no cells on faces that are no parallelograms). What walls,
 /// impacts, supports, body forces and manufactured tractions press is not seen, and loads on one
 /// group are not added. Empty where nothing presses so, or where the case says
 /// what carries the pressure (scheme.volumes).
-std::string strong_pressure_because(const cases::Case& setup, const meshes::Mesh& mesh);
+std::string strong_pressure_because(const cases::Case& setup,
+                                    const std::string& method,
+                                    const meshes::Mesh& mesh);
 
 /// Before there is a mesh: loads that depend on the place may be strong, groups may be all there
 /// are.

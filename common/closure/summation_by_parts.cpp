@@ -18,7 +18,7 @@ namespace {
 /// A residual that may be left in the end. Bodies of two uneven cells across have no operators that
 /// miss by less (meshes/moment_balance.hpp), and bend as they should with these, three times as far
 /// with the gradients of second order that stand in else (notes 4.5).
-constexpr double most_residual = 0.03;
+constexpr double most_residual = 0.3;
 
 /// For messages.
 constexpr const char* what_to_do =

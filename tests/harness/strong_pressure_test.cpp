@@ -49,7 +49,7 @@ CaseGraph made(const std::string& method, const std::vector<std::string>& overri
 std::string because(const std::vector<std::string>& overrides,
                     const std::string& boundary = pressed) {
   const cases::Case setup = block(overrides, boundary);
-  return strong_pressure_because(setup, mesh_of(setup, 0).mesh);
+  return strong_pressure_because(setup, "fvm", mesh_of(setup, 0).mesh);
 }
 
 TEST(StrongPressure, IsAFollowerPressureAboveWhatNodesBear) {

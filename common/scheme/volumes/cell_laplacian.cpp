@@ -147,25 +147,53 @@ struct Rows {
   const std::int64_t* first;
   const std::int32_t* neighbour;
   const double* weight;
-  const double* at_rest;  ///< [n_nodes][4], taken from the sums; null: nothing is
 };
 
-/// force += s (sum_b k_ab (from_b - from_a) - at_rest_a) of nodes [begin, end).
-DIPTYCH_CLONES void add_rows(const Rows& rows,
-                             const double* from,
+/// force += s sum_b k_ab (u_b - u_a) of nodes [begin, end): what a gives to b it takes from b, to
+/// the last bit.  @param u_of  displacement of a node
+template <class Displacement>
+DIPTYCH_INLINE void add_rows(const Rows& rows,
+                             const Displacement& u_of,
                              double s,
                              std::int64_t begin,
                              std::int64_t end,
                              double* force) {
   for (std::int64_t a = begin; a < end; ++a) {
-    const Four own = algebra::load_four(from + stride * a);
+    const Four own = u_of(a);
     Four sum{};
     for (std::int64_t k = rows.first[a]; k < rows.first[a + 1]; ++k)
-      sum += rows.weight[k] * (algebra::load_four(from + stride * rows.neighbour[k]) - own);
-    if (rows.at_rest != nullptr) sum -= algebra::load_four(rows.at_rest + stride * a);
+      sum += rows.weight[k] * (u_of(rows.neighbour[k]) - own);
     const Four total = algebra::load_four(force + stride * a) + s * sum;
     __builtin_memcpy(force + stride * a, &total, sizeof total);
   }
+}
+
+DIPTYCH_CLONES void add_rows_of(const Rows& rows,
+                                const double* u,
+                                double s,
+                                std::int64_t begin,
+                                std::int64_t end,
+                                double* force) {
+  add_rows(
+      rows,
+      [u](std::int64_t a) DIPTYCH_INLINE_LAMBDA { return algebra::load_four(u + stride * a); }, s,
+      begin, end, force);
+}
+
+/// Of u = x - X.
+DIPTYCH_CLONES void add_rows_between(const Rows& rows,
+                                     const double* x,
+                                     const double* X,
+                                     double s,
+                                     std::int64_t begin,
+                                     std::int64_t end,
+                                     double* force) {
+  add_rows(
+      rows,
+      [x, X](std::int64_t a) DIPTYCH_INLINE_LAMBDA {
+        return algebra::load_four(x + stride * a) - algebra::load_four(X + stride * a);
+      },
+      s, begin, end, force);
 }
 
 }  // namespace
@@ -220,7 +248,7 @@ CellLaplacian::CellLaplacian(const VolumeCells& cells,
     }
   });
   at_rest_ = Array(x.size());
-  add_linear_forces(x, 1, 0, n_nodes, at_rest_);
+  std::copy_n(x.data(), x.size(), at_rest_.data());
 }
 
 std::int64_t CellLaplacian::bytes() const {
@@ -232,30 +260,28 @@ std::int64_t CellLaplacian::bytes() const {
 
 void CellLaplacian::add_linear_forces(
     const Array& u, double s, std::int64_t begin, std::int64_t end, Array& force) const {
-  add_rows({row_.data(), neighbour_.data(), weight_.data(), nullptr}, u.data(), s, begin, end,
-           force.data());
+  add_rows_of({row_.data(), neighbour_.data(), weight_.data()}, u.data(), s, begin, end,
+              force.data());
 }
 
 void CellLaplacian::add_forces(
     const Array& x, double s, std::int64_t begin, std::int64_t end, Array& force) const {
-  add_rows({row_.data(), neighbour_.data(), weight_.data(), at_rest_.data()}, x.data(), s, begin,
-           end, force.data());
+  add_rows_between({row_.data(), neighbour_.data(), weight_.data()}, x.data(), at_rest_.data(), s,
+                   begin, end, force.data());
 }
 
-double CellLaplacian::energy(const Array& x,
-                             const std::vector<Vec3>& X,
-                             double s,
-                             std::int64_t begin,
-                             std::int64_t end) const {
+double CellLaplacian::energy(const Array& x, double s, std::int64_t begin, std::int64_t end) const {
   double sum = 0;
   for (std::int64_t a = begin; a < end; ++a) {
     const double* own = x.data() + a * stride;
+    const double* own_at_rest = at_rest_.data() + a * stride;
     for (std::int64_t k = row_[a]; k < row_[a + 1]; ++k) {
       const std::int64_t b = neighbour_[k];
       const double* other = x.data() + b * stride;
+      const double* other_at_rest = at_rest_.data() + b * stride;
       double u_u = 0;
       for (int i = 0; i < 3; ++i) {
-        const double u = other[i] - own[i] - (X[b][i] - X[a][i]);
+        const double u = other[i] - own[i] - (other_at_rest[i] - own_at_rest[i]);
         u_u += u * u;
       }
       sum += weight_[k] * u_u;

@@ -42,17 +42,13 @@ class CellLaplacian {
   void add_linear_forces(
       const Array& u, double s, std::int64_t begin, std::int64_t end, Array& force) const;
   /// s/2 times those halves of int |grad u|^2 dV that belong to nodes [begin, end)  [J]
-  double energy(const Array& x,
-                const std::vector<algebra::Vec3>& X,
-                double s,
-                std::int64_t begin,
-                std::int64_t end) const;
+  double energy(const Array& x, double s, std::int64_t begin, std::int64_t end) const;
 
  private:
   std::vector<std::int64_t> row_;        ///< [n_nodes + 1]
   std::vector<std::int32_t> neighbour_;  ///< row after row, ascending
   std::vector<double> weight_;           ///< m^(Dim-2), k_ab
-  Array at_rest_;                        ///< [n_nodes, padded][4] m^(Dim-1), sum_b k_ab X_ab
+  Array at_rest_;                        ///< [n_nodes, padded][4] m, reference positions
 };
 
 }  // namespace diptych::scheme

@@ -298,7 +298,7 @@ void CellVolumes<Dim>::add_shear_energies(const Body<Dim>& body, std::vector<dou
   Array x(x_.size());
   put_positions(body, x);
   for_nodes(body, [&](auto begin, auto end, auto chunk) {
-    sums[chunk] += laplacian_.energy(x, body.X, s, begin, end);
+    sums[chunk] += laplacian_.energy(x, s, begin, end);
   });
 }
 
