@@ -53,6 +53,7 @@ bool solve(const Moments& S, const MomentVector& right, MomentVector& x) {
 
 void meet_moments(const std::vector<Vec3>& at,
                   const std::vector<double>& share,
+                  double unit,
                   int dimension,
                   int degree,
                   const Vector& exact,
@@ -82,7 +83,7 @@ void meet_moments(const std::vector<Vec3>& at,
     double largest = 0;
     for (int i = 0; i < P.cols(); ++i)
       largest = std::max(largest, std::abs(change[i] * P.col(i).head(n).dot(factor)) / share[i]);
-    if ((is_met && largest <= most_change) || degree == 0) break;
+    if ((is_met && largest <= most_change * unit) || degree == 0) break;
   }
   const auto n = static_cast<int>(factor.size());
   const Matrix square = S.topLeftCorner(n, n);

@@ -26,6 +26,11 @@ constexpr size_t nodes_of_cell[] = {20, 64};
 /// Cells whose weights are kept at a time.
 constexpr std::int64_t cells_at_once = 8192;
 constexpr int degree = 2;
+/// Part of its share that a node must keep: corners of boxes with three nodes along a line have 0.3.
+constexpr double least_part = 0.2;
+/// Where a node would keep less, how much less ready to change it becomes, and how often.
+constexpr double less = 0.3;
+constexpr int most_times = 8;
 
 struct Weights {
   std::vector<std::int32_t> nodes;
@@ -64,10 +69,32 @@ void for_points_between(const Surface& surface, std::int32_t f, const Visit& vis
 class Volumes {
  public:
   Volumes(const Mesh& mesh, const std::vector<double>& shares, const Surface* surface)
-      : mesh_(mesh), shares_(shares), surface_(surface), sharing_(nodal_graph(mesh)) {
+      : mesh_(mesh), readiness_(shares), surface_(surface), sharing_(nodal_graph(mesh)) {
     if (surface != nullptr) curved_ = curved_faces_of_cells(mesh, *surface);
   }
 
+  /// Of all cells.
+  std::vector<double> of_nodes() const {
+    std::vector<double> Omega(static_cast<size_t>(mesh_.n_nodes()), 0.0);
+    std::vector<Weights> weights(cells_at_once);
+    for (std::int64_t begin = 0; begin < mesh_.n_cells(); begin += cells_at_once) {
+      const std::int64_t n = std::min(mesh_.n_cells() - begin, cells_at_once);
+      parallel::for_chunks(n, [&](std::int64_t first, std::int64_t end, std::int64_t) {
+        for (std::int64_t i = first; i < end; ++i)
+          weights[i] = of_cell(begin + i);
+      });
+      for (std::int64_t i = 0; i < n; ++i) {
+        for (size_t k = 0; k < weights[i].nodes.size(); ++k)
+          Omega[weights[i].nodes[k]] += weights[i].value[static_cast<int>(k)];
+      }
+    }
+    return Omega;
+  }
+
+  /// Lets other nodes change in place of this one.
+  void change_less(size_t a) { readiness_[a] *= less; }
+
+ private:
   Weights of_cell(std::int64_t c) const {
     const auto corners = mesh_.cell(c);
     const ReferenceCell& cell = reference_cell(mesh_.cell_types[c]);
@@ -92,7 +119,7 @@ class Volumes {
     const double unit = std::pow(h, mesh_.dimension);
     for (const std::int32_t a : weights.nodes) {
       at.push_back((mesh_.nodes[a] - middle) / h);
-      share.push_back(shares_[a] / unit);
+      share.push_back(readiness_[a] / unit);
     }
     const auto place_of = [&](std::int32_t a) {
       return static_cast<int>(std::lower_bound(weights.nodes.begin(), weights.nodes.end(), a) -
@@ -124,13 +151,12 @@ class Volumes {
         });
       }
     }
-    meet_moments(at, share, mesh_.dimension, degree, exact, weights.value);
+    meet_moments(at, share, unit, mesh_.dimension, degree, exact, weights.value);
     return weights;
   }
 
- private:
   const Mesh& mesh_;
-  const std::vector<double>& shares_;
+  std::vector<double> readiness_;  ///< to change: at first the share of a node
   const Surface* surface_;
   NodalGraph sharing_;
   std::map<std::int64_t, std::vector<std::int32_t>> curved_;
@@ -141,21 +167,17 @@ class Volumes {
 std::vector<double> quadratic_volumes(const Mesh& mesh,
                                       const std::vector<double>& shares,
                                       const Surface* surface) {
-  std::vector<double> Omega(static_cast<size_t>(mesh.n_nodes()), 0.0);
-  const Volumes volumes(mesh, shares, surface);
-  std::vector<Weights> weights(cells_at_once);
-  for (std::int64_t begin = 0; begin < mesh.n_cells(); begin += cells_at_once) {
-    const std::int64_t n = std::min(mesh.n_cells() - begin, cells_at_once);
-    parallel::for_chunks(n, [&](std::int64_t first, std::int64_t end, std::int64_t) {
-      for (std::int64_t i = first; i < end; ++i)
-        weights[i] = volumes.of_cell(begin + i);
-    });
-    for (std::int64_t i = 0; i < n; ++i) {
-      for (size_t k = 0; k < weights[i].nodes.size(); ++k)
-        Omega[weights[i].nodes[k]] += weights[i].value[static_cast<int>(k)];
+  Volumes volumes(mesh, shares, surface);
+  for (int times = 0;; ++times) {
+    std::vector<double> Omega = volumes.of_nodes();
+    bool are_any_small = false;
+    for (size_t a = 0; a < Omega.size(); ++a) {
+      if (Omega[a] >= least_part * shares[a]) continue;
+      are_any_small = true;
+      volumes.change_less(a);
     }
+    if (!are_any_small || times == most_times) return Omega;
   }
-  return Omega;
 }
 
 }  // namespace diptych::meshes

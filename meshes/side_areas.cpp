@@ -86,6 +86,7 @@ class Sides {
     frame.row(0) = along / h;
     if (mesh_.dimension == 3) frame.row(1) = area_[f].normalized().cross(along / h);
     const auto place_of = [&](const Vec3& X) -> Vec3 { return frame * (X - middle) / h; };
+    const double unit = std::pow(h, mesh_.dimension - 1);
     std::vector<Vec3> at;
     std::vector<double> share;
     for (const std::int32_t a : face.nodes) {
@@ -95,7 +96,7 @@ class Sides {
         if (side_[i] == side_[f])
           share.back() += area_[i].norm() / static_cast<double>(corners(i).size());
       }
-      share.back() /= std::pow(h, mesh_.dimension - 1);
+      share.back() /= unit;
     }
     Vector value = Vector::Zero(static_cast<int>(at.size()));
     const int dimension = mesh_.dimension - 1;
@@ -108,7 +109,7 @@ class Sides {
       }
       exact += dA * algebra::monomials(place_of(point.X), dimension, degree);
     }
-    meet_moments(at, share, dimension, degree, exact, value);
+    meet_moments(at, share, unit, dimension, degree, exact, value);
     face.area.resize(face.nodes.size(), Vec3::Zero());
     for (size_t i = 0; i < face.area.size(); ++i)
       face.area[i] += value[static_cast<int>(i)] * direction;

@@ -28,30 +28,11 @@ T sum_of_chunks(size_t n, const Work& work) {
   return sum;
 }
 
-/// Component by component.
-Vec3 dot(const Field& x, const Field& y) {
-  return sum_of_chunks<Vec3>(x.size(), [&](std::int64_t begin, std::int64_t end) -> Vec3 {
-    Vec3 sum = Vec3::Zero();
-    for (std::int64_t a = begin; a < end; ++a)
-      sum += x[a].cwiseProduct(y[a]);
-    return sum;
-  });
-}
-
 /// to = from in parallel.
 void copy(const Field& from, Field& to) {
   for_each_node(from.size(), [&](std::int64_t begin, std::int64_t end) {
     std::copy(from.begin() + begin, from.begin() + end, to.begin() + begin);
   });
-}
-
-/// x / y by component, 0 where y is: a component that is solved (or absent, z in 2-D) rests.
-Vec3 quotient(const Vec3& x, const Vec3& y) {
-  Vec3 result = Vec3::Zero();
-  for (int i = 0; i < 3; ++i) {
-    if (y[i] > 0) result[i] = x[i] / y[i];
-  }
-  return result;
 }
 
 }  // namespace
@@ -93,6 +74,23 @@ void AffinePart::remove(Field& r) const {
     for (std::int64_t a = begin; a < end; ++a)
       r[a] -= mean + slope * (X_[a] - centre_);
   });
+}
+
+Vec3 dot(const Field& x, const Field& y) {
+  return sum_of_chunks<Vec3>(x.size(), [&](std::int64_t begin, std::int64_t end) -> Vec3 {
+    Vec3 sum = Vec3::Zero();
+    for (std::int64_t a = begin; a < end; ++a)
+      sum += x[a].cwiseProduct(y[a]);
+    return sum;
+  });
+}
+
+Vec3 quotient(const Vec3& x, const Vec3& y) {
+  Vec3 result = Vec3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    if (y[i] > 0) result[i] = x[i] / y[i];
+  }
+  return result;
 }
 
 int conjugate_gradients(const FieldOperator& S,

@@ -57,6 +57,12 @@ int conjugate_gradients(const FieldOperator& S,
                         Field r,
                         Field& y);
 
+/// Component by component.
+Vec3 dot(const Field& x, const Field& y);
+
+/// x / y by component, 0 where y is: a component that is solved (or absent, z in 2-D) rests.
+Vec3 quotient(const Vec3& x, const Vec3& y);
+
 /// max_a |r_a| unit_a, r with the same number of entries for each unit
 double greatest(const Field& r, const std::vector<double>& unit);
 

@@ -4,6 +4,7 @@
 #include "common/closure/closure_gap.hpp"
 #include "common/closure/closure_repair.hpp"
 #include "common/closure/cubic_part.hpp"
+#include "common/closure/minimal_residuals.hpp"
 #include "common/closure/quadratic_correction.hpp"
 #include "common/parallel/for_chunks.hpp"
 
@@ -38,6 +39,22 @@ std::vector<std::int32_t> open_nodes(const Field& r, const std::vector<double>& 
   return open;
 }
 
+/// Iterations without progress after which conditions contradict each other: few neighbours at a
+/// corner, or sides that no areas suit.
+constexpr int patience = 250;
+
+bool is_solved(const FieldOperator& S,
+               const std::vector<double>& unit,
+               double residual,
+               const Field& r,
+               const Field& y) {
+  Field left(r.size());
+  S(y, left);
+  for (size_t i = 0; i < left.size(); ++i)
+    left[i] = r[i] - left[i];
+  return greatest(left, unit) <= residual;
+}
+
 template <int D>
 SummationByParts solve(scheme::PairGraph& graph,
                        const std::vector<double>& k,
@@ -52,14 +69,16 @@ SummationByParts solve(scheme::PairGraph& graph,
   Field r = correction.gap(graph.C), y;
   result.before = greatest(r, unit);
   cubic_part.remove(r);  // S keeps it out of what is left: directions are free of it
-  const SolveLimits left{limits.residual, limits.iterations, limits.iterations};
-  result.iterations =
-      conjugate_gradients([&](const Field& in, Field& out) { correction.apply_S(in, out); },
-                          [&](const Field& in, Field& out) {
-                            correction.precondition(in, out);
-                            cubic_part.remove(out);
-                          },
-                          [](Field&) {}, unit, left, r, y);
+  const FieldOperator S = [&](const Field& in, Field& out) { correction.apply_S(in, out); };
+  const FieldOperator inverse = [&](const Field& in, Field& out) {
+    correction.precondition(in, out);
+    cubic_part.remove(out);
+  };
+  const SolveLimits left{limits.residual, limits.iterations, patience};
+  result.iterations = conjugate_gradients(
+      S, inverse, [](Field&) {}, unit, left, r, y);
+  if (!is_solved(S, unit, limits.residual, r, y))
+    result.iterations += minimal_residuals(S, inverse, unit, left, r, y);
   correction.change(y, graph.C);
   correction.correct_rows(graph.C);  // of what rounding left: smooth multipliers are large
   r = correction.gap(graph.C);
@@ -90,17 +109,20 @@ void require_met(const scheme::PairGraph& graph, const SummationByParts& result)
       result.iterations, result.after, graph.n_pairs() / graph.n_nodes(), what_to_do));
 }
 
-/// V_a^(1/d)/Omega_a 1/2 sum_b |C_ab| of every row, in space 3.5 on a lattice.
+/// V_a^(1/d)/Omega_a 1/2 sum_b |C_ab|, or |C_ba| where that is more: in space 3.5 on a lattice.
 constexpr double of_lattice = 3.5;
 
 std::vector<double> slopes_of(const scheme::PairGraph& graph, const std::vector<double>& V) {
   std::vector<double> slopes(V.size());
   parallel::for_chunks(graph.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
     for (std::int64_t a = begin; a < end; ++a) {
-      double sum = 0;
-      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
-        sum += graph.C[p].norm() / 2;
-      slopes[a] = sum / graph.Omega[a] * std::pow(V[a], 1.0 / graph.dimension);
+      double of_row = 0, of_column = 0;
+      for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
+        of_row += graph.C[p].norm() / 2;
+        of_column += graph.C[graph.reverse[p]].norm() / 2;
+      }
+      slopes[a] =
+          std::max(of_row, of_column) / graph.Omega[a] * std::pow(V[a], 1.0 / graph.dimension);
     }
   });
   return slopes;
@@ -140,7 +162,7 @@ scheme::PairGraph summing_by_parts(const std::vector<double>& V,
 }
 
 std::vector<std::int32_t> steep_rows(const scheme::PairGraph& graph, const std::vector<double>& V) {
-  constexpr double steep = 10;
+  const double steep = graph.dimension == 2 ? 10 : 12;
   const std::vector<double> slopes = slopes_of(graph, V);
   std::vector<std::int32_t> rows;
   for (std::int32_t a = 0; a < graph.n_nodes(); ++a) {
@@ -157,7 +179,8 @@ void require_no_steep_rows(const scheme::PairGraph& graph, const std::vector<dou
   if (rows.empty()) return;
   const Vec3& X = graph.X[rows[0]];
   throw base::InputError(fmt::format(
-      "operators that sum by parts: derivatives at {} of {} nodes, such as {} at ({:.6g}, {:.6g}, "
+      "operators that sum by parts: derivatives or forces at {} of {} nodes, such as {} at "
+      "({:.6g}, {:.6g}, "
       "{:.6g}), have weights {:.0f} times those of a lattice, and need steps as much smaller: the "
       "mesh is too coarse or too uneven there; refine it; {}",
       rows.size(), graph.n_nodes(), rows[0], X[0], X[1], X[2],

@@ -41,9 +41,10 @@ SummationByParts make_sum_by_parts(scheme::PairGraph& graph,
                                    const std::vector<double>& k,
                                    const SummationLimits& limits = {});
 
-/// Rows of derivatives that are out of proportion, V_a^(1/d)/Omega_a 1/2 sum_b |C_ab| > 10: those
-/// of lattices have 3 to 4, of moved nodes and tetrahedra up to 9, while few neighbours that stand
-/// badly give hundreds, and steps as much smaller (notes 4.5).
+/// Rows of derivatives or columns, of forces, that are out of proportion, V_a^(1/d)/Omega_a
+/// 1/2 sum_b |C_ab| or the same of |C_ba| above 12, in the plane 10: those of lattices have 3 to 4,
+/// of moved nodes and tetrahedra up to 10, while few neighbours that stand badly give hundreds, and
+/// steps as much smaller; bodies whose columns have 14 are too stiff, too (notes 4.5).
 /// @param V  [n_nodes] volumes of the nodes, shares of their cells
 /// @return the nodes, the worst first
 std::vector<std::int32_t> steep_rows(const scheme::PairGraph& graph, const std::vector<double>& V);

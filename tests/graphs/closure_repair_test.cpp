@@ -2,6 +2,7 @@
 
 #include "common/closure/class_repair.hpp"
 #include "common/closure/conjugate_gradients.hpp"
+#include "common/closure/minimal_residuals.hpp"
 #include "common/scheme/graph/classify_rows.hpp"
 #include "sph/sph_graph.hpp"
 #include "tests/graphs/graph_checks.hpp"
@@ -47,6 +48,34 @@ TEST(ClosureRepair, ByPairsIsAProjection) {
     EXPECT_LE((half.C[p] - closed.C[p]).norm(), 1e-10 * closed.C[p].norm() + 1e-13);
   }
   EXPECT_EQ(closure::repair_closure_pairs(closed, k).iterations, 0);
+}
+
+/// Second differences along a ring, which see no constant, with a right side that has one: what
+/// conjugate gradients take more and more of is left, and nothing else.
+TEST(MinimalResiduals, AreThoseThatNoSolutionHasLess) {
+  constexpr int n = 40;
+  const closure::FieldOperator S = [](const closure::Field& in, closure::Field& out) {
+    for (int a = 0; a < n; ++a)
+      out[a] = 2 * in[a] - in[(a + 1) % n] - in[(a + n - 1) % n];
+  };
+  const closure::FieldOperator halved = [](const closure::Field& in, closure::Field& out) {
+    for (int a = 0; a < n; ++a)
+      out[a] = in[a] / 2;
+  };
+  const Vec3 constant(0.3, -0.1, 0);  // a third component that there is not
+  closure::Field r(n), y;
+  for (int a = 0; a < n; ++a)
+    r[a] = constant + std::sin(0.1 * a * a) * Vec3(1, 2, 0);
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& value : r)
+    mean += value / n;
+  const std::vector<double> unit(n, 1.0);
+  const int steps = closure::minimal_residuals(S, halved, unit, {1e-12, 200, 60}, r, y);
+  EXPECT_LE(steps, 200);
+  closure::Field S_y(n);
+  S(y, S_y);
+  for (int a = 0; a < n; ++a)
+    EXPECT_LE((r[a] - S_y[a] - mean).norm(), 1e-9) << a;
 }
 
 /// With the diagonal alone the steps grow fourfold from one row to the next.
