@@ -174,7 +174,13 @@ scheme::Operators operators_on(const meshes::Mesh& mesh, const Options& options)
       return chosen_on(mesh, options);
     case Stencil::sbp:
       if (meshes::is_undistorted_block(mesh)) return sbp_on_box(mesh, options.order);
-      return sbp_off_boxes(mesh, smooth_blocks(mesh), options);
+      try {
+        return sbp_off_boxes(mesh, smooth_blocks(mesh), options);
+      } catch (const base::InputError& refusal) {
+        throw base::InputError(
+            fmt::format("fvm.stencil = \"sbp\" does not go with this mesh: {}, or use \"edge\"",
+                        refusal.what()));
+      }
     case Stencil::edge:
       return edge_on(mesh, "");
     case Stencil::integral:

@@ -15,8 +15,6 @@ namespace diptych::fvm {
 
 namespace {
 
-const meshes::BlockUse use{"fvm.stencil = \"sbp\"", "fvm.stencil = \"edge\""};
-
 /// Rings of neighbours by which rows reach further where two or three do not do.
 constexpr int most_rings_more = 2;
 /// Neighbours below which a row reaches a ring further, by dimension: a row has 5 or 9 conditions,
@@ -97,7 +95,7 @@ scheme::PairGraph graph_by_distances(const meshes::Mesh& mesh) {
   scheme::PairGraph graph;
   graph.dimension = mesh.dimension;
   graph.X = mesh.nodes;
-  meshes::DualMeasure measure = meshes::quadratic_measure(mesh, use);
+  meshes::DualMeasure measure = meshes::quadratic_measure(mesh);
   graph.Omega = std::move(measure.Omega);
   graph.boundary_area = std::move(measure.boundary_area);
   for (meshes::PatchArea& patch : measure.patches) {

@@ -39,73 +39,69 @@ void set_patches(const Mesh& mesh, const std::vector<FaceArea>& faces, DualMeasu
   }
 }
 
-void require_small(double change, double most, const BlockUse& use) {
+void require_small(double change, double most) {
   if (change <= most) return;
   throw base::InputError(fmt::format(
-      "{}: the mesh is too coarse for operators that sum by parts: volumes or areas of nodes would "
-      "change by {:.2g} of themselves, bound {:.2g}, to agree about moments of cubics; use {}, or "
-      "refine the mesh where it has fewer than four nodes along a line or bends by much from face "
-      "to face",
-      use.asked, change, most, use.instead));
+      "the mesh is too coarse for operators that sum by parts: volumes or areas of nodes would "
+      "change by {:.2g} of themselves, bound {:.2g}, to agree about moments of cubics: refine it "
+      "where it has fewer than four nodes along a line or bends by much from face to face",
+      change, most));
 }
 
-void require_inner_nodes(const std::vector<Vec3>& boundary_area, const BlockUse& use) {
+void require_inner_nodes(const std::vector<Vec3>& boundary_area) {
   const auto n = static_cast<double>(boundary_area.size());
   const auto inside = static_cast<double>(std::count_if(boundary_area.begin(), boundary_area.end(),
                                                         [](const Vec3& A) { return A.isZero(0); }));
   if (inside >= least_inside * n) return;
   throw base::InputError(fmt::format(
-      "{}: {:.2g} of the nodes are inside the body, operators that sum by parts ask for "
-      "{:.2g}: its walls are hardly more than one cell thick; use {}, or refine the mesh",
-      use.asked, inside / n, least_inside, use.instead));
+      "{:.2g} of the nodes are inside the body, operators that sum by parts ask for {:.2g}: its "
+      "walls are hardly more than one cell thick: refine the mesh",
+      inside / n, least_inside));
 }
 
-void require_agreement(double difference,
-                       const std::vector<Vec3>& boundary_area,
-                       const BlockUse& use) {
+void require_agreement(double difference, const std::vector<Vec3>& boundary_area) {
   const auto n_boundary = static_cast<double>(std::count_if(
       boundary_area.begin(), boundary_area.end(), [](const Vec3& A) { return !A.isZero(0); }));
   if (difference <= std::max(most_difference, most_left / n_boundary)) return;
   throw base::InputError(fmt::format(
-      "{}: volumes and areas of this mesh differ by {:.2g} in the moments of cubics, which "
-      "operators that sum by parts do not bear; use {}, or refine the mesh",
-      use.asked, difference, use.instead));
+      "volumes and areas of this mesh differ by {:.2g} in the moments of cubics, which operators "
+      "that sum by parts do not bear: refine the mesh",
+      difference));
 }
 
-void require_positive(const Mesh& mesh, const std::vector<double>& Omega, const BlockUse& use) {
+void require_positive(const Mesh& mesh, const std::vector<double>& Omega) {
   for (size_t a = 0; a < Omega.size(); ++a) {
     if (Omega[a] > 0) continue;
     const Vec3& X = mesh.nodes[a];
     throw base::InputError(fmt::format(
-        "{}: node {} at ({:.6g}, {:.6g}, {:.6g}) would have the volume {:.3g} by a rule "
-        "that is exact for quadratics: the mesh is too coarse or too uneven there; "
-        "refine it, or use {}",
-        use.asked, a, X[0], X[1], X[2], Omega[a], use.instead));
+        "node {} at ({:.6g}, {:.6g}, {:.6g}) would have the volume {:.3g} by a rule that is exact "
+        "for quadratics: the mesh is too coarse or too uneven there; refine it",
+        a, X[0], X[1], X[2], Omega[a]));
   }
 }
 
 }  // namespace
 
-DualMeasure quadratic_measure(const Mesh& mesh, const BlockUse& use) {
+DualMeasure quadratic_measure(const Mesh& mesh) {
   DualMeasure measure = dual_measure(mesh, Quadrature::exact);  // and its checks of the mesh
   const Surface surface(mesh);
   std::vector<FaceArea> faces = side_areas(mesh, surface, Faces::plane);
   measure.boundary_area = areas_of_nodes(faces, mesh.nodes.size());
   const bool agrees =
       moment_difference_of_facets(mesh, surface, measure.boundary_area) <= most_difference;
-  if (!agrees) require_inner_nodes(measure.boundary_area, use);
+  if (!agrees) require_inner_nodes(measure.boundary_area);
   const bool is_curved = !agrees && surface.has_curved_faces();
   if (is_curved) faces = side_areas(mesh, surface, Faces::smooth);
   measure.Omega = quadratic_volumes(mesh, measure.Omega, is_curved ? &surface : nullptr);
-  require_positive(mesh, measure.Omega, use);
+  require_positive(mesh, measure.Omega);
   // plane sides agree, too, where their nodes tell cubics apart
   if (!agrees || moment_difference(mesh, measure.Omega, measure.boundary_area) > most_difference) {
     const double most = most_change[is_curved ? 0 : 1];
-    require_small(balance_moments(mesh, surface, most, faces, measure.Omega), most, use);
+    require_small(balance_moments(mesh, surface, most, faces, measure.Omega), most);
     measure.boundary_area = areas_of_nodes(faces, mesh.nodes.size());
   }
   require_agreement(moment_difference(mesh, measure.Omega, measure.boundary_area),
-                    measure.boundary_area, use);
+                    measure.boundary_area);
   set_patches(mesh, faces, measure);
   return measure;
 }

@@ -6,14 +6,12 @@
 /// Source: notes 4.5. Test: tests/graphs/quadratic_measure_test.cpp
 
 #include "meshes/dual_measure.hpp"
-#include "meshes/structured_block.hpp"
 
 namespace diptych::meshes {
 
-/// @param  use  who asks, and what to use instead, for messages
 /// @pre    mesh.boundary_faces are filled and outward
 /// @throws base::InputError where sides have too few nodes or are too coarse where they are curved,
 ///         and where a volume is not positive
-DualMeasure quadratic_measure(const Mesh& mesh, const BlockUse& use = {});
+DualMeasure quadratic_measure(const Mesh& mesh);
 
 }  // namespace diptych::meshes

@@ -24,7 +24,6 @@ namespace diptych::sph {
 
 namespace {
 
-const meshes::BlockUse sums_use{"sph.gradient = \"sbp\"", "sph.gradient = \"corrected\""};
 constexpr double least_kappa = 0.5, greatest_kappa = 4;
 
 enum class Gradient { automatic, corrected, sbp };
@@ -173,7 +172,7 @@ scheme::PairGraph round_graph_of(const meshes::Mesh& mesh,
   std::vector<double> h = smoothing_lengths(mesh, by_vertices.Omega, options.kappa);
   scheme::PairGraph graph;
   if (sums_by_parts) {
-    const meshes::DualMeasure by_quadratics = meshes::quadratic_measure(mesh, sums_use);
+    const meshes::DualMeasure by_quadratics = meshes::quadratic_measure(mesh);
     graph = closure::summing_by_parts(
         by_vertices.Omega, most_times,
         [&] {
@@ -272,7 +271,14 @@ scheme::Operators operators_on(const meshes::Mesh& mesh, const Options& options)
     case Gradient::corrected:
       return corrected_on(mesh, options, "");
     case Gradient::sbp:
-      return sbp_on(mesh, options);
+      if (meshes::is_undistorted_block(mesh)) return sbp_on(mesh, options);
+      try {
+        return sbp_on(mesh, options);
+      } catch (const base::InputError& refusal) {
+        throw base::InputError(fmt::format(
+            "sph.gradient = \"sbp\" does not go with these nodes: {}, or use \"corrected\"",
+            refusal.what()));
+      }
   }
   __builtin_unreachable();
 }

@@ -124,6 +124,7 @@ CaseRun::CaseRun(const cases::Case& setup, const RunOptions& options)
     if (part == ScenePart::graph) describe_graph(scene, result_.summary);
   });
   identify();
+  result_.summary.notices = scene_->notices;
   for (const std::string& notice : scene_->notices)
     tell(notice);
   observers_.emplace(setup, options, *scene_);

@@ -21,11 +21,6 @@ namespace {
 /// with the gradients of second order that stand in else (notes 4.5).
 constexpr double most_residual = 0.3;
 
-/// For messages.
-constexpr const char* what_to_do =
-    "with SPH raise sph.kappa, or use sph.gradient = \"corrected\"; with finite volumes use "
-    "fvm.stencil = \"edge\"";
-
 /// Nodes whose adjoint misses its conditions.
 template <int D>
 std::vector<std::int32_t> open_nodes(const Field& r, const std::vector<double>& unit) {
@@ -99,14 +94,14 @@ void require_met(const scheme::PairGraph& graph, const SummationByParts& result)
     const Vec3& X = graph.X[a];
     throw base::InputError(fmt::format(
         "node {} at ({:.6g}, {:.6g}, {:.6g}) has {} neighbours that do not determine a quadratic, "
-        "which operators that sum by parts ask for: refine the mesh there; {}",
-        a, X[0], X[1], X[2], graph.row[a + 1] - graph.row[a], what_to_do));
+        "which operators that sum by parts ask for: refine the mesh there",
+        a, X[0], X[1], X[2], graph.row[a + 1] - graph.row[a]));
   }
   if (result.open.empty()) return;
   throw base::InputError(fmt::format(
       "operators that sum by parts: after {} iterations the adjoint misses its conditions by "
-      "{:.2g} of an area; rows have {} neighbours in the mean: {}",
-      result.iterations, result.after, graph.n_pairs() / graph.n_nodes(), what_to_do));
+      "{:.2g} of an area; rows have {} neighbours in the mean: refine the mesh",
+      result.iterations, result.after, graph.n_pairs() / graph.n_nodes()));
 }
 
 /// V_a^(1/d)/Omega_a 1/2 sum_b |C_ab|, or |C_ba| where that is more: in space 3.5 on a lattice.
@@ -180,11 +175,10 @@ void require_no_steep_rows(const scheme::PairGraph& graph, const std::vector<dou
   const Vec3& X = graph.X[rows[0]];
   throw base::InputError(fmt::format(
       "operators that sum by parts: derivatives or forces at {} of {} nodes, such as {} at "
-      "({:.6g}, {:.6g}, "
-      "{:.6g}), have weights {:.0f} times those of a lattice, and need steps as much smaller: the "
-      "mesh is too coarse or too uneven there; refine it; {}",
+      "({:.6g}, {:.6g}, {:.6g}), have weights {:.0f} times those of a lattice, and need steps as "
+      "much smaller: the mesh is too coarse or too uneven there; refine it",
       rows.size(), graph.n_nodes(), rows[0], X[0], X[1], X[2],
-      slopes_of(graph, V)[rows[0]] / of_lattice, what_to_do));
+      slopes_of(graph, V)[rows[0]] / of_lattice));
 }
 
 }  // namespace diptych::closure

@@ -9,6 +9,7 @@
 #include "common/base/text.hpp"
 #include "common/io/json_text.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <limits>
 
@@ -132,6 +133,14 @@ class Section {
       X[i] = value[i].get<double>();
     }
     return X;
+  }
+
+  std::vector<std::string> texts(const char* key) const {
+    const Json& value = at(key);
+    const auto is_text = [](const Json& entry) { return entry.is_string(); };
+    if (!value.is_array() || !std::all_of(value.begin(), value.end(), is_text))
+      fail(full(key), "must be a list of texts");
+    return value.get<std::vector<std::string>>();
   }
 
   bool has(const std::string& key) const { return object_.contains(key); }
@@ -387,6 +396,7 @@ std::string to_json(const RunSummary& summary) {
   };
   if (!summary.references.empty()) file["references"] = references_json(summary.references);
   if (!summary.variant.empty()) file["variant"] = summary.variant;
+  if (!summary.notices.empty()) file["notices"] = summary.notices;
   if (!summary.unmet.empty()) file["unmet"] = summary.unmet;
   if (summary.failure) file["failure"] = failure_json(*summary.failure);
   // Texts come from the user's case: bytes that are not UTF-8 become U+FFFD instead of an
@@ -415,6 +425,7 @@ RunSummary summary_from_json(const std::string& text, const std::string& path) {
   summary.provenance = read_provenance(file.section("provenance"));
   if (file.has("references")) summary.references = read_references(file.section("references"));
   if (file.has("variant")) summary.variant = file.text("variant");
+  if (file.has("notices")) summary.notices = file.texts("notices");
   if (file.has("unmet")) summary.unmet = file.text("unmet");
   if (file.has("failure")) summary.failure = read_failure(file.section("failure"));
   return summary;

@@ -109,7 +109,8 @@ struct RunSummary {
   double spacing = 0;  ///< m, Omega^(1/d) of the mean interior node
   double mean_neighbours = 0;
   double graph_closure = 0, graph_linear_exactness = 0;
-  std::string graph_operators;  ///< on which lines which order (fvm.stencil = "sbp"), or empty
+  std::string graph_operators;       ///< on which lines which order (fvm.stencil = "sbp"), or empty
+  std::vector<std::string> notices;  ///< what set-up had to say of this scene
   std::map<std::string, ErrorNorms>
       errors;                              ///< velocity, displacement, deformation_gradient, stress
   std::map<std::string, double> measures;  ///< asked for by who started the run, at its end

@@ -1,5 +1,5 @@
-/// Every run of the study: what it took, what it gave. Two tables, since one would be wider than
-/// most screens.
+/// Every run of the study: what it took, what it gave, which operators it had. Three tables, since
+/// one would be wider than most screens.
 
 #include "postprocess/report/html.hpp"
 #include "postprocess/report/orders.hpp"
@@ -23,6 +23,23 @@ std::string cost_row(const RunSummary& run) {
          cell(number_html(static_cast<double>(run.peak_rss_bytes) / 1e6)) + "</tr>\n";
 }
 
+/// Cells of whole sentences, which may break.
+std::string text_cell(const std::string& content) {
+  return "<td class=\"words\">" + content + "</td>";
+}
+
+std::string text_heading_cell(const std::string& content) {
+  return "<th scope=\"col\" class=\"words\">" + content + "</th>";
+}
+
+std::string operators_row(const RunSummary& run) {
+  std::string notices;
+  for (const std::string& notice : run.notices)
+    notices += (notices.empty() ? "" : "<br>") + escaped(notice);
+  return "<tr>" + run_head(run) + text_cell(escaped(run.graph_operators)) + text_cell(notices) +
+         "</tr>\n";
+}
+
 std::string result_row(const RunSummary& run, const std::vector<std::string>& fields) {
   std::string row = "<tr>" + run_head(run);
   for (const std::string& field : fields) {
@@ -40,7 +57,9 @@ std::string result_row(const RunSummary& run, const std::vector<std::string>& fi
 
 std::string runs_section(const StudyReport& study) {
   const std::vector<std::string> fields = fields_of(study.runs);
-  std::string cost_head = heading_cell("run"), result_head = cost_head, costs, results;
+  std::string cost_head = heading_cell("run"), result_head = cost_head, costs, results, operators;
+  const std::string operators_head =
+      cost_head + text_heading_cell("operators") + text_heading_cell("what was said of them");
   for (const char* name : {"nodes", "pairs", "steps", "time step [s]", "loop [s]", "wall [s]",
                            "ns / node / stage", "memory [MB]"}) {
     cost_head += heading_cell(name);
@@ -54,13 +73,15 @@ std::string runs_section(const StudyReport& study) {
     for (const RunSummary& run : runs_of(study.runs, column)) {
       costs += cost_row(run);
       results += result_row(run, fields);
+      operators += operators_row(run);
     }
   }
   return section("runs", "Every run",
                  "<h3>What it took</h3>\n" + table(cost_head, costs) +
                      "<p class=\"hint\">Memory: the most that the run had of the machine at any "
                      "instant, from reading its mesh to its end.</p>\n<h3>What it gave</h3>\n" +
-                     table(result_head, results));
+                     table(result_head, results) + "<h3>What it ran on</h3>\n" +
+                     table(operators_head, operators));
 }
 
 }  // namespace diptych::report
