@@ -64,7 +64,7 @@ std::vector<std::int32_t> surrounding(std::span<const std::int32_t> corners,
 /// polynomials as `exact` does; where nodes are too few, or would change by half of their share,
 /// those of a lower degree: the volume or the area stays at least.
 /// @param at     [nodes] places from the middle, over h
-/// @param share  [nodes] volume or area by that rule, in a unit that is about the cell's or the face's
+/// @param share  [nodes] volume or area by that rule, in a unit of the size of the cell or the face
 /// @param unit   that unit, in that of w
 void meet_moments(const std::vector<Vec3>& at,
                   const std::vector<double>& share,

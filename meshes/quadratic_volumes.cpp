@@ -26,7 +26,7 @@ constexpr size_t nodes_of_cell[] = {20, 64};
 /// Cells whose weights are kept at a time.
 constexpr std::int64_t cells_at_once = 8192;
 constexpr int degree = 2;
-/// Part of its share that a node must keep: corners of boxes with three nodes along a line have 0.3.
+/// Part of its share that a node must keep: corners of boxes with three nodes a line have 0.3.
 constexpr double least_part = 0.2;
 /// Where a node would keep less, how much less ready to change it becomes, and how often.
 constexpr double less = 0.3;
