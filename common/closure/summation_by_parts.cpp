@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace diptych::closure {
 
@@ -123,6 +124,30 @@ std::vector<double> slopes_of(const scheme::PairGraph& graph, const std::vector<
   return slopes;
 }
 
+/// Slopes that are refused, in the plane and in space.
+double steep(const scheme::PairGraph& graph) {
+  return graph.dimension == 2 ? 10 : 12;
+}
+
+/// Slopes above which rows reach further, as long as the largest falls by a fiftieth each time.
+double proportionate(const scheme::PairGraph& graph) {
+  return graph.dimension == 2 ? 6 : 10;
+}
+
+constexpr double worth_it = 0.98;
+
+/// The worst first.
+std::vector<std::int32_t> rows_above(double bound, const std::vector<double>& slopes) {
+  std::vector<std::int32_t> rows;
+  for (size_t a = 0; a < slopes.size(); ++a) {
+    if (slopes[a] > bound) rows.push_back(static_cast<std::int32_t>(a));
+  }
+  std::sort(rows.begin(), rows.end(), [&](std::int32_t a, std::int32_t b) {
+    return slopes[a] != slopes[b] ? slopes[a] > slopes[b] : a < b;
+  });
+  return rows;
+}
+
 }  // namespace
 
 SummationByParts make_sum_by_parts(scheme::PairGraph& graph,
@@ -138,35 +163,39 @@ scheme::PairGraph summing_by_parts(const std::vector<double>& V,
                                    int most_times,
                                    const std::function<WeightedGraph()>& make,
                                    const Widen& widen) {
+  scheme::PairGraph borne;  // the best so far whose rows are not steep
+  double slope_of_borne = std::numeric_limits<double>::infinity();
+  const auto is_any_borne = [&] { return !borne.X.empty(); };
   for (int times = 0;; ++times) {
     WeightedGraph made = make();
     scheme::PairGraph& graph = made.graph;
     const bool is_last = times == most_times;
     const SummationByParts result = solved(graph, made.k, {});
-    if (is_last) require_met(graph, result);
     std::vector<std::int32_t> rows =
         result.undetermined.empty() ? result.open : result.undetermined;
-    if (rows.empty()) {
+    if (!rows.empty()) {
+      if (is_any_borne()) return borne;
+      if (is_last) require_met(graph, result);
+    } else {
       repair_closure_pairs(graph, made.k);
+      const std::vector<double> slopes = slopes_of(graph, V);
+      const double slope = *std::max_element(slopes.begin(), slopes.end());
+      if (slope <= proportionate(graph)) return std::move(graph);
+      if (is_any_borne() && !(slope < worth_it * slope_of_borne)) return borne;
       if (is_last) require_no_steep_rows(graph, V);
-      rows = steep_rows(graph, V);
+      if (is_last) return std::move(graph);
+      rows = rows_above(proportionate(graph), slopes);
+      if (slope <= steep(graph)) {
+        borne = graph;
+        slope_of_borne = slope;
+      }
     }
-    if (rows.empty()) return std::move(graph);
     widen(rows, graph);
   }
 }
 
 std::vector<std::int32_t> steep_rows(const scheme::PairGraph& graph, const std::vector<double>& V) {
-  const double steep = graph.dimension == 2 ? 10 : 12;
-  const std::vector<double> slopes = slopes_of(graph, V);
-  std::vector<std::int32_t> rows;
-  for (std::int32_t a = 0; a < graph.n_nodes(); ++a) {
-    if (slopes[a] > steep) rows.push_back(a);
-  }
-  std::sort(rows.begin(), rows.end(), [&](std::int32_t a, std::int32_t b) {
-    return slopes[a] != slopes[b] ? slopes[a] > slopes[b] : a < b;
-  });
-  return rows;
+  return rows_above(steep(graph), slopes_of(graph, V));
 }
 
 void require_no_steep_rows(const scheme::PairGraph& graph, const std::vector<double>& V) {

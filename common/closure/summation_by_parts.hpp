@@ -63,11 +63,12 @@ using Widen =
     std::function<void(const std::vector<std::int32_t>& rows, const scheme::PairGraph& graph)>;
 
 /// A graph that sums by parts, with rows that reach further where neighbours do not determine a
-/// quadratic, where the conditions are not met, or where rows are steep: a few nodes of a body that
-/// stand badly are no reason for it to do without.
+/// quadratic, where the conditions are not met, or where rows or columns have 10 (in the plane 6),
+/// as long as that lessens the largest: a few nodes of a body that stand badly are no reason for it
+/// to do without, or to take several times the steps.
 /// @param V           [n_nodes] volumes of the nodes, shares of their cells
 /// @param most_times  that rows are widened
-/// @throws base::InputError where it still fails then
+/// @throws base::InputError where conditions are not met then, or rows are steep
 scheme::PairGraph summing_by_parts(const std::vector<double>& V,
                                    int most_times,
                                    const std::function<WeightedGraph()>& make,
