@@ -230,13 +230,13 @@ class Balance {
   Vector right_;
 };
 
-/// Of the surface, over the points of each group.
-std::vector<Vec3> areas_of_groups(const Mesh& mesh, const Surface& surface) {
+/// Of the surface, or of its facets.
+std::vector<Vec3> areas_of_groups(const Mesh& mesh, const Surface& surface, Faces kind) {
   std::vector<Vec3> areas;
   for (const BoundaryGroup& group : mesh.boundary_groups) {
     Vec3 sum = Vec3::Zero();
     for (const std::int32_t f : group.faces) {
-      for (const SurfacePoint& point : surface.points(f, surface.has_curved_faces() ? 1 : 0))
+      for (const SurfacePoint& point : surface.points(f, kind == Faces::smooth ? 1 : 0))
         sum += point.area;
     }
     areas.push_back(sum);
@@ -245,6 +245,26 @@ std::vector<Vec3> areas_of_groups(const Mesh& mesh, const Surface& surface) {
 }
 
 }  // namespace
+
+double group_difference(const Mesh& mesh,
+                        const Surface& surface,
+                        Faces kind,
+                        const std::vector<FaceArea>& faces) {
+  const std::vector<Vec3> exact = areas_of_groups(mesh, surface, kind);
+  double largest = 0;
+  for (size_t g = 0; g < exact.size(); ++g) {
+    Vec3 sum = Vec3::Zero();
+    double size = 0;
+    for (const std::int32_t f : mesh.boundary_groups[g].faces) {
+      for (const Vec3& A : faces[f].area) {
+        sum += A;
+        size += A.norm();
+      }
+    }
+    largest = larger(largest, (sum - exact[g]).norm() / size);
+  }
+  return largest;
+}
 
 double moment_difference(const Mesh& mesh,
                          const std::vector<double>& Omega,
@@ -267,17 +287,19 @@ double moment_difference_of_facets(const Mesh& mesh,
 
 double balance_moments(const Mesh& mesh,
                        const Surface& surface,
+                       Faces kind,
                        double most,
                        std::vector<FaceArea>& faces,
                        std::vector<double>& Omega) {
-  const std::vector<Vec3> group_areas = areas_of_groups(mesh, surface);
+  const std::vector<Vec3> group_areas = areas_of_groups(mesh, surface, kind);
   double largest = 0;
   // what is cut off of a degree leaves lower ones missing, too, and without linear fields no
   // operator closes
   for (int degree = most_degree; degree > 0; --degree) {
     const Moments moments(mesh, degree);
     if (difference(mesh, moments, moments.of_volumes(mesh, Omega),
-                   areas_of_nodes(faces, Omega.size())) <= rounding)
+                   areas_of_nodes(faces, Omega.size())) <= rounding &&
+        group_difference(mesh, surface, kind, faces) <= rounding)
       continue;
     const Balance balance(mesh, surface, degree, group_areas, faces, Omega);
     const std::vector<FaceArea> areas = faces;

@@ -59,6 +59,15 @@ void require_inner_nodes(const std::vector<Vec3>& boundary_area) {
       inside / n, least_inside));
 }
 
+/// Loads on them would not be whole.
+void require_whole_groups(double difference) {
+  if (difference <= most_difference) return;
+  throw base::InputError(fmt::format(
+      "areas of boundary groups would change by {:.2g} of themselves for operators that sum by "
+      "parts: a group has too few faces: refine the mesh there",
+      difference));
+}
+
 void require_agreement(double difference, const std::vector<Vec3>& boundary_area) {
   const auto n_boundary = static_cast<double>(std::count_if(
       boundary_area.begin(), boundary_area.end(), [](const Vec3& A) { return !A.isZero(0); }));
@@ -91,13 +100,15 @@ DualMeasure quadratic_measure(const Mesh& mesh) {
       moment_difference_of_facets(mesh, surface, measure.boundary_area) <= most_difference;
   if (!agrees) require_inner_nodes(measure.boundary_area);
   const bool is_curved = !agrees && surface.has_curved_faces();
-  if (is_curved) faces = side_areas(mesh, surface, Faces::smooth);
+  const Faces kind = is_curved ? Faces::smooth : Faces::plane;
+  if (is_curved) faces = side_areas(mesh, surface, kind);
   measure.Omega = quadratic_volumes(mesh, measure.Omega, is_curved ? &surface : nullptr);
   require_positive(mesh, measure.Omega);
   // plane sides agree, too, where their nodes tell cubics apart
   if (!agrees || moment_difference(mesh, measure.Omega, measure.boundary_area) > most_difference) {
     const double most = most_change[is_curved ? 0 : 1];
-    require_small(balance_moments(mesh, surface, most, faces, measure.Omega), most);
+    require_small(balance_moments(mesh, surface, kind, most, faces, measure.Omega), most);
+    require_whole_groups(group_difference(mesh, surface, kind, faces));
     measure.boundary_area = areas_of_nodes(faces, mesh.nodes.size());
   }
   require_agreement(moment_difference(mesh, measure.Omega, measure.boundary_area),

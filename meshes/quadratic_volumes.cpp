@@ -29,7 +29,7 @@ constexpr int degree = 2;
 /// Part of its share that a node must keep: corners of boxes with three nodes a line have 0.3.
 constexpr double least_part = 0.2;
 /// Where a node would keep less, how much less ready to change it becomes, and how often.
-constexpr double less = 0.3;
+constexpr double readiness_left = 0.3;
 constexpr int most_times = 8;
 
 struct Weights {
@@ -92,7 +92,7 @@ class Volumes {
   }
 
   /// Lets other nodes change in place of this one.
-  void change_less(size_t a) { readiness_[a] *= less; }
+  void change_less(size_t a) { readiness_[a] *= readiness_left; }
 
  private:
   Weights of_cell(std::int64_t c) const {

@@ -152,12 +152,12 @@ struct Rows {
 /// force += s sum_b k_ab (u_b - u_a) of nodes [begin, end): what a gives to b it takes from b, to
 /// the last bit.  @param u_of  displacement of a node
 template <class Displacement>
-DIPTYCH_INLINE void add_rows(const Rows& rows,
-                             const Displacement& u_of,
-                             double s,
-                             std::int64_t begin,
-                             std::int64_t end,
-                             double* force) {
+DIPTYCH_INLINE void add_rows_of(const Rows& rows,
+                                const Displacement& u_of,
+                                double s,
+                                std::int64_t begin,
+                                std::int64_t end,
+                                double* force) {
   for (std::int64_t a = begin; a < end; ++a) {
     const Four own = u_of(a);
     Four sum{};
@@ -168,32 +168,24 @@ DIPTYCH_INLINE void add_rows(const Rows& rows,
   }
 }
 
-DIPTYCH_CLONES void add_rows_of(const Rows& rows,
-                                const double* u,
-                                double s,
-                                std::int64_t begin,
-                                std::int64_t end,
-                                double* force) {
-  add_rows(
-      rows,
-      [u](std::int64_t a) DIPTYCH_INLINE_LAMBDA { return algebra::load_four(u + stride * a); }, s,
-      begin, end, force);
-}
-
-/// Of u = x - X.
-DIPTYCH_CLONES void add_rows_between(const Rows& rows,
-                                     const double* x,
-                                     const double* X,
-                                     double s,
-                                     std::int64_t begin,
-                                     std::int64_t end,
-                                     double* force) {
-  add_rows(
-      rows,
-      [x, X](std::int64_t a) DIPTYCH_INLINE_LAMBDA {
-        return algebra::load_four(x + stride * a) - algebra::load_four(X + stride * a);
-      },
-      s, begin, end, force);
+/// Of displacements u, or, with reference positions, of u - X.
+DIPTYCH_CLONES void add_rows(const Rows& rows,
+                             const double* u,
+                             const double* X,
+                             double s,
+                             std::int64_t begin,
+                             std::int64_t end,
+                             double* force) {
+  const auto given = [u](std::int64_t a)
+                         DIPTYCH_INLINE_LAMBDA { return algebra::load_four(u + stride * a); };
+  const auto between = [u, X](std::int64_t a) DIPTYCH_INLINE_LAMBDA {
+    return algebra::load_four(u + stride * a) - algebra::load_four(X + stride * a);
+  };
+  if (X == nullptr) {
+    add_rows_of(rows, given, s, begin, end, force);
+  } else {
+    add_rows_of(rows, between, s, begin, end, force);
+  }
 }
 
 }  // namespace
@@ -260,14 +252,14 @@ std::int64_t CellLaplacian::bytes() const {
 
 void CellLaplacian::add_linear_forces(
     const Array& u, double s, std::int64_t begin, std::int64_t end, Array& force) const {
-  add_rows_of({row_.data(), neighbour_.data(), weight_.data()}, u.data(), s, begin, end,
-              force.data());
+  add_rows({row_.data(), neighbour_.data(), weight_.data()}, u.data(), nullptr, s, begin, end,
+           force.data());
 }
 
 void CellLaplacian::add_forces(
     const Array& x, double s, std::int64_t begin, std::int64_t end, Array& force) const {
-  add_rows_between({row_.data(), neighbour_.data(), weight_.data()}, x.data(), at_rest_.data(), s,
-                   begin, end, force.data());
+  add_rows({row_.data(), neighbour_.data(), weight_.data()}, x.data(), at_rest_.data(), s, begin,
+           end, force.data());
 }
 
 double CellLaplacian::energy(const Array& x, double s, std::int64_t begin, std::int64_t end) const {
