@@ -64,7 +64,7 @@ void find_pairs(const meshes::Mesh& mesh, Quadrature quadrature, scheme::PairGra
 std::vector<double> add_cells(const meshes::Mesh& mesh,
                               Quadrature quadrature,
                               scheme::PairGraph& graph) {
-  graph.C.assign(graph.neighbour.size(), Vec3::Zero());
+  std::vector<Vec3> C(graph.neighbour.size(), Vec3::Zero());
   std::vector<double> volume(static_cast<size_t>(mesh.n_nodes()), 0.0);
   const auto pair = [&](std::int32_t a, std::int32_t b) {
     const auto begin = graph.neighbour.begin();
@@ -93,10 +93,11 @@ std::vector<double> add_cells(const meshes::Mesh& mesh,
     for (int a = 0; a < cell.n_nodes; ++a) {
       for (int b = 0; b < cell.n_nodes; ++b) {
         if (a == b || local[a][b].isZero(0)) continue;
-        graph.C[pair(nodes[a], nodes[b])] += local[a][b];
+        C[pair(nodes[a], nodes[b])] += local[a][b];
       }
     }
   }
+  graph.C = algebra::SharedVectors(std::move(C));
   return volume;
 }
 

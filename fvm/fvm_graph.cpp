@@ -48,15 +48,16 @@ scheme::PairGraph graph_of_cells(const meshes::Mesh& mesh, meshes::Quadrature qu
   link_reverse_pairs(graph);
   const std::vector<double> volume = add_cells(mesh, quadrature, graph);
   // The vertex volumes are scaled to the exact total (dual_measure.hpp); so is each row.
+  std::vector<algebra::Vec3>& C = graph.C.each();
   for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
     const double factor = graph.Omega[a] / volume[a];
     for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
-      graph.C[p] *= factor;
+      C[p] *= factor;
   }
   if (quadrature == meshes::Quadrature::vertex) {
     std::vector<double> k(graph.C.size());
     for (size_t p = 0; p < k.size(); ++p) {
-      k[p] = 0.5 * (graph.C[p].norm() + graph.C[graph.reverse[p]].norm());
+      k[p] = 0.5 * (graph.C[p].norm() + graph.C[graph.reverse(p)].norm());
     }
     closure::repair_closure_pairs(graph, k);
   }

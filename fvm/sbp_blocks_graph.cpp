@@ -42,20 +42,22 @@ void add_pairs(const BlockMetrics& metrics, Rows& rows) {
 /// Adds up entries with the same neighbour, which blocks side by side have along what they share.
 void finish_rows(Rows& rows, scheme::PairGraph& graph) {
   graph.row.assign(1, 0);
+  std::vector<algebra::Vec3> areas;
   for (auto& row : rows) {
     std::stable_sort(row.begin(), row.end(),
                      [](const Entry& p, const Entry& q) { return p.node < q.node; });
     for (const auto& [b, C] : row) {
       if (graph.n_pairs() > graph.row.back() && graph.neighbour.back() == b) {
-        graph.C.back() += C;
+        areas.back() += C;
       } else {
         graph.neighbour.push_back(b);
-        graph.C.push_back(C);
+        areas.push_back(C);
       }
     }
     graph.row.push_back(graph.n_pairs());
     row = {};
   }
+  graph.C = algebra::SharedVectors(std::move(areas));
 }
 
 constexpr int highest_order = 4;
@@ -109,7 +111,7 @@ scheme::PairGraph sbp_blocks_graph(const meshes::Mesh& mesh,
   link_reverse_pairs(graph);
   std::vector<double> k(graph.C.size());
   for (size_t p = 0; p < k.size(); ++p)
-    k[p] = 0.5 * (graph.C[p].norm() + graph.C[graph.reverse[p]].norm());
+    k[p] = 0.5 * (graph.C[p].norm() + graph.C[graph.reverse(p)].norm());
   closure::repair_closure_pairs(graph, k);
   set_classes(graph);
   validate(graph);

@@ -55,7 +55,7 @@ void set_row_lengths(const meshes::StructuredBlock& block,
       graph.row[a + 1] += lengths[d][block.place[a][d]];
   }
   graph.neighbour.resize(graph.row.back());
-  graph.C.resize(graph.row.back());
+  graph.C = algebra::SharedVectors(std::vector<Vec3>(graph.neighbour.size()));
 }
 
 using Row = std::vector<std::pair<std::int32_t, Vec3>>;
@@ -65,7 +65,8 @@ void set_row(const meshes::BlockMeasure& measure,
              const std::vector<closure::SbpOperator>& along,
              std::int64_t a,
              Row& row,
-             scheme::PairGraph& graph) {
+             scheme::PairGraph& graph,
+             std::vector<Vec3>& C) {
   const meshes::StructuredBlock& block = measure.block();
   row.clear();
   for (int d = 0; d < block.dimension; ++d) {
@@ -79,7 +80,7 @@ void set_row(const meshes::BlockMeasure& measure,
   std::sort(row.begin(), row.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
   for (size_t k = 0; k < row.size(); ++k) {
     graph.neighbour[graph.row[a] + k] = row[k].first;
-    graph.C[graph.row[a] + k] = row[k].second;
+    C[graph.row[a] + k] = row[k].second;
   }
 }
 
@@ -96,12 +97,13 @@ scheme::PairGraph sbp_graph(const Mesh& mesh, int order) {
   graph.Omega.resize(graph.X.size());
   graph.boundary_area.resize(graph.X.size());
   set_row_lengths(measure.block(), along, graph);
+  std::vector<Vec3>& C = graph.C.each();
   parallel::for_chunks(graph.n_nodes(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
     Row row;
     for (std::int64_t a = begin; a < end; ++a) {
       graph.Omega[a] = measure.volume(a);
       graph.boundary_area[a] = measure.boundary_area(a);
-      set_row(measure, along, a, row, graph);
+      set_row(measure, along, a, row, graph, C);
     }
   });
   for (const meshes::BoundaryGroup& group : mesh.boundary_groups) {

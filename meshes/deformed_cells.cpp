@@ -117,10 +117,6 @@ DeformedCells::DeformedCells(const Mesh& mesh)
   });
 }
 
-DeformedCells::Least DeformedCells::least(std::span<const Vec3> u) const {
-  return outlook(u, {}, 0).now;
-}
-
 DeformedCells::Outlook DeformedCells::outlook(std::span<const Vec3> u,
                                               std::span<const Vec3> v,
                                               double dt) const {

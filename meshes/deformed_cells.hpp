@@ -28,16 +28,14 @@ class DeformedCells {
     std::int64_t n_inverted = 0;  ///< cells with a ratio <= 0
     std::int64_t cell = 0;        ///< that with the least ratio, the first one of NaN
   };
-  /// @param u  [n_nodes] displacements, m
-  Least least(std::span<const Vec3> u) const;
-
   struct Outlook {
     Least now;
     double steps_left = 0;  ///< least J/(J - J of the next step); infinite where none gets smaller
   };
   /// And in how many steps the first cell would come to nothing if each lost in all of them what it
   /// loses in the next one.
-  /// @param v  [n_nodes] velocities, m/s  @param dt  s
+  /// @param u  [n_nodes] displacements, m  @param v  [n_nodes] velocities, m/s; may be empty
+  /// @param dt  s
   Outlook outlook(std::span<const Vec3> u, std::span<const Vec3> v, double dt) const;
 
  private:

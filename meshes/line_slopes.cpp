@@ -108,13 +108,50 @@ std::vector<SlopeRow> slopes_of_line(const std::vector<double>& area) {
   return rows;
 }
 
+namespace {
+
+/// Slopes of the nodes of lines with the same areas, whose weights stand once for each direction.
+class LineRows {
+ public:
+  /// One pair of a node of a line.
+  struct Pair {
+    int place;
+    std::uint32_t weight;  ///< among those of all lines
+  };
+
+  explicit LineRows(std::vector<SlopeRow> rows) : rows_(std::move(rows)) {}
+
+  /// Puts the weights of direction d behind the others, unless they are there already.
+  void add_weights(int d, const Vec3& dual, std::vector<Vec3>& weights) {
+    auto& along = along_[static_cast<size_t>(d)];
+    if (!along.empty()) return;
+    for (const SlopeRow& row : rows_) {
+      along.emplace_back();
+      for (const auto& [place, weight] : row) {
+        along.back().push_back({place, static_cast<std::uint32_t>(weights.size())});
+        weights.emplace_back(weight * dual);
+      }
+    }
+  }
+  const std::vector<Pair>& row(int d, int i) const {
+    return along_[static_cast<size_t>(d)][static_cast<size_t>(i)];
+  }
+
+ private:
+  std::vector<SlopeRow> rows_;
+  std::array<std::vector<std::vector<Pair>>, 3> along_;  ///< [direction][node of the line]
+};
+
+}  // namespace
+
 LineSlopes line_slopes(const StructuredBlock& block,
                        const Mat3& edges,
                        const std::function<double(std::int32_t, std::int32_t)>& area) {
-  const Mat3 dual = edges.inverse().transpose();  // columns g_d with g_d . e_k = delta_dk
-  std::map<std::vector<std::int64_t>, std::vector<SlopeRow>> known;  // lines with such areas
-  std::vector<std::array<const SlopeRow*, 3>> of_node(block.place.size(),
-                                                      {nullptr, nullptr, nullptr});
+  const Mat3 dual = edges.inverse().transpose();        // columns g_d with g_d . e_k = delta_dk
+  std::map<std::vector<std::int64_t>, LineRows> known;  // lines with such areas
+  using Row = std::vector<LineRows::Pair>;
+  std::vector<std::array<const Row*, 3>> of_node(block.place.size(), {nullptr, nullptr, nullptr});
+  std::vector<Vec3> weights;
   for (int d = 0; d < block.dimension; ++d) {
     const int n = block.n_nodes[d];
     for (const auto& place : block.place) {
@@ -133,10 +170,11 @@ LineSlopes line_slopes(const StructuredBlock& block,
         areas[static_cast<size_t>(k)] *= k == middle ? 1 : ratio;
         key.push_back(std::llround(ratio / same));
       }
-      auto [found, is_new] = known.try_emplace(key);
-      if (is_new) found->second = slopes_of_line(areas);
+      auto found = known.find(key);
+      if (found == known.end()) found = known.emplace(key, LineRows(slopes_of_line(areas))).first;
+      found->second.add_weights(d, dual.col(d), weights);
       for (int i = 0; i < n; ++i)
-        of_node[static_cast<size_t>(node(i))][d] = &found->second[static_cast<size_t>(i)];
+        of_node[static_cast<size_t>(node(i))][d] = &found->second.row(d, i);
     }
   }
   LineSlopes slopes;
@@ -144,14 +182,14 @@ LineSlopes line_slopes(const StructuredBlock& block,
   slopes.row.push_back(0);
   for (const auto& of_lines : of_node) {
     std::int64_t n = 0;
-    for (const SlopeRow* row : of_lines)
+    for (const Row* row : of_lines)
       n += row == nullptr ? 0 : std::ssize(*row);
     slopes.row.push_back(slopes.row.back() + n);
   }
   slopes.neighbour.resize(static_cast<size_t>(slopes.row.back()));
-  slopes.weight.resize(slopes.neighbour.size());
+  algebra::SharedVectors::Numbers number(slopes.neighbour.size());
   parallel::for_chunks(std::ssize(of_node), [&](auto begin, auto end, auto) {
-    std::vector<std::pair<std::int32_t, algebra::Vec3>> row;
+    std::vector<std::pair<std::int32_t, std::uint32_t>> row;
     for (std::int64_t a = begin; a < end; ++a) {
       row.clear();
       for (int d = 0; d < block.dimension; ++d) {
@@ -159,15 +197,16 @@ LineSlopes line_slopes(const StructuredBlock& block,
         auto at = block.place[a];
         for (const auto& [j, weight] : *of_node[a][d]) {
           at[d] = j;
-          row.emplace_back(block.node_at(at), weight * dual.col(d));
+          row.emplace_back(block.node_at(at), weight);
         }
       }
       std::sort(row.begin(), row.end(),
                 [](const auto& p, const auto& q) { return p.first < q.first; });
       for (size_t k = 0; k < row.size(); ++k)
-        std::tie(slopes.neighbour[slopes.row[a] + k], slopes.weight[slopes.row[a] + k]) = row[k];
+        std::tie(slopes.neighbour[slopes.row[a] + k], number[slopes.row[a] + k]) = row[k];
     }
   });
+  slopes.weight = algebra::SharedVectors(std::move(weights), std::move(number));
   return slopes;
 }
 

@@ -15,6 +15,7 @@
 /// by parts: Mattsson, Svard, Nordstrom, J. Sci. Comput. 21 (2004) 57. Test:
 /// tests/graphs/line_slopes_test.cpp
 
+#include "common/algebra/shared_vectors.hpp"
 #include "meshes/structured_block.hpp"
 
 #include <functional>
@@ -27,7 +28,7 @@ namespace diptych::meshes {
 struct LineSlopes {
   std::vector<std::int64_t> row;        ///< [n_nodes + 1]
   std::vector<std::int32_t> neighbour;  ///< [n_pairs]
-  std::vector<algebra::Vec3> weight;    ///< [n_pairs] 1/m
+  algebra::SharedVectors weight;        ///< [n_pairs] 1/m
 };
 
 /// Weights of v_j - v_i in the slope of a node i of a line, j and weight, in units of 1/spacing.

@@ -7,10 +7,8 @@
 
 namespace diptych::sph {
 
-/// Drops pairs whose particles are not joined near each other: from each of the two a path over
-/// nodes that share a cell, none of them much farther than its farthest neighbour, must reach the
-/// other one. In a convex body whose cells are Delaunay it drops none, since there a path exists
-/// that comes nearer with every node.
+/// Drops pairs whose particles are not joined near each other: whose shortest path over nodes that
+/// share a cell is more than twice as long as the straight line between them.
 /// @param rows  of the nodes of the mesh; with (a,b) it has (b,a)
 void drop_pairs_across_gaps(const meshes::Mesh& mesh, Rows& rows);
 

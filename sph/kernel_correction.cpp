@@ -69,22 +69,23 @@ void set_corrected_gradients(const Kernel& kernel,
   // before the parallel loop: the first particle that is refused is the one that is named
   for (std::int64_t a = 0; a < graph.n_nodes(); ++a)
     check_neighbours(graph, a);
-  graph.C.resize(graph.neighbour.size());
+  std::vector<Vec3> C(graph.neighbour.size());
   for_particles(graph, [&](std::int64_t a) {
     Mat3 moment = Mat3::Zero();
     for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
       const std::int32_t b = graph.neighbour[p];
       const Vec3 X_ab = graph.X[b] - graph.X[a];
       const double r = X_ab.norm();
-      graph.C[p] = -(graph.Omega[b] * kernel.slope(r, 0.5 * (h[a] + h[b]), d) / r) * X_ab;
-      moment += X_ab * graph.C[p].transpose();
+      C[p] = -(graph.Omega[b] * kernel.slope(r, 0.5 * (h[a] + h[b]), d) / r) * X_ab;
+      moment += X_ab * C[p].transpose();
     }
     if (d == 2) moment(2, 2) = moment.trace();
     const Mat3 K = moment.inverse().transpose();
     for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-      graph.C[p] = 2 * graph.Omega[a] * (K * graph.C[p]);
+      C[p] = 2 * graph.Omega[a] * (K * C[p]);
     }
   });
+  graph.C = algebra::SharedVectors(std::move(C));
 }
 
 }  // namespace diptych::sph

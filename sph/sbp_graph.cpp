@@ -34,7 +34,7 @@ std::vector<std::vector<double>> weights_of(const StructuredBlock& block) {
 /// A neighbour of a node by its offset on the lattice.
 struct LatticePair {
   LatticeOffset offset;
-  Vec3 C;  ///< m^2
+  std::uint32_t C;  ///< among those of all rows
 };
 
 /// Rows of the nodes of a block. A row depends on where its node is near to an end of a line, no
@@ -63,6 +63,7 @@ class RowsOfBlock {
                                kind(0, at[0]));
   }
   const std::vector<LatticePair>& row(std::int64_t a) const { return rows_[kind(a)]; }
+  std::vector<Vec3> take_areas() { return std::move(C_); }
 
  private:
   bool is_long(int d) const { return block_.n_nodes[d] > 2 * near_ + 1; }
@@ -79,7 +80,7 @@ class RowsOfBlock {
 
   std::vector<LatticePair> row_of(const LatticeOffset& place,
                                   const meshes::BlockMeasure& measure,
-                                  const LatticeOperator& lattice) const {
+                                  const LatticeOperator& lattice) {
     std::vector<LatticePair> row;
     for (const LatticeOffset& offset : lattice.offsets()) {
       bool is_inside = true;
@@ -92,7 +93,8 @@ class RowsOfBlock {
       Vec3 in_space = Vec3::Zero();
       for (int d = 0; d < block_.dimension; ++d)
         in_space += C[d] * measure.face(d);
-      row.push_back({offset, in_space});
+      row.push_back({offset, static_cast<std::uint32_t>(C_.size())});
+      C_.push_back(in_space);
     }
     std::sort(row.begin(), row.end(), [](const LatticePair& p, const LatticePair& q) {
       return std::lexicographical_compare(p.offset.rbegin(), p.offset.rend(), q.offset.rbegin(),
@@ -104,6 +106,7 @@ class RowsOfBlock {
   const StructuredBlock& block_;
   int near_ = lattice_layers;
   std::vector<std::vector<LatticePair>> rows_;
+  std::vector<Vec3> C_;  ///< m^2
 };
 
 /// Puts row a where graph.row says, ascending.
@@ -111,7 +114,8 @@ class RowsOfBlock {
 bool put_row(const StructuredBlock& block,
              const std::vector<LatticePair>& row,
              std::int64_t a,
-             scheme::PairGraph& graph) {
+             scheme::PairGraph& graph,
+             algebra::SharedVectors::Numbers& C) {
   const std::int64_t first = graph.row[a];
   std::int64_t p = first;
   for (const LatticePair& pair : row) {
@@ -119,24 +123,21 @@ bool put_row(const StructuredBlock& block,
     for (int d = 0; d < block.dimension; ++d)
       at[d] += pair.offset[d];
     graph.neighbour[p] = block.node_at(at);
-    graph.C[p++] = pair.C;
+    C[p++] = pair.C;
   }
   const auto begin = graph.neighbour.begin() + first, end = graph.neighbour.begin() + p;
   if (std::is_sorted(begin, end)) return true;
-  std::vector<std::pair<std::int32_t, Vec3>> sorted;
+  std::vector<std::pair<std::int32_t, std::uint32_t>> sorted;
   for (std::int64_t q = first; q < p; ++q)
-    sorted.emplace_back(graph.neighbour[q], graph.C[q]);
-  std::sort(sorted.begin(), sorted.end(),
-            [](const auto& u, const auto& v) { return u.first < v.first; });
+    sorted.emplace_back(graph.neighbour[q], C[q]);
+  std::sort(sorted.begin(), sorted.end());
   for (std::int64_t q = first; q < p; ++q)
-    std::tie(graph.neighbour[q], graph.C[q]) = sorted[static_cast<size_t>(q - first)];
+    std::tie(graph.neighbour[q], C[q]) = sorted[static_cast<size_t>(q - first)];
   return false;
 }
 
 /// Volumes, boundary areas, pairs and, where they stand in the common order, classes of rows.
-void put_nodes(const meshes::BlockMeasure& measure,
-               const RowsOfBlock& rows,
-               scheme::PairGraph& graph) {
+void put_nodes(const meshes::BlockMeasure& measure, RowsOfBlock rows, scheme::PairGraph& graph) {
   const std::int64_t n = graph.n_nodes();
   graph.row.assign(1, 0);
   graph.row.reserve(static_cast<size_t>(n) + 1);
@@ -145,15 +146,16 @@ void put_nodes(const meshes::BlockMeasure& measure,
   graph.Omega.resize(static_cast<size_t>(n));
   graph.boundary_area.resize(static_cast<size_t>(n));
   graph.neighbour.resize(static_cast<size_t>(graph.row.back()));
-  graph.C.resize(graph.neighbour.size());
+  algebra::SharedVectors::Numbers C(graph.neighbour.size());
   std::vector<char> in_order(static_cast<size_t>(parallel::n_chunks_of(n)), 1);
   parallel::for_chunks(n, [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
     for (std::int64_t a = begin; a < end; ++a) {
       graph.Omega[a] = measure.volume(a);
       graph.boundary_area[a] = measure.boundary_area(a);
-      if (!put_row(measure.block(), rows.row(a), a, graph)) in_order[chunk] = 0;
+      if (!put_row(measure.block(), rows.row(a), a, graph, C)) in_order[chunk] = 0;
     }
   });
+  graph.C = algebra::SharedVectors(rows.take_areas(), std::move(C));
   if (std::find(in_order.begin(), in_order.end(), 0) != in_order.end()) {
     set_classes(graph);
     return;

@@ -128,12 +128,13 @@ std::string text_of(int dimension, int cells, bool manufactured) {
 /// Seconds of one stage, look of the guards, history row or set of fields.
 double measured(run::Solver& solver, const meshes::DeformedCells& cells, Work work, int n) {
   scheme::Snapshot fields;
+  run::NodeReads all_nodes = solver.reads({});
   if (work == Work::snapshot) solver.take_snapshot(fields);  // its memory
   const double start = probes::seconds(1);
   for (int i = 0; i < n; ++i) {
     if (work == Work::energies || work == Work::row) solver.balance();
     if (work == Work::cells || work == Work::row) {  // as the watch of cells does at outputs, too
-      const run::Motion motion = solver.motion();
+      const run::Motion motion = solver.motion(all_nodes);
       cells.outlook(motion.u, motion.v, 1e-6);
     }
     if (work == Work::snapshot) solver.take_snapshot(fields);

@@ -22,7 +22,7 @@ constexpr int sampling = 5;              // steps between two measurements
 std::vector<double> pair_areas(const scheme::PairGraph& graph) {
   std::vector<double> area(graph.C.size());
   for (size_t k = 0; k < area.size(); ++k)
-    area[k] = 0.5 * (graph.C[k] - graph.C[graph.reverse[k]]).norm();
+    area[k] = 0.5 * (graph.C[k] - graph.C[graph.reverse(k)]).norm();
   return area;
 }
 

@@ -108,7 +108,7 @@ scheme::Operators finished(scheme::Operators operators,
   if (operators.loses_sign && presses && leaves_jumps(setup.scheme))
     operators.notices.emplace_back(sign_notice);
   if (setup.scheme.volumes == "auto" && may_press && !graph.commutes && graph.cells.empty() &&
-      graph.lines.empty())
+      graph.lines.empty() && can_press(setup, mesh))
     operators.notices.emplace_back(pressure_notice);
   if (setup.scheme.hourglass != cases::SchemeCase().hourglass && setup.scheme.hourglass != 0 &&
       graph.edges.empty())

@@ -1,9 +1,10 @@
 #include "benchmarks/run/case_observers.hpp"
 
+#include "benchmarks/run/cell_survey.hpp"
+#include "benchmarks/run/surveys.hpp"
 #include "common/run/quantities.hpp"
 #include "common/run/references.hpp"
 #include "common/scheme/dissipation/limiters/limiter_menu.hpp"
-#include "meshes/cell_checks.hpp"
 #include "meshes/incidence.hpp"
 
 #include <filesystem>
@@ -35,11 +36,6 @@ run::NodesAround nodes_around(const meshes::Mesh& mesh) {
   };
 }
 
-run::LeastCell least_cell(const meshes::Mesh& mesh, const meshes::DeformedCells::Least& least) {
-  return {least.J, least.n_inverted, mesh.n_cells(), meshes::centre_of(mesh, least.cell),
-          mesh.cell(least.cell)[0]};
-}
-
 }  // namespace
 
 CaseObservers::CaseObservers(const cases::Case& setup,
@@ -49,18 +45,15 @@ CaseObservers::CaseObservers(const cases::Case& setup,
       options_(options),
       scene_(scene),
       probes_(setup.probes, scene.graph, nodes_around(scene.mesh.mesh)),
-      deformed_(scene.mesh.mesh),
-      cells_(
-          [this](std::span<const algebra::Vec3> u) {
-            return least_cell(scene_.mesh.mesh, deformed_.least(u));
-          },
-          [this](std::int64_t step) { return cell_watch_ ? cell_watch_->seen(step) : nullptr; }),
+      n_cells_(scene.mesh.mesh.n_cells()),
+      cells_([this] { return look(0).now; },
+             [this](std::int64_t step) { return cell_watch_ ? cell_watch_->seen(step) : nullptr; }),
       units_(run::energy_basis(setup, scene.graph, scene.solver->undeformed_speed())
                  .at(scene.solver->balance())),
       history_(
           *scene.solver, probes_, cells_, units_, run::momentum_units(setup, scene.graph, units_)),
       steps_(*scene.solver, probes_),
-      exact_(setup, scene.graph, *scene.solver, probes_),
+      exact_(setup, *scene.solver, survey_of_exact, probes_),
       fields_(scene.mesh.order, run::probe_columns(setup.probes, false), history_),
       progress_(setup, options, history_),
       energy_guard_(
@@ -74,12 +67,13 @@ CaseObservers::CaseObservers(const cases::Case& setup,
   if (options.shapes)
     shapes_.emplace(scene.mesh.mesh, static_cast<size_t>(setup.output.frames) + 1);
   if (setup.guards.inverted_cells == "stop") {
-    cell_watch_.emplace(*scene.solver, [this](const run::Motion& motion, double dt) {
-      const auto outlook = deformed_.outlook(motion.u, motion.v, dt);
-      return run::CellOutlook{least_cell(scene_.mesh.mesh, outlook.now), outlook.steps_left};
-    });
+    cell_watch_.emplace([this](double dt) { return look(dt); });
     cell_guard_.emplace(cells_);
   }
+}
+
+run::CellOutlook CaseObservers::look(double dt) const {
+  return outlook_of(scene_.solver->ask(survey_of_cells, {&dt, 1}), n_cells_);
 }
 
 void CaseObservers::check_files() const {

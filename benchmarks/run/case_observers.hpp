@@ -17,9 +17,7 @@
 #include "common/run/observers/involution_guard.hpp"
 #include "common/run/observers/momentum_guard.hpp"
 #include "common/run/observers/step_probes.hpp"
-#include "meshes/deformed_cells.hpp"
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,17 +42,15 @@ class CaseObservers {
   io::FrameEntry last_frame() const { return fields_.last_frame(); }
   /// Moves what was taken down, and what it comes to for the summary, into the result.
   void give(RunResult& result);
-  /// field: size of the error at each node at the last output time
-  const std::map<std::string, std::vector<double>>& errors() const {
-    return exact_.errors().nodal();
-  }
 
  private:
+  run::CellOutlook look(double dt) const;
+
   const cases::Case& setup_;
   const RunOptions& options_;
   const Scene& scene_;
   run::Probes probes_;
-  meshes::DeformedCells deformed_;
+  std::int64_t n_cells_;
   run::Cells cells_;
   run::EnergyUnits units_;
   run::History history_;

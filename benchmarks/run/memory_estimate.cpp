@@ -39,6 +39,8 @@ constexpr double frames = 128;           ///< a node, of the objective reconstru
 constexpr double moments = 96;           ///< a node, of the symmetric reconstruction
 constexpr double hourglass = 460;        ///< a node, of what holds displacements unseen by F
 constexpr double lines = 250;            ///< a node of the graph, of slopes along lines
+constexpr double lattice_lines = 120;    ///< the same of SPH, whose weights stand once
+constexpr double lattice_pair = 16;      ///< a row of its graph, whose C_ab stand once
 constexpr double cell_bytes = 30;
 constexpr double volume_corner = 70;      ///< of a cell that carries pressure
 constexpr double volume_node = 60;        ///< of a node of such
@@ -291,8 +293,9 @@ double bytes_of(const cases::Case& setup,
   const double geometry = n_class_pairs > 0 ? class_pair * n_class_pairs : stored * size.pairs;
   const double solve =
       sums_anywhere(setup, method) ? solve_node * size.nodes + solve_pair * size.pairs : 0;
-  const double graph =
-      plane * (graph_node + (has_lines ? lines : 0)) * size.nodes + costs.pair * size.pairs + solve;
+  const double of_lines = on_lines ? lattice_lines : lines;
+  const double graph = plane * (graph_node + (has_lines ? of_lines : 0)) * size.nodes +
+                       (on_lines ? lattice_pair : costs.pair) * size.pairs + solve;
   return std::max(graph, plane * node * size.nodes) + volumes + cell_bytes * size.cells + geometry;
 }
 

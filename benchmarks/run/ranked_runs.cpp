@@ -2,6 +2,7 @@
 
 #include "benchmarks/run/memory.hpp"
 #include "benchmarks/run/menus.hpp"
+#include "benchmarks/run/surveys.hpp"
 #include "common/base/error.hpp"
 #include "common/parallel/agreement.hpp"
 #include "common/parallel/for_chunks.hpp"
@@ -69,7 +70,9 @@ void follow_run(Communicator& ranks, const Request& request) {
       setup = cases::case_from_text(request.text, request.file, request.overrides, menus());
     });
   }
-  run::follow(*setup, ranks, request.partition);
+  run::follow(*setup, ranks, request.partition, [&](const run::Solver& solver) {
+    return surveys_among(ranks, *setup, nullptr, nullptr, solver);
+  });
 }
 
 }  // namespace
@@ -82,7 +85,11 @@ std::unique_ptr<Scene> scene_of_run(const cases::Case& setup,
                                    made);
   };
   Communicator* ranks = parallel::all_ranks();
-  if (ranks == nullptr) return make();
+  if (ranks == nullptr) {
+    std::unique_ptr<Scene> scene = make();
+    scene->solver->take(surveys_of(setup, scene->mesh.mesh, scene->graph, *scene->solver));
+    return scene;
+  }
   Request request{setup.text, setup.file, options.partition, setup.overrides, options.threads};
   share(*ranks, request);
   std::unique_ptr<Scene> scene;
@@ -93,8 +100,11 @@ std::unique_ptr<Scene> scene_of_run(const cases::Case& setup,
       scene = make();
     });
   }
-  scene->solver = std::make_unique<run::LeadingSolver>(std::move(scene->solver), scene->graph,
-                                                       *ranks, options.partition);
+  scene->solver = std::make_unique<run::LeadingSolver>(
+      std::move(scene->solver), scene->graph, *ranks, options.partition,
+      [&](const run::Solver& solver) {
+        return surveys_among(*ranks, setup, &scene->mesh.mesh, &scene->graph, solver);
+      });
   return scene;
 }
 

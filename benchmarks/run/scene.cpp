@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <utility>
 
 namespace diptych::harness {
@@ -54,6 +55,37 @@ void note_curved_symmetries(const cases::Case& setup,
           "nodes keep the normals of the undeformed body, so one that slides along it leaves it",
           group.name, bend));
     }
+  }
+}
+
+/// A probe of a force that nothing exerts.
+void note_idle_reactions(const cases::Case& setup,
+                         const meshes::Mesh& mesh,
+                         std::vector<std::string>& notices) {
+  const auto for_nodes = [&](const std::vector<std::string>& names, const auto& use) {
+    for (const meshes::BoundaryGroup& group : mesh.boundary_groups) {
+      if (std::find(names.begin(), names.end(), group.name) == names.end()) continue;
+      for (const std::int32_t f : group.faces) {
+        const meshes::BoundaryFace& face = mesh.boundary_faces[static_cast<size_t>(f)];
+        std::for_each_n(face.nodes.begin(), face.n_nodes, use);
+      }
+    }
+  };
+  std::vector<char> is_held(mesh.nodes.size(), 0);
+  for (const cases::BoundaryCase& boundary : setup.boundaries) {
+    if (scheme::boundary_menu().at(boundary.type).acts != scheme::BoundaryKind::Acts::load)
+      for_nodes(boundary.groups, [&](std::int32_t a) { is_held[static_cast<size_t>(a)] = 1; });
+  }
+  for (const cases::ProbeCase& probe : setup.probes) {
+    if (probe.kind != "reaction") continue;
+    bool is_idle = true;
+    for_nodes(probe.groups,
+              [&](std::int32_t a) { is_idle &= is_held[static_cast<size_t>(a)] == 0; });
+    if (!is_idle) continue;
+    notices.push_back(
+        fmt::format("probe '{}': no support or wall holds a node of {}, so that its reaction is "
+                    "zero throughout",
+                    probe.name, fmt::join(probe.groups, ", ")));
   }
 }
 
@@ -115,6 +147,7 @@ CaseGraph graph_of(const cases::Case& setup,
   }
   note_curved_symmetries(setup, scene.mesh.mesh, scene.notices);
   note_single_cells(setup, level, scene.notices);
+  note_idle_reactions(setup, scene.mesh.mesh, scene.notices);
   if (made) made(ScenePart::graph, scene);
   return scene;
 }

@@ -68,9 +68,13 @@ bool depends_on_position(const std::vector<Expression>& load) {
                      [](const Expression& e) { return e.depends_on_position(); });
 }
 
-/// Largest pressure over the corners and the instants of a run. An instant at which the load has no
-/// value is left out, of which a run that gets there tells.  [Pa]
-double largest_pressure(const std::vector<Expression>& load, const Corners& corners, double end) {
+/// Largest size(value, normal) of a load over the corners and the instants of a run. An instant at
+/// which the load has no value is left out, of which a run that gets there tells.  [Pa]
+template <class Size>
+double largest_of(const std::vector<Expression>& load,
+                  const Corners& corners,
+                  double end,
+                  const Size& size) {
   if (corners.X.empty()) return 0;
   const bool moves = depends_on_position(load);
   const bool changes = std::any_of(load.begin(), load.end(),
@@ -89,11 +93,32 @@ double largest_pressure(const std::vector<Expression>& load, const Corners& corn
     for (size_t k = 0; k < corners.X.size(); ++k) {
       const double* value = &values[moves ? load.size() * k : 0];
       const Vec3& N = corners.normal[k];
-      largest =
-          std::max(largest, load.size() == 1 ? *value : -N.dot(Vec3(value[0], value[1], value[2])));
+      largest = std::max(
+          largest,
+          size(load.size() == 1 ? Vec3(-*value * N) : Vec3(value[0], value[1], value[2]), N));
     }
   }
   return largest;
+}
+
+/// With which it presses.
+double largest_pressure(const std::vector<Expression>& load, const Corners& corners, double end) {
+  return largest_of(load, corners, end, [](const Vec3& t, const Vec3& N) { return -N.dot(t); });
+}
+
+/// Of body forces, over the body as far as it reaches  [Pa]
+double weight_of(const cases::Case& setup, const meshes::Mesh& mesh) {
+  if (setup.body_force.is_zero()) return 0;
+  Vec3 least = mesh.nodes.front(), most = least;
+  for (const Vec3& X : mesh.nodes) {
+    least = least.cwiseMin(X);
+    most = most.cwiseMax(X);
+  }
+  const Corners everywhere{mesh.nodes, std::vector<Vec3>(mesh.nodes.size(), Vec3::Zero())};
+  const auto& force = setup.body_force.component;
+  return (most - least).norm() * largest_of({force.begin(), force.end()}, everywhere,
+                                            setup.time.end,
+                                            [](const Vec3& f, const Vec3&) { return f.norm(); });
 }
 
 bool holds_the_normal(const cases::BoundaryCase& boundary) {
@@ -156,6 +181,27 @@ std::string strong_pressure_because(const cases::Case& setup,
     }
   }
   return "";
+}
+
+bool can_press(const cases::Case& setup, const meshes::Mesh& mesh) {
+  const double little = 0.1 * setup.material.shear_modulus;
+  if (!setup.initial.displacement.is_zero() || setup.initial.deformation_gradient || setup.motion)
+    return true;
+  for (const Vec3& v : functions::vectors_at(setup.initial.velocity, mesh.nodes, 0))
+    if (setup.material.density * v.squaredNorm() > little) return true;
+  if (weight_of(setup, mesh) > little) return true;
+  for (const cases::BoundaryCase& boundary : setup.boundaries) {
+    const std::vector<Expression> load = load_of(boundary);
+    if (load.empty() && (!boundary.value.is_zero() || boundary.manufactured)) return true;
+    for (const std::string& name : boundary.groups) {
+      const meshes::BoundaryGroup* group = group_of(mesh, name);
+      if (load.empty() || group == nullptr) continue;
+      if (largest_of(load, corners_of(mesh, *group), setup.time.end,
+                     [](const Vec3& t, const Vec3&) { return t.norm(); }) > little)
+        return true;
+    }
+  }
+  return false;
 }
 
 bool may_press_strongly(const cases::Case& setup) {

@@ -25,6 +25,10 @@ std::string strong_pressure_because(const cases::Case& setup,
                                     const std::string& method,
                                     const meshes::Mesh& mesh);
 
+/// Whether anything in a scene could bring a pressure of some size, a fifteenth of what nodes bear:
+/// loads, body forces, moving supports, a deformation or a kinetic energy to begin with.
+bool can_press(const cases::Case& setup, const meshes::Mesh& mesh);
+
 /// Before there is a mesh: loads that depend on the place may be strong, groups may be all there
 /// are.
 bool may_press_strongly(const cases::Case& setup);

@@ -157,7 +157,7 @@ class ClassRepair {
     };
     for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
       add(a, p, 0.5);
-      add(graph_.neighbour[p], graph_.reverse[p], -0.5);
+      add(graph_.neighbour[p], graph_.reverse(p), -0.5);
     }
   }
 
@@ -219,12 +219,13 @@ class ClassRepair {
 
   /// C += sign * change of the rows, where they may change.
   void add_to_rows(double sign, Matrix3Xd ClassOfRows::*change) {
+    std::vector<scheme::Vec3>& C = graph_.C.each();
     for_each_node(gap_.size(), [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t a = begin; a < end; ++a) {
         if (!is_free(a)) continue;
         const Matrix3Xd& dC = classes_[static_cast<size_t>(class_of(a))].*change;
         for (std::int64_t k = 0; k < length(a); ++k)
-          graph_.C[pair(a, k)] += sign * dC.col(k);
+          C[pair(a, k)] += sign * dC.col(k);
       }
     });
   }

@@ -9,7 +9,7 @@ namespace {
 Vec3 gap_of(const scheme::PairGraph& graph, std::int64_t a) {
   Vec3 sum = Vec3::Zero();
   for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
-    sum += graph.C[p] - graph.C[graph.reverse[p]];
+    sum += graph.C[p] - graph.C[graph.reverse(p)];
   return graph.boundary_area[a] + 0.5 * sum;
 }
 

@@ -30,12 +30,13 @@ ClosureRepair repair_closure_pairs(scheme::PairGraph& graph,
   for (int pass = 0; pass < most_passes && !(result.after <= limits.closure); ++pass) {
     const SolveLimits left{0.5 * limits.closure, limits.iterations - result.iterations};
     result.iterations += conjugate_gradients(S, inverse, remove_affine_part, unit, left, gap, y);
-    std::vector<Vec3> C_before = graph.C;
-    correction.change(y, graph.C);
+    std::vector<Vec3>& C = graph.C.each();
+    std::vector<Vec3> C_before = C;
+    correction.change(y, C);
     gap = closure_gap(graph);
     const double before = result.after, after = greatest(gap, unit);
     if (!(after < before)) {
-      graph.C.swap(C_before);
+      C.swap(C_before);
       break;
     }
     result.after = after;

@@ -210,7 +210,7 @@ Field QuadraticCorrection<D>::gap(const std::vector<Vec3>& C) const {
         r[1 + i] = graph_.Omega[a] / h_[a] * Vec3::Unit(i);
       for (std::int64_t p = graph_.row[a]; p < graph_.row[a + 1]; ++p) {
         const Vec3 X = (graph_.X[graph_.neighbour[p]] - graph_.X[a]) / h_[a];
-        const Vec3& back = C[graph_.reverse[p]];
+        const Vec3& back = C[graph_.reverse(p)];
         r[0] -= 0.5 * (C[p] - back);
         for (int i = 0; i < D; ++i)
           r[1 + i] += 0.5 * X[i] * back;

@@ -61,8 +61,9 @@ SummationByParts solve(scheme::PairGraph& graph,
   result.undetermined = correction.undetermined();
   if (!result.undetermined.empty()) return result;
   const CubicPart cubic_part(graph, spacings(graph));
-  correction.correct_rows(graph.C);
-  Field r = correction.gap(graph.C), y;
+  std::vector<Vec3>& C = graph.C.each();
+  correction.correct_rows(C);
+  Field r = correction.gap(C), y;
   result.before = greatest(r, unit);
   cubic_part.remove(r);  // S keeps it out of what is left: directions are free of it
   const FieldOperator S = [&](const Field& in, Field& out) { correction.apply_S(in, out); };
@@ -75,9 +76,9 @@ SummationByParts solve(scheme::PairGraph& graph,
       S, inverse, [](Field&) {}, unit, left, r, y);
   if (!is_solved(S, unit, limits.residual, r, y))
     result.iterations += minimal_residuals(S, inverse, unit, left, r, y);
-  correction.change(y, graph.C);
-  correction.correct_rows(graph.C);  // of what rounding left: smooth multipliers are large
-  r = correction.gap(graph.C);
+  correction.change(y, C);
+  correction.correct_rows(C);  // of what rounding left: smooth multipliers are large
+  r = correction.gap(C);
   result.after = greatest(r, unit);
   result.open = open_nodes<D>(r, unit);
   return result;
@@ -115,7 +116,7 @@ std::vector<double> slopes_of(const scheme::PairGraph& graph, const std::vector<
       double of_row = 0, of_column = 0;
       for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
         of_row += graph.C[p].norm() / 2;
-        of_column += graph.C[graph.reverse[p]].norm() / 2;
+        of_column += graph.C[graph.reverse(p)].norm() / 2;
       }
       slopes[a] =
           std::max(of_row, of_column) / graph.Omega[a] * std::pow(V[a], 1.0 / graph.dimension);

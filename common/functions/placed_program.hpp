@@ -48,6 +48,7 @@ class PlacedProgram {
   void move_to(std::span<const Vec3> X);
 
   std::int64_t n_places() const { return static_cast<std::int64_t>(X_.size()); }
+  const Vec3& X(std::int64_t place) const { return X_[static_cast<size_t>(place)]; }
   std::int64_t n_strips() const { return n_strips_; }
   /// Blocks of a strip; the last strip is filled up with the last place.
   int width() const { return width_; }
@@ -60,11 +61,16 @@ class PlacedProgram {
   /// Calls work(strip, workspace) for all strips, by all threads.
   template <class Work>
   void for_strips(const Work& work) const {
+    for_strips(0, n_strips_, work);
+  }
+  /// The same for strips [begin, end).
+  template <class Work>
+  void for_strips(std::int64_t begin, std::int64_t end, const Work& work) const {
     constexpr std::int64_t together = 4;
-    parallel::for_shares((n_strips_ + together - 1) / together, [&](std::int64_t share) {
+    parallel::for_shares((end - begin + together - 1) / together, [&](std::int64_t share) {
       Workspace space = workspace();
-      const std::int64_t end = std::min(n_strips_, (share + 1) * together);
-      for (std::int64_t strip = share * together; strip < end; ++strip)
+      const std::int64_t first = begin + share * together;
+      for (std::int64_t strip = first; strip < std::min(end, first + together); ++strip)
         work(strip, space);
     });
   }

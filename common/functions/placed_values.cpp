@@ -1,25 +1,31 @@
 #include "common/functions/placed_values.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace diptych::functions {
 
 using algebra::n_lanes;
 
-void PlacedValues::at(double t, std::span<double> values) const {
+void PlacedValues::at(double t,
+                      std::int64_t begin,
+                      std::int64_t end,
+                      std::span<double> values) const {
   const PlacedProgram::Instant instant = placed_.at(t);
   const std::int64_t per_strip = placed_.width() * n_lanes;
-  placed_.for_strips([&](std::int64_t strip, PlacedProgram::Workspace& workspace) {
+  const auto evaluate = [&](std::int64_t strip, PlacedProgram::Workspace& workspace) {
     placed_.evaluate(strip, t, instant, workspace);
     const std::int64_t first = strip * per_strip;
-    const std::int64_t n = std::min(per_strip, n_places() - first);
     for (int k = 0; k < n_results_; ++k) {
       const PlacedProgram::Blocks result = placed_.result(k, strip, instant, workspace);
-      for (std::int64_t a = 0; a < n; ++a)
-        values[static_cast<size_t>((first + a) * n_results_ + k)] =
-            result[static_cast<int>(a / n_lanes)][a % n_lanes];
+      for (std::int64_t a = std::max(begin, first); a < std::min(end, first + per_strip); ++a) {
+        const std::int64_t lane = a - first;
+        values[static_cast<size_t>((a - begin) * n_results_ + k)] =
+            result[static_cast<int>(lane / n_lanes)][lane % n_lanes];
+      }
     }
-  });
+  };
+  placed_.for_strips(begin / per_strip, (end + per_strip - 1) / per_strip, evaluate);
 }
 
 namespace {
@@ -35,21 +41,16 @@ PlacedValues values_of(const std::vector<Expression>& expressions, std::span<con
 }  // namespace
 
 PlacedExpressions::PlacedExpressions(std::vector<Expression> expressions, std::span<const Vec3> X)
-    : expressions_(std::move(expressions)),
-      X_(X.begin(), X.end()),
-      values_(values_of(expressions_, X)) {}
+    : expressions_(std::move(expressions)), values_(values_of(expressions_, X)) {}
 
-void PlacedExpressions::move_to(std::span<const Vec3> X) {
-  X_.assign(X.begin(), X.end());
-  values_.move_to(X);
-}
-
-std::vector<double> PlacedExpressions::at(double t) const {
+std::vector<double> PlacedExpressions::at(double t, std::int64_t begin, std::int64_t end) const {
   const size_t n = expressions_.size();
-  std::vector<double> values(X_.size() * n);
-  values_.at(t, values);
-  for (size_t a = 0; a < values.size(); ++a) {
-    if (!std::isfinite(values[a])) expressions_[a % n].refuse_value(values[a], X_[a / n], t);
+  std::vector<double> values(static_cast<size_t>(end - begin) * n);
+  values_.at(t, begin, end, values);
+  for (size_t k = 0; k < values.size(); ++k) {
+    if (!std::isfinite(values[k]))
+      expressions_[k % n].refuse_value(values[k],
+                                       values_.X(begin + static_cast<std::int64_t>(k / n)), t);
   }
   return values;
 }

@@ -18,8 +18,11 @@ class PlacedValues {
 
   void move_to(std::span<const Vec3> X) { placed_.move_to(X); }
   std::int64_t n_places() const { return placed_.n_places(); }
+  const Vec3& X(std::int64_t place) const { return placed_.X(place); }
   /// @param values  [place][result]
-  void at(double t, std::span<double> values) const;
+  void at(double t, std::span<double> values) const { at(t, 0, n_places(), values); }
+  /// Of places [begin, end).  @param values  [place - begin][result]
+  void at(double t, std::int64_t begin, std::int64_t end, std::span<double> values) const;
 
  private:
   PlacedProgram placed_;
@@ -30,14 +33,16 @@ class PlacedValues {
 class PlacedExpressions {
  public:
   PlacedExpressions(std::vector<Expression> expressions, std::span<const Vec3> X);
-  void move_to(std::span<const Vec3> X);
+  void move_to(std::span<const Vec3> X) { values_.move_to(X); }
+  std::int64_t n_places() const { return values_.n_places(); }
   /// @return [place][expression]
   /// @throws base::InputError on a value that is not finite
-  std::vector<double> at(double t) const;
+  std::vector<double> at(double t) const { return at(t, 0, values_.n_places()); }
+  /// Of places [begin, end).
+  std::vector<double> at(double t, std::int64_t begin, std::int64_t end) const;
 
  private:
   std::vector<Expression> expressions_;
-  std::vector<Vec3> X_;
   PlacedValues values_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "common/parallel/communicator.hpp"
 
+#include <algorithm>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -30,6 +31,22 @@ void share(Communicator& ranks, std::vector<T>& values) {
   share(ranks, n);
   values.resize(static_cast<size_t>(n));
   ranks.broadcast(bytes_of(values.data()), n * static_cast<std::int64_t>(sizeof(T)));
+}
+
+/// Calls use(first, piece) for consecutive pieces of a table that rank 0 has, so that no other rank
+/// has all of it.  @param whole  null on other ranks
+template <class T, class Use>
+void share_pieces(Communicator& ranks, const std::vector<T>* whole, const Use& use) {
+  constexpr std::int64_t together = 1 << 15;
+  std::int64_t n = whole == nullptr ? 0 : std::ssize(*whole);
+  share(ranks, n);
+  std::vector<T> piece;
+  for (std::int64_t first = 0; first < n; first += together) {
+    if (whole != nullptr)
+      piece.assign(whole->begin() + first, whole->begin() + std::min(n, first + together));
+    share(ranks, piece);
+    use(first, piece);
+  }
 }
 
 }  // namespace diptych::parallel

@@ -8,11 +8,13 @@
 #include "common/run/ranks/sharing_archive.hpp"
 #include "common/run/state_hash.hpp"
 #include "common/scheme/body/health.hpp"
+#include "common/scheme/body/node_chunks.hpp"
 #include "common/scheme/budget/balance.hpp"
 #include "common/scheme/ranks/division.hpp"
 #include "common/scheme/ranks/exchange.hpp"
 #include "common/scheme/ranks/share_graph.hpp"
 #include "common/time/moving_body_archive.hpp"
+#include "common/time/swing.hpp"
 
 #include <fmt/format.h>
 
@@ -58,8 +60,21 @@ template <int Dim>
 void BodySolver<Dim>::begin_budget() {
   const scheme::Balance begun = balance();
   moving_.initial_angular_momentum = begun.angular_momentum;
-  if (max_retries_ > 0 && !moving_.integrator.is_leapfrog())
-    start_.emplace(begun, bounds_of_start_);
+  judge_from(begun);
+}
+
+/// The next steps, which begin with this.
+template <int Dim>
+void BodySolver<Dim>::judge_from(const scheme::Balance& begun) {
+  begun_.reset();
+  if (max_retries_ == 0) return;
+  const BudgetOfStart start(begun, bounds_of_start_, moving_.clock.step);
+  if (!moving_.integrator.is_leapfrog()) {
+    start_ = start;
+  } else {
+    time::begin_swing(moving_.clock, bounds_of_start_.opening,
+                      start.is_at_rest() ? 0 : start.held(begun), moving_.audit.external_work);
+  }
 }
 
 template <int Dim>
@@ -74,7 +89,13 @@ StepReport BodySolver<Dim>::step(double t_limit) {
     if (time::is_sound(moving_)) {
       const StepReport report{clock.step, clock.time,           dt, moving_.sweeps.least_J(),
                               rejected,   clock.time >= t_limit};
-      if (!is_judged) return report;
+      if (!is_judged) {
+        const double shorter = rejected < max_retries_ ? time::shorter_for_swing(moving_, dt) : 0;
+        if (shorter == 0) return report;
+        begin_.restore(moving_);
+        begin_.shorten(moving_, shorter);
+        continue;
+      }
       const bool is_last = rejected == max_retries_ || dt / 2 < clock.least_share * clock.first_dt;
       const EnergyBudget ended = budget();
       if (is_last || !start_->opens(*begun_, ended)) {
@@ -93,6 +114,17 @@ StepReport BodySolver<Dim>::step(double t_limit) {
     if (rejected == max_retries_) throw error;
     begin_.shorten(moving_, dt / 2);
   }
+}
+
+template <int Dim>
+void BodySolver<Dim>::pass(double t) {
+  moving_.clock.time = t;
+  if (moving_.integrator.is_leapfrog()) {
+    moving_.sweeps.strain_rates(moving_.body, {}, nullptr, 0);
+    time::begin_leapfrog(moving_);
+  }
+  begin_.forget();  // what is of before the jump
+  judge_from(balance());
 }
 
 template <int Dim>
@@ -161,19 +193,57 @@ Snapshot BodySolver<Dim>::snapshot(std::span<const std::int32_t> nodes) const {
 }
 
 template <int Dim>
-Motion BodySolver<Dim>::motion() const {
-  has_fields_of_others_ = true;
+void BodySolver<Dim>::visit_own(const Visit& visit) const {
+  scheme::visit_chunks(material(), moving_.body, time(), visit);
+}
+
+template <int Dim>
+NodeReads BodySolver<Dim>::reads(std::vector<std::int32_t> nodes) const {
+  NodeReads reads{std::move(nodes), {}};
+  const parallel::Part& part = moving_.body.part();
+  if (part.is_whole()) return reads;
+  std::vector<char> needed(static_cast<size_t>(moving_.body.n_owned), 0);
+  for (const std::int32_t a : reads.nodes)
+    needed[static_cast<size_t>(a)] = 1;
+  reads.halo = parallel::Halo(part.ranks(), needed,
+                              [&](std::int64_t a) { return part.owner(scheme::chunk_of_node(a)); });
+  return reads;
+}
+
+template <int Dim>
+Motion BodySolver<Dim>::motion(NodeReads& reads) const {
   const scheme::Body<Dim>& body = moving_.body;
-  scheme::gather_motion(moving_.body);
-  if (body.part().rank() != 0) return {};
-  const scheme::Undivided<Dim> gathered(moving_.body);
-  const auto n = static_cast<size_t>(body.n_owned);
+  const bool all = reads.nodes.empty() && body.part().is_whole();
+  const auto n = all ? static_cast<size_t>(body.n_owned) : reads.nodes.size();
   Motion motion{std::vector<algebra::Vec3>(n, algebra::Vec3::Zero()),
                 std::vector<algebra::Vec3>(n, algebra::Vec3::Zero())};
-  lanczos::for_nodes(body.n_owned, [&](std::int64_t a) {
+  lanczos::for_nodes(static_cast<std::int64_t>(n), [&](std::int64_t k) {
+    const std::int64_t a = all ? k : reads.nodes[static_cast<size_t>(k)];
+    if (!body.part().owns(scheme::chunk_of_node(a))) return;
     for (int i = 0; i < Dim; ++i) {
-      motion.u[a][i] = body.u.at(a, i);
-      motion.v[a][i] = body.v.at(a, i);
+      motion.u[k][i] = body.u.at(a, i);
+      motion.v[k][i] = body.v.at(a, i);
+    }
+  });
+  if (body.part().is_whole()) return motion;
+  const auto place_of = [&](std::int64_t a) {
+    return std::lower_bound(reads.nodes.begin(), reads.nodes.end(), a) - reads.nodes.begin();
+  };
+  reads.halo.exchange([&](std::int64_t begin, std::int64_t end, const auto& use) {
+    const bool is_own = body.part().owns(scheme::chunk_of_node(begin));
+    for (std::int64_t a = begin; a < end; ++a) {
+      double values[2 * Dim] = {};
+      for (int i = 0; is_own && i < Dim; ++i) {
+        values[i] = body.u.at(a, i);
+        values[Dim + i] = body.v.at(a, i);
+      }
+      use(reinterpret_cast<std::byte*>(values), sizeof values);
+      if (is_own) continue;
+      const auto k = place_of(a);
+      for (int i = 0; i < Dim; ++i) {
+        motion.u[k][i] = values[i];
+        motion.v[k][i] = values[Dim + i];
+      }
     }
   });
   return motion;
@@ -197,7 +267,10 @@ template <int Dim>
 void BodySolver<Dim>::keep_or_take(algebra::Archive& archive) {
   time::archive(moving_, archive);
   if (known_) known_->archive(archive);
+  std::vector<double> start = start_ ? start_->numbers() : std::vector<double>();
+  archive.reals("start/budget", "J", start);
   if (!archive.is_loading()) return;
+  if (!start.empty()) start_ = BudgetOfStart(start);
   begun_.reset();
   begin_ = time::StepBegin<Dim>(moving_);  // which keeps nothing of the steps until then
   if (!time::is_sound(moving_)) {

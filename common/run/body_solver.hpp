@@ -14,8 +14,8 @@ class BodySolver : public Solver {
   /// Of an undeformed body: begin() sets its state, or another rank's comes by divide().
   /// @param known        exact state of a manufactured solution, or null
   /// @param max_retries  of one step
-  /// @param start        what the first steps are held to. Leapfrog is not: its budget swings and
-  ///                     closes again; nor is any where max_retries is 0
+  /// @param start        what the first steps are held to, leapfrog's by the swing of its energy
+  ///                     (time/swing.hpp); none where max_retries is 0
   BodySolver(time::MovingBody<Dim> moving,
              std::shared_ptr<exact::KnownState> known,
              int max_retries,
@@ -29,13 +29,17 @@ class BodySolver : public Solver {
   void divide(parallel::Communicator& ranks, const std::string& partition) override;
   double imbalance() const override;
   double time() const override { return moving_.clock.time; }
+  void pass(double t) override;
   bool is_sound() const override { return time::is_sound(moving_); }
   scheme::Balance balance() const override;
   const scheme::Audit& audit() const override { return moving_.audit; }
   const scheme::Interventions& interventions() const override { return moving_.interventions; }
   void take_snapshot(Snapshot& snapshot) const override;
   Snapshot snapshot(std::span<const std::int32_t> nodes) const override;
-  Motion motion() const override;
+  const parallel::Part& part() const override { return moving_.body.part(); }
+  void visit_own(const Visit& visit) const override;
+  NodeReads reads(std::vector<std::int32_t> nodes) const override;
+  Motion motion(NodeReads& reads) const override;
   algebra::Vec3 reaction(const std::vector<std::int32_t>& nodes) override;
   std::string state_hash(const std::vector<std::int32_t>& order) const override;
   void archive(algebra::Archive& archive) override;
@@ -55,6 +59,7 @@ class BodySolver : public Solver {
   void keep_or_take(algebra::Archive& archive);
   void release_fields();
   void begin_budget();
+  void judge_from(const scheme::Balance& begun);
   EnergyBudget budget() const { return {balance(), moving_.audit}; }
   const scheme::MaterialModel& material() const { return moving_.sweeps.material(); }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 namespace diptych::run {
 
@@ -31,13 +32,32 @@ class BudgetOfStart {
     EnergyBasis energies;
   };
 
-  BudgetOfStart(const scheme::Balance& initial, const Bounds& bounds)
+  /// @param first  steps made before
+  BudgetOfStart(const scheme::Balance& initial, const Bounds& bounds, std::int64_t first = 0)
       : units_(bounds.energies.at(initial)),
-        share_(held(initial) > units_.rounding ? bounds.opening / static_cast<double>(n_steps)
-                                               : 0) {}
+        first_(first),
+        is_at_rest_(!(held(initial) > units_.rounding)),
+        share_(is_at_rest_ ? 0 : bounds.opening / static_cast<double>(n_steps)) {}
+
+  /// All that it knows, to make another one of.
+  std::vector<double> numbers() const {
+    return {units_.rounding, units_.carried, static_cast<double>(first_), is_at_rest_ ? 1.0 : 0.0,
+            share_};
+  }
+  explicit BudgetOfStart(const std::vector<double>& numbers)
+      : units_{numbers.at(0), numbers.at(1)},
+        first_(static_cast<std::int64_t>(numbers.at(2))),
+        is_at_rest_(numbers.at(3) != 0),
+        share_(numbers.at(4)) {}
+
+  /// What a body has of energies but for what its frame gives it  [J]
+  double held(const scheme::Balance& balance) const {
+    return balance.kinetic - units_.carried + std::abs(balance.strain);
+  }
+  bool is_at_rest() const { return is_at_rest_; }
 
   /// @param step  steps made before
-  bool judges(std::int64_t step) const { return share_ > 0 && step < n_steps; }
+  bool judges(std::int64_t step) const { return share_ > 0 && step - first_ < n_steps; }
 
   /// The step between has opened the budget by more than its share of the energy that is there.
   bool opens(const EnergyBudget& before, const EnergyBudget& after) const {
@@ -46,11 +66,9 @@ class BudgetOfStart {
   }
 
  private:
-  double held(const scheme::Balance& balance) const {
-    return balance.kinetic - units_.carried + std::abs(balance.strain);
-  }
-
   EnergyUnits units_;
+  std::int64_t first_;
+  bool is_at_rest_;
   double share_;
 };
 

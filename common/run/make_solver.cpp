@@ -195,7 +195,7 @@ std::unique_ptr<BodySolver<Dim>> assembled(const cases::Case& setup,
   time::MovingBody<Dim> moving{std::move(body), std::move(sweeps), std::move(parts.boundary),
                                parts.integrator, setup.scheme.angular_momentum_projection};
   moving.clock.least_share = setup.guards.least_step;
-  const BudgetOfStart::Bounds start{setup.guards.energy_residual,
+  const BudgetOfStart::Bounds start{setup.guards.energy_residual / 2,
                                     energy_basis(setup, graph, parts.material->undeformed_speed())};
   return std::make_unique<BodySolver<Dim>>(std::move(moving), std::move(parts.known),
                                            setup.time.max_retries, start);

@@ -1,11 +1,10 @@
 #pragma once
 /// The fields of a body at an output time, taken from the solver when something first asks for
-/// them: a row of the history needs the displacements at most, of which cells are made.
+/// them: a row of the history needs none of them.
 /// Test: tests/common/run/simulation_test.cpp
 
 #include "common/run/solver.hpp"
 
-#include <optional>
 #include <span>
 
 namespace diptych::run {
@@ -18,13 +17,6 @@ class OutputState {
       : solver_(solver), fields_(fields), time_(solver.time()) {}
 
   double time() const { return time_; }  ///< s
-
-  /// [n_nodes] displacements, m
-  std::span<const algebra::Vec3> u() {
-    if (has_fields_) return fields_.u;
-    if (!motion_) motion_ = solver_.motion();
-    return motion_->u;
-  }
 
   /// Of these nodes, in this order.
   Snapshot fields_of(std::span<const std::int32_t> nodes) {
@@ -42,7 +34,6 @@ class OutputState {
   Snapshot& fields_;
   double time_;
   bool has_fields_ = false;
-  std::optional<Motion> motion_;
 };
 
 }  // namespace diptych::run

@@ -160,6 +160,13 @@ std::vector<double> Probes::evaluate(const Selection& selection, Solver& solver)
   return results;
 }
 
+std::vector<Vec3> Probes::places() const {
+  std::vector<Vec3> X;
+  for (const std::int32_t a : all_.nodes)
+    X.push_back(X_[static_cast<size_t>(a)]);
+  return X;
+}
+
 std::vector<std::optional<double>> Probes::exact_values(const Snapshot& exact) const {
   std::vector<std::optional<double>> results;
   for (const PlacedProbe& placed : all_.probes) {
@@ -168,15 +175,17 @@ std::vector<std::optional<double>> Probes::exact_values(const Snapshot& exact) c
       continue;
     }
     std::vector<double> values;
+    auto next = all_.nodes.begin();
     for (const std::int32_t node : placed.nodes) {
-      const auto a = static_cast<size_t>(node);
+      next = std::lower_bound(next, all_.nodes.end(), node);
+      const auto a = static_cast<size_t>(next - all_.nodes.begin());
       cases::NodeValues fields;
       if (!exact.u.empty()) fields.u = exact.u[a];
       if (!exact.v.empty()) fields.v = exact.v[a];
       if (!exact.F.empty()) fields.F = exact.F[a], fields.J = exact.J[a];
       if (!exact.P.empty()) fields.P = exact.P[a];
       placed.probe.fields->set(fields);
-      values.push_back(placed.probe.quantity(X_[a], exact.time));
+      values.push_back(placed.probe.quantity(X_[static_cast<size_t>(node)], exact.time));
     }
     results.emplace_back(reduced(placed.probe.kind, values, placed.weights));
   }

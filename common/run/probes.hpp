@@ -33,8 +33,11 @@ class Probes {
 
   /// Of all probes, in the order of the case.
   std::vector<double> values(Solver& solver) const { return evaluate(all_, solver); }
-  /// Of all probes in exact fields at every node; nothing where the exact solution does not give
-  /// what the probe reads, as the force of a support.
+  /// Nodes that all probes read, ascending, and their places  [m].
+  const std::vector<std::int32_t>& nodes() const { return all_.nodes; }
+  std::vector<Vec3> places() const;
+  /// Of all probes in exact fields at nodes(); nothing where the exact solution does not give what
+  /// the probe reads, as the force of a support.
   std::vector<std::optional<double>> exact_values(const Snapshot& exact) const;
   /// Of those with every_step.
   std::vector<double> stepped_values(Solver& solver) const { return evaluate(stepped_, solver); }

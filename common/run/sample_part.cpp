@@ -49,7 +49,8 @@ SamplePart part_of(const PairGraph& graph, const std::vector<std::int32_t>& node
   for (const std::int32_t a : nodes)
     n_pairs += static_cast<size_t>(graph.row[a + 1] - graph.row[a]);
   part.graph.neighbour.reserve(n_pairs);
-  part.graph.C.reserve(n_pairs);
+  std::vector<algebra::Vec3> C;
+  C.reserve(n_pairs);
   for (const std::int32_t a : nodes) {
     part.graph.X.push_back(graph.X[a]);
     part.graph.Omega.push_back(graph.Omega[a]);
@@ -57,7 +58,7 @@ SamplePart part_of(const PairGraph& graph, const std::vector<std::int32_t>& node
       const std::int32_t b = number[graph.neighbour[p]];
       if (b < 0) continue;
       part.graph.neighbour.push_back(b);
-      part.graph.C.push_back(graph.C[p]);
+      C.push_back(graph.C[p]);
     }
     part.graph.row.push_back(part.graph.n_pairs());
     const auto n = static_cast<std::int64_t>(part.graph.row.size());
@@ -65,6 +66,7 @@ SamplePart part_of(const PairGraph& graph, const std::vector<std::int32_t>& node
         part.graph.row[n - 1] - part.graph.row[n - 2] == graph.row[a + 1] - graph.row[a];
     part.moves.push_back(whole ? 1 : 0);
   }
+  part.graph.C = algebra::SharedVectors(std::move(C));
   scheme::link_reverse_pairs(part.graph);
   return part;
 }

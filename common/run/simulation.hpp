@@ -20,7 +20,7 @@ struct StepTotals {
   double dt_min = 0,
          dt_max = 0;          ///< s; dt_min is 1e300 between the first output and the first step
   double least_J = 1;         ///< at the nodes; the same
-  std::int64_t rejected = 0;  ///< attempts at steps that were made again with half the size
+  std::int64_t rejected = 0;  ///< attempts at steps that were made again, smaller
   double seconds = 0;         ///< of the clock in the solver's steps, without the observers
 };
 
@@ -78,6 +78,7 @@ class Simulation {
   void checkpoint_at_the_end();
   void checkpoint();
   void advance_to(double limit);
+  double end_of_step(double limit);
   void output();
   void check();
   void take_back();
@@ -95,6 +96,12 @@ class Simulation {
   StepReport last_;
   StepTotals totals_before_;  ///< the last step; its report, too
   StepReport before_;
+  /// Where loads jump: the instants at which a step ends and at which the next one begins  [s].
+  struct Jump {
+    double before = 0, after = 0;
+  };
+  void find_jumps();
+  std::vector<Jump> jumps_;
   std::int64_t judged_ = 0;  // step
   std::int64_t n_outputs_ = 0;
   double output_time_ = 0;  // s, of the last output

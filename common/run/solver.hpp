@@ -5,6 +5,8 @@
 #include "common/algebra/archive.hpp"
 #include "common/cases/case.hpp"
 #include "common/parallel/communicator.hpp"
+#include "common/parallel/halo.hpp"
+#include "common/run/survey.hpp"
 #include "common/scheme/body/snapshot.hpp"
 #include "common/scheme/budget/audit.hpp"
 #include "common/scheme/budget/interventions.hpp"
@@ -29,12 +31,18 @@ struct StepReport {
   double dt = 0;          ///< s
   double least_J = 1;
   int rejected = 0;          ///< attempts at it before, with larger steps
-  bool is_at_limit = false;  ///< it ends at an instant of output
+  bool is_at_limit = false;  ///< it ends at an instant of output, or before a jump of the loads
 };
 
-/// Of all nodes.
+/// Of some nodes.
 struct Motion {
   std::vector<algebra::Vec3> u, v;  ///< m, m/s
+};
+
+/// Nodes whose motion a rank reads, its own and those of others.
+struct NodeReads {
+  std::vector<std::int32_t> nodes;  ///< ascending; empty: all, of a body that is not divided
+  parallel::Halo halo;
 };
 
 class Solver {
@@ -51,13 +59,17 @@ class Solver {
   /// (time.max_retries = 0)
   virtual bool take_back() = 0;
   virtual double time() const = 0;
+  /// Goes on from an instant just before a jump of the loads to t, just after it: the next step
+  /// sees but what is behind it, and the next steps are judged as the first ones are.
+  /// @pre a step has ended there
+  virtual void pass(double t) = 0;
   /// Of rank 0: gives other ranks what their make_given_solver() asks for.
   /// @param graph  of this solver; it stays as it is
   virtual void give(parallel::Communicator& ranks, scheme::PairGraph& graph) = 0;
   /// Shares the body, and the state that it has on rank 0, with other ranks, which have been given
   /// a solver: each works its part from now on. All ranks then make the same calls of what is not
-  /// const, of balance(), take_snapshot(), motion(), state_hash() and exact_state(); rank 0 alone
-  /// has their whole results, and alone has a file to archive.
+  /// const, of balance(), take_snapshot(), reads(), motion(), state_hash() and exact_state(); rank
+  /// 0 alone has the whole results of balance() to exact_state(), and alone has a file to archive.
   /// @param partition  of parallel::partitioners()
   /// @throws base::InputError where there are too many ranks, on all of them
   virtual void divide(parallel::Communicator& ranks, const std::string& partition) = 0;
@@ -77,7 +89,22 @@ class Solver {
   }
   /// Fields of these nodes only, in this order.
   virtual Snapshot snapshot(std::span<const std::int32_t> nodes) const = 0;
-  virtual Motion motion() const = 0;
+  /// The part of this rank.
+  virtual const parallel::Part& part() const = 0;
+  /// Calls visit(chunk, first, fields) for every chunk of nodes of this rank, by all threads, which
+  /// must not throw: fields are those of the nodes from `first` on.
+  using Visit = std::function<void(std::int64_t chunk, std::int64_t first, const Snapshot& fields)>;
+  virtual void visit_own(const Visit& visit) const = 0;
+  /// What motion() takes to give the motion of these nodes, of each rank its own.
+  virtual NodeReads reads(std::vector<std::int32_t> nodes) const = 0;
+  virtual Motion motion(NodeReads& reads) const = 0;
+  /// Has them answered by ask(), by their places.
+  void take(Surveys surveys) { surveys_ = std::move(surveys); }
+  /// Of this rank.
+  virtual Survey& survey(size_t survey) const { return *surveys_.at(survey); }
+  virtual Answers ask(size_t survey, std::span<const double> question) const {
+    return {surveys_.at(survey)->answer(*this, question)};
+  }
   /// Force of supports and walls on these nodes (ascending) at the time of the state  [N]
   virtual algebra::Vec3 reaction(const std::vector<std::int32_t>& nodes) = 0;
   /// A fingerprint of the unknowns and the time (state_hash.hpp); `order[a]` is the user's number
@@ -102,6 +129,9 @@ class Solver {
     (void)t;
     return std::nullopt;
   }
+
+ protected:
+  Surveys surveys_;
 };
 
 /// Whether a case has jumps reconstructed with slopes along lines of nodes, where a graph has them.

@@ -2,6 +2,7 @@
 
 #include "common/scheme/sweeps/update.hpp"
 #include "common/time/step_begin.hpp"
+#include "common/time/swing.hpp"
 
 namespace diptych::time {
 
@@ -20,13 +21,14 @@ void kick(scheme::Body<Dim>& body, double dt, bool keep_F) {
 template <int Dim>
 void begin_leapfrog(MovingBody<Dim>& moving) {
   moving.sweeps.sum_forces(moving.body, true);
-  moving.load_rates = moving.boundary.add_loads(moving.body, 0);
+  moving.load_rates = moving.boundary.add_loads(moving.body, moving.clock.time);
 }
 
 template <int Dim>
 double leapfrog_step(MovingBody<Dim>& moving, double t_limit) {
   using Rule = scheme::Relaxation::Rule;
   auto& [body, sweeps, boundary, integrator, keeps, audit, load_rates, L_0, clock, acts] = moving;
+  limit_swing(moving);
   const double dt = choose_dt(moving, t_limit), t = clock.time;
   boundary.begin_step(t, dt);
   scheme::Audit rate;

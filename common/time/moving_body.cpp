@@ -18,8 +18,9 @@ double choose_dt(MovingBody<Dim>& moving, double t_limit) {
   const double bound = clock.largest_dt < stable ? clock.largest_dt : stable;
   const double n = std::ceil(left / bound * (1 - 1e-12));
   const double dt = left / std::max(n, 1.0);
-  if (clock.step == 0) clock.first_dt = dt;
-  if (!(dt > clock.least_share * clock.first_dt) || clock.time + dt == clock.time) {
+  if (clock.step == 0) clock.first_dt = bound;
+  // what is left before an instant may be as little as one likes
+  if (!(bound > clock.least_share * clock.first_dt) || clock.time + dt == clock.time) {
     scheme::gather_state(moving.body);
     throw scheme::collapse_error(moving.body, clock.step + 1, clock.time, dt, clock.first_dt,
                                  clock.least_share);

@@ -18,6 +18,11 @@ struct Clock {
   double first_dt = 0;                                          ///< s
   double largest_dt = std::numeric_limits<double>::infinity();  ///< s, after a rejected step
   double least_share = 1e-7;  ///< of the first step: a smaller one is a breakdown
+  // leapfrog: the swing of its energy (swing.hpp)
+  double swing_share = 0;         ///< of the energy, that it is held to
+  double swing_energy = 0;        ///< J, when it set off; 0: at rest
+  double swing_work = 0;          ///< J, external work until then
+  std::int64_t swings_until = 0;  ///< step, before which it is looked at
 };
 
 template <int Dim>
@@ -48,7 +53,7 @@ double ssp_step(MovingBody<Dim>& moving, double t_limit);
 template <int Dim>
 double leapfrog_step(MovingBody<Dim>& moving, double t_limit);
 
-/// Forces and loads of the state as it stands: what leapfrog begins with.
+/// Forces and loads of the state as it stands, at its time: what leapfrog begins with.
 template <int Dim>
 void begin_leapfrog(MovingBody<Dim>& moving);
 

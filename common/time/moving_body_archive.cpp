@@ -37,6 +37,10 @@ void archive_clock(Clock& clock, Archive& archive) {
   archive.integer("clock/step", clock.step);
   archive.real("clock/first dt", "s", clock.first_dt);
   archive.real("clock/largest dt", "s", clock.largest_dt);
+  archive.real("clock/swing share", "-", clock.swing_share);
+  archive.real("clock/swing energy", "J", clock.swing_energy);
+  archive.real("clock/swing work", "J", clock.swing_work);
+  archive.integer("clock/swings until", clock.swings_until);
 }
 
 void archive_audit(scheme::Audit& audit, Archive& archive) {

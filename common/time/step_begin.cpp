@@ -163,7 +163,7 @@ double attempt_step(MovingBody<Dim>& moving, double t_limit) {
   if (!is_sound(moving)) return dt;
   clock.time = t_limit - (clock.time + dt) <= 1e-12 * dt ? t_limit : clock.time + dt;
   ++clock.step;
-  clock.largest_dt *= growth_after_rejection;
+  if (clock.step >= clock.swings_until) clock.largest_dt *= growth_after_rejection;
   return dt;
 }
 

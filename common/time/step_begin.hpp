@@ -27,6 +27,8 @@ class StepBegin {
   /// The step to make, and those after it until they have grown again, are no larger than dt [s].
   /// @pre the body has just been put back
   void shorten(MovingBody<Dim>& moving, double dt);
+  /// What has been kept is of no use any more: something else than steps has changed the body.
+  void forget() { is_kept_ = false; }
   std::int64_t bytes() const;
   /// Gives back what it keeps of these blocks (scheme/ranks/untouched.hpp).
   void release(const scheme::Blocks& untouched);

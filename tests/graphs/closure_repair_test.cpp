@@ -24,7 +24,7 @@ PairGraph open_cloud(CellType type, int n, double fraction) {
 std::vector<double> sizes(const PairGraph& graph) {
   std::vector<double> k(graph.C.size());
   for (size_t p = 0; p < k.size(); ++p)
-    k[p] = graph.C[p].norm() + graph.C[graph.reverse[p]].norm();
+    k[p] = graph.C[p].norm() + graph.C[graph.reverse(p)].norm();
   return k;
 }
 
@@ -42,7 +42,7 @@ TEST(ClosureRepair, ByPairsIsAProjection) {
   closure::repair_closure_pairs(closed, k);
   PairGraph half = open;
   for (size_t p = 0; p < k.size(); ++p)
-    half.C[p] = 0.5 * (open.C[p] + closed.C[p]);
+    half.C.each()[p] = 0.5 * (open.C[p] + closed.C[p]);
   closure::repair_closure_pairs(half, k);
   for (size_t p = 0; p < k.size(); ++p) {
     EXPECT_LE((half.C[p] - closed.C[p]).norm(), 1e-10 * closed.C[p].norm() + 1e-13);
@@ -119,7 +119,7 @@ TEST(ClosureRepair, ByClassesKeepsEqualRowsEqual) {
 
 TEST(ClosureRepair, ByClassesLeavesDisorderToTheRepairByPairs) {
   PairGraph graph = open_cloud(CellType::quadrilateral, 12, 0.2);
-  const std::vector<Vec3> C = graph.C;
+  const algebra::SharedVectors C = graph.C;
   const std::vector<double> k = sizes(graph);
   EXPECT_FALSE(closure::repair_closure_by_classes(graph, from(k)));
   EXPECT_EQ(graph.C, C);

@@ -74,8 +74,8 @@ TEST(FvmOnSimplices, HasTheMedianDualAsItsSkewPartAndBoundaryProductsAsTheRest) 
     for (int a = 0; a < graph.n_nodes(); ++a) {
       for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
         const std::pair pair{a, graph.neighbour[p]};
-        const Vec3 skew = 0.5 * (graph.C[p] - graph.C[graph.reverse[p]]);
-        Vec3 rest = 0.5 * (graph.C[p] + graph.C[graph.reverse[p]]);
+        const Vec3 skew = 0.5 * (graph.C[p] - graph.C[graph.reverse(p)]);
+        Vec3 rest = 0.5 * (graph.C[p] + graph.C[graph.reverse(p)]);
         if (products.contains(pair)) rest -= products.at(pair);
         EXPECT_NEAR((skew - dual.at(pair)).norm(), 0, 1e-15) << name_of(type);
         EXPECT_NEAR(rest.norm(), 0, 1e-15) << name_of(type);

@@ -77,7 +77,7 @@ inline Mat3 gradient(const scheme::PairGraph& graph, const std::vector<Vec3>& v,
 inline Vec3 force(const scheme::PairGraph& graph, const std::vector<Mat3>& P, std::int64_t a) {
   Vec3 sum = Vec3::Zero();
   for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-    sum += 0.5 * (P[a] * graph.C[p] - P[graph.neighbour[p]] * graph.C[graph.reverse[p]]);
+    sum += 0.5 * (P[a] * graph.C[p] - P[graph.neighbour[p]] * graph.C[graph.reverse(p)]);
   }
   return sum;
 }

@@ -97,7 +97,7 @@ TEST(EveryGraph, HasAreasFromANodeToItsNeighbourButForWideDerivatives) {
     double backwards = 0, all = 0;
     for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
       for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
-        const Vec3 S = 0.5 * (graph.C[p] - graph.C[graph.reverse[p]]);
+        const Vec3 S = 0.5 * (graph.C[p] - graph.C[graph.reverse(p)]);
         const double area = scheme::dissipation_area(S, graph.X[graph.neighbour[p]] - graph.X[a],
                                                      graph.dissipation_metric);
         EXPECT_TRUE(area == 0 || area == S.norm()) << scene.name;

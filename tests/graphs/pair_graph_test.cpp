@@ -25,14 +25,14 @@ TEST(ValidatePairGraph, RefusesEachKindOfDamage) {
       {"instead of", [](Graph& g) { g.row.back() -= 1; }},
       {"volume -1", [](Graph& g) { g.Omega[5] = -1; }},
       {"no finite position", [&](Graph& g) { g.X[3][1] = nan; }},
-      {"no finite C_ab", [&](Graph& g) { g.C[7][2] = nan; }},
+      {"no finite C_ab", [&](Graph& g) { g.C.each()[7][2] = nan; }},
       {"boundary area", [&](Graph& g) { g.boundary_area[4][0] = nan; }},
       {"ascending",
        [](Graph& g) {
          std::swap(g.neighbour[0], g.neighbour[1]);
-         std::swap(g.reverse[0], g.reverse[1]);
+         std::swap(g.reverse_place[0], g.reverse_place[1]);
        }},
-      {"not a pair both ways", [](Graph& g) { std::swap(g.reverse[0], g.reverse[1]); }},
+      {"not a pair both ways", [](Graph& g) { ++g.reverse_place[0]; }},
       {"neighbour 99", [](Graph& g) { g.neighbour[0] = 99; }},
       {"dimension", [](Graph& g) { g.dimension = 4; }},
       {"patch 'x_min'", [](Graph& g) { g.patches[0].nodes[0] = g.patches[0].nodes[1]; }},
@@ -53,7 +53,7 @@ TEST(ValidatePairGraph, RefusesEachKindOfDamage) {
 TEST(LinkReversePairs, RefusesAOneWayPair) {
   scheme::PairGraph graph = sound_graph();
   for (std::int64_t p = 0; p < graph.n_pairs(); ++p) {
-    EXPECT_EQ(graph.reverse[graph.reverse[p]], p);
+    EXPECT_EQ(graph.reverse(graph.reverse(p)), p);
   }
   graph.neighbour.erase(graph.neighbour.begin());
   for (size_t a = 1; a < graph.row.size(); ++a)
@@ -66,10 +66,10 @@ TEST(Quality, SeesASingleChangedCoefficient) {
   const scheme::GraphQuality sound = scheme::quality(graph);
   EXPECT_LT(sound.linear_exactness, 1e-13);
   EXPECT_LT(sound.closure, 1e-13);
-  graph.C[11][0] += 1e-3;
+  graph.C.each()[11][0] += 1e-3;
   EXPECT_GT(scheme::quality(graph).linear_exactness, 1e-5);
   EXPECT_GT(scheme::quality(graph).closure, 1e-3);
-  graph.C[11][0] = std::numeric_limits<double>::quiet_NaN();
+  graph.C.each()[11][0] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(std::isnan(scheme::quality(graph).closure));
 }
 

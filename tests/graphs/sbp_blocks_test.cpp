@@ -77,8 +77,8 @@ TEST(SbpBlocks, AreTheSplitFormAndASymmetricPart) {
       double Q_ij = 0;
       for (const auto& [j, Q] : metrics.along(d).row(place[d]))
         if (j == other[d]) Q_ij = Q;
-      const Vec3 S = 0.5 * (graph.C[p] - graph.C[graph.reverse[p]]),
-                 R = 0.5 * (graph.C[p] + graph.C[graph.reverse[p]]);
+      const Vec3 S = 0.5 * (graph.C[p] - graph.C[graph.reverse(p)]),
+                 R = 0.5 * (graph.C[p] + graph.C[graph.reverse(p)]);
       EXPECT_LE((S - Q_ij * (metrics.area(at[a], d) + metrics.area(at[b], d))).norm(), 1e-15);
       EXPECT_LE((R - Q_ij * (metrics.area(at[a], d) - metrics.area(at[b], d))).norm(), 1e-15);
     }

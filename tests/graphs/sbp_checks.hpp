@@ -76,7 +76,7 @@ inline double least_dissipation(const scheme::PairGraph& graph, bool with_slopes
   for (int a = 0; a < n; ++a) {
     for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
       const std::int32_t b = graph.neighbour[p];
-      const Vec3 X_ab = graph.X[b] - graph.X[a], S = 0.5 * (graph.C[p] - graph.C[graph.reverse[p]]);
+      const Vec3 X_ab = graph.X[b] - graph.X[a], S = 0.5 * (graph.C[p] - graph.C[graph.reverse(p)]);
       const double area = scheme::dissipation_area(S, X_ab, graph.dissipation_metric);
       D(a, a) += area;
       D(a, b) -= area;

@@ -127,7 +127,8 @@ TEST(Scene, TakesCellsOnMovedBlocksOfThreeNodesAlongSeveralDirections) {
 
 TEST(Scene, SaysThatNodesCarryThePressureOfOperatorsThatSumByParts) {
   std::vector<std::string> asked{"sph.gradient=\"sbp\"", "fvm.stencil=\"sbp\"",
-                                 "material.poissons_ratio=0.45"};
+                                 "material.poissons_ratio=0.45",
+                                 "initial.displacement=[\"0.1*x\", 0]"};
   EXPECT_TRUE(graph_with("sph", asked).notices.empty());
   EXPECT_FALSE(graph_with("sph", asked).graph.lines.empty());
   asked.emplace_back("mesh.perturbation=0.1");

@@ -126,7 +126,15 @@ TEST(StrongPressure, IsLeftToNodesWhereNothingPresses) {
   for (const char* method : {"sph", "fvm"}) {
     EXPECT_EQ(carrier(method, {rubber, moved}), "nodes");
     EXPECT_THAT(made(method, {rubber, moved}).operators, StartsWith("sbp"));
-    EXPECT_THAT(made(method, {rubber, moved}).notices, Contains(HasSubstr("nodes carry the bulk")));
+    EXPECT_THAT(made(method, {rubber, moved, "boundary.0.value=0.2*t"}).notices,
+                Contains(HasSubstr("nodes carry the bulk")));
+    EXPECT_THAT(made(method, {rubber, moved, "initial.velocity=[\"x\", 0, 0]"}).notices,
+                Contains(HasSubstr("nodes carry the bulk")));
+    EXPECT_THAT(
+        made(method, {rubber, moved, "boundary.0.value=0.05", "initial.velocity=[\"0.1*x\", 0, 0]"})
+            .notices,
+        IsEmpty())
+        << "nothing presses";
   }
   EXPECT_EQ(carrier("sph", {press}), "lines");
   EXPECT_THAT(made("sph", {press}).operators, StartsWith("sbp"));

@@ -66,4 +66,17 @@ inline std::string hash_in(const std::filesystem::path& run) {
                                                                                     : "none";
 }
 
+/// Errors against the exact solution and the cells, as summary.json has them.
+inline std::string errors_in(const std::filesystem::path& run) {
+  const std::string text = text_of(run / "summary.json");
+  const auto section = [&](const std::string& name) {
+    const size_t begin = text.find("\"" + name + "\": {"), end = text.find("\n  ", begin);
+    if (begin == std::string::npos ||
+        text.compare(begin, name.size() + 6, "\"" + name + "\": {}") == 0)
+      return std::string();
+    return text.substr(begin, text.find("\n  }", end) - begin);
+  };
+  return section("cells") + section("errors");
+}
+
 }  // namespace diptych::tests

@@ -36,8 +36,11 @@ SectionEntry time_section() {
                "A step that ends with J <= 0 or a value that is not finite is made again from its "
                "beginning with half the size, so many times in a row; then the run is stopped "
                "(code 3) and the state before the step is kept. So is one of the first 20 steps of "
-               "SSP-RK, of a body that moves from the start, that opens the energy budget by more "
-               "than a 20th of guards.energy_residual; with the last retry it stands. The steps "
+               "a body that holds energy, at the start or where a load jumps, that opens the "
+               "energy "
+               "budget by more than a 40th of guards.energy_residual (SSP-RK), or whose energy "
+               "swings "
+               "by more than half of it (leapfrog); with the last retry it stands. The steps "
                "after grow back by 1.2 each. 0: no retry, and no state kept, which saves a copy "
                "(diptych cost).",
                "0"})

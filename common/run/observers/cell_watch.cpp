@@ -6,7 +6,7 @@ void CellWatch::after_step(const StepReport& step) {
   const bool is_due = step.step >= next_step_ || step.time >= next_time_ || step.is_at_limit ||
                       nodal_J_ - step.least_J >= of_J * J_;
   if (!is_due) return;
-  const CellOutlook outlook = look_(solver_.motion(), step.dt);
+  const CellOutlook outlook = look_(step.dt);
   if (outlook.now.n_inverted > 0)
     throw RefusedStep(outlook.now.message(step.step, step.time), outlook.now.node);
   seen_step_ = step.step;

@@ -18,10 +18,10 @@ struct CellOutlook {
 
 class CellWatch : public Observer {
  public:
-  using Look = std::function<CellOutlook(const Motion& motion, double dt)>;
-
-  /// @param solver  kept by reference; those that take down steps are told of them after this one
-  CellWatch(const Solver& solver, Look look) : solver_(solver), look_(std::move(look)) {}
+  /// Of the body as it stands, with steps of this size  [s].
+  using Look = std::function<CellOutlook(double dt)>;
+  /// Those that take down steps are told of them after this one.
+  explicit CellWatch(Look look) : look_(std::move(look)) {}
 
   /// @throws RefusedStep
   void after_step(const StepReport& step) override;
@@ -37,7 +37,6 @@ class CellWatch : public Observer {
   static constexpr double of_time = 0.25, of_J = 0.1;
 
  private:
-  const Solver& solver_;
   Look look_;
   std::int64_t next_step_ = 1;
   double next_time_ = std::numeric_limits<double>::max();  // s

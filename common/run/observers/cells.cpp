@@ -19,7 +19,7 @@ std::string LeastCell::message(std::int64_t step, double time) const {
 
 void Cells::at_output(const Output& output) {
   const LeastCell* seen = seen_ ? seen_(output.step.step) : nullptr;
-  now_ = seen ? *seen : least_(output.state.u());
+  now_ = seen ? *seen : least_();
   least_J_ = std::min(least_J_, now_.J);
   most_inverted_ = std::max(most_inverted_, now_.n_inverted);
   if (now_.n_inverted > 0 && !inverted_from_) inverted_from_ = output.state.time();

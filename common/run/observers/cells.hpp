@@ -7,7 +7,6 @@
 
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 
@@ -27,10 +26,10 @@ struct LeastCell {
 
 class Cells : public Observer {
  public:
-  using Least = std::function<LeastCell(std::span<const algebra::Vec3> u)>;
+  using Least = std::function<LeastCell()>;
   using Seen = std::function<const LeastCell*(std::int64_t step)>;
 
-  /// @param least  of displacements u, [n_nodes] m
+  /// @param least  of the body as it stands
   /// @param seen  what is known of the cells at the end of a step, else null; may be empty
   explicit Cells(Least least, Seen seen = {}) : least_(std::move(least)), seen_(std::move(seen)) {}
 

@@ -7,29 +7,31 @@
 
 namespace diptych::run {
 
+ExactComparison::ExactComparison(const cases::Case& setup,
+                                 const Solver& solver,
+                                 size_t survey,
+                                 const Probes& probes)
+    : setup_(setup), solver_(solver), survey_(survey), probes_(probes) {
+  if (is_available()) this->survey().read_at(probes.nodes(), probes.places());
+}
+
 void ExactComparison::at_output(const Output& output) {
-  if (!errors_.available()) return;
-  add_row(errors_.measure(output.state.fields()));
+  if (!is_available()) return;
+  const ExactSums sums = sums_of(solver_.ask(survey_, {}));
+  errors_.measure(sums);
+  add_row(output.state.time(), sums);
 }
 
 /// Of the same fields each time.
-void ExactComparison::add_row(const Snapshot& exact) {
-  std::vector<io::HistoryColumn> now{{"time", "s", {exact.time}}};
-  if (!exact.v.empty()) {
-    double kinetic = 0, size = 0;
-    algebra::Vec3 momentum = algebra::Vec3::Zero();
-    for (size_t a = 0; a < exact.v.size(); ++a) {
-      const double mass = setup_.material.density * graph_.Omega[a];
-      kinetic += 0.5 * mass * exact.v[a].squaredNorm();
-      momentum += mass * exact.v[a];
-      size += mass * exact.v[a].norm();
-    }
-    momentum_scale_ = std::max(momentum_scale_, size);
-    now.push_back({"kinetic energy", "J", {kinetic}});
+void ExactComparison::add_row(double time, const ExactSums& sums) {
+  std::vector<io::HistoryColumn> now{{"time", "s", {time}}};
+  if (sums.has_velocity) {
+    momentum_scale_ = std::max(momentum_scale_, sums.momentum_scale);
+    now.push_back({"kinetic energy", "J", {sums.kinetic}});
     for (int i = 0; i < 3; ++i)
-      now.push_back({std::string("linear momentum ") + "xyz"[i], "kg m/s", {momentum[i]}});
+      now.push_back({std::string("linear momentum ") + "xyz"[i], "kg m/s", {sums.momentum[i]}});
   }
-  const auto probes = probes_.exact_values(exact);
+  const auto probes = probes_.exact_values(survey().at_nodes());
   for (size_t k = 0; k < probes.size(); ++k) {
     if (probes[k]) now.push_back({setup_.probes[k].name, setup_.probes[k].unit, {*probes[k]}});
   }
@@ -42,7 +44,7 @@ void ExactComparison::add_row(const Snapshot& exact) {
 }
 
 void ExactComparison::archive(algebra::Archive& archive) {
-  if (!errors_.available()) return;
+  if (!is_available()) return;
   errors_.archive(archive);
   archive.real("exact/momentum scale", "kg m/s", momentum_scale_);
   std::vector<std::string> names, units;

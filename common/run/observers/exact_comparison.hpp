@@ -15,12 +15,12 @@ namespace diptych::run {
 
 class ExactComparison : public Observer {
  public:
-  /// @param setup, graph, solver, probes  kept by reference
+  /// @param setup, solver, probes  kept by reference
+  /// @param survey  place of its ExactSurvey in the solver, where the case has an exact solution
   ExactComparison(const cases::Case& setup,
-                  const scheme::PairGraph& graph,
                   const Solver& solver,
-                  const Probes& probes)
-      : setup_(setup), graph_(graph), probes_(probes), errors_(setup, graph, solver) {}
+                  size_t survey,
+                  const Probes& probes);
 
   /// Does nothing where the case has no exact solution.
   void at_output(const Output& output) override;
@@ -32,10 +32,13 @@ class ExactComparison : public Observer {
   std::vector<io::HistoryColumn> columns() const;
 
  private:
-  void add_row(const Snapshot& exact);
+  bool is_available() const { return ExactSurvey::is_for(setup_); }
+  ExactSurvey& survey() const { return static_cast<ExactSurvey&>(solver_.survey(survey_)); }
+  void add_row(double time, const ExactSums& sums);
 
   const cases::Case& setup_;
-  const scheme::PairGraph& graph_;
+  const Solver& solver_;
+  size_t survey_;
   const Probes& probes_;
   ExactErrors errors_;
   std::vector<io::HistoryColumn> columns_;

@@ -1,6 +1,7 @@
 #include "common/run/ranks/leading_solver.hpp"
 
 #include "common/base/error.hpp"
+#include "common/parallel/agreement.hpp"
 #include "common/parallel/pages.hpp"
 #include "common/parallel/ranks.hpp"
 #include "common/parallel/sharing.hpp"
@@ -20,10 +21,11 @@ enum class Task : std::int32_t {
   share,
   step,
   take_back,
+  pass,
   balance,
   snapshot,
   snapshot_of_nodes,
-  motion,
+  survey,
   reaction,
   state_hash,
   keep,
@@ -38,10 +40,11 @@ const char* name_of(Task task) {
   constexpr const char* names[] = {"set-up",
                                    "a step",
                                    "taking a step back",
+                                   "a jump of loads",
                                    "a balance",
                                    "a snapshot",
                                    "probes",
-                                   "the motion",
+                                   "a survey",
                                    "a reaction",
                                    "a state hash",
                                    "writing a checkpoint",
@@ -53,15 +56,20 @@ const char* name_of(Task task) {
   return names[static_cast<int>(task)];
 }
 
-/// What rank 0 asks for; nodes or bytes follow where n > 0.
+/// What rank 0 asks for; nodes or numbers follow where n > 0.
 struct Order {
   Task task = Task::end;
   double time = 0;  ///< s
   std::int64_t n = 0;
+  size_t number = 0;  ///< of a survey
 };
 
-void ask(parallel::Communicator& ranks, Task task, double time = 0, std::int64_t n = 0) {
-  Order given{task, time, n};
+void ask(parallel::Communicator& ranks,
+         Task task,
+         double time = 0,
+         std::int64_t n = 0,
+         size_t number = 0) {
+  Order given{task, time, n, number};
   parallel::share(ranks, given);
 }
 
@@ -167,6 +175,35 @@ void send_nodes(parallel::Communicator& ranks, Task task, std::span<const std::i
                   std::ssize(copy) * static_cast<std::int64_t>(sizeof(std::int32_t)));
 }
 
+/// Of all ranks, on all of them; errors that one of them meets are met by all.
+Answers answers_of(const Solver& solver,
+                   parallel::Communicator& ranks,
+                   size_t survey,
+                   std::span<const double> question) {
+  std::vector<double> own;
+  parallel::agree_on(ranks, [&] { own = solver.survey(survey).answer(solver, question); });
+  const auto n = static_cast<size_t>(ranks.size());
+  std::vector<std::int64_t> bytes(n, sizeof(std::int64_t)), lengths(n);
+  lengths[ranks.rank()] = std::ssize(own);
+  ranks.all_gather(parallel::bytes_of(lengths.data()), bytes);
+  std::int64_t all_of = 0, before = 0;
+  for (size_t r = 0; r < n; ++r) {
+    if (r == static_cast<size_t>(ranks.rank())) before = all_of;
+    bytes[r] = lengths[r] * static_cast<std::int64_t>(sizeof(double));
+    all_of += lengths[r];
+  }
+  std::vector<double> all(static_cast<size_t>(all_of));
+  std::copy(own.begin(), own.end(), all.begin() + before);
+  ranks.all_gather(parallel::bytes_of(all.data()), bytes);
+  Answers answers;
+  auto next = all.begin();
+  for (const std::int64_t length : lengths) {
+    answers.emplace_back(next, next + length);
+    next += length;
+  }
+  return answers;
+}
+
 void carry_out(const Order& order,
                Solver& solver,
                parallel::Communicator& ranks,
@@ -182,6 +219,9 @@ void carry_out(const Order& order,
     case Task::take_back:
       (void)solver.take_back();
       break;
+    case Task::pass:
+      solver.pass(order.time);
+      break;
     case Task::balance:
       (void)solver.balance();
       break;
@@ -191,9 +231,11 @@ void carry_out(const Order& order,
     case Task::snapshot_of_nodes:
       (void)solver.snapshot(received<std::int32_t>(ranks, order.n));
       break;
-    case Task::motion:
-      (void)solver.motion();
+    case Task::survey: {
+      std::vector<double> question = received<double>(ranks, order.n);
+      (void)answers_of(solver, ranks, order.number, question);
       break;
+    }
     case Task::reaction:
       solver.reaction(received<std::int32_t>(ranks, order.n));
       break;
@@ -225,37 +267,44 @@ void carry_out(const Order& order,
 LeadingSolver::LeadingSolver(std::unique_ptr<Solver> solver,
                              scheme::PairGraph& graph,
                              parallel::Communicator& ranks,
-                             const std::string& partition)
+                             const std::string& partition,
+                             const MakeSurveys& surveys)
     : solver_(std::move(solver)), ranks_(ranks) {
   share_together(ranks, [&] {
     solver_->give(ranks, graph);
     solver_->divide(ranks, partition);
+    if (surveys) solver_->take(surveys(*solver_));
   });
 }
 
 LeadingSolver::~LeadingSolver() {
-  ask(ranks_, Task::end);
+  run::ask(ranks_, Task::end);
 }
 
 RankCosts LeadingSolver::costs() const {
-  ask(ranks_, Task::costs);
+  run::ask(ranks_, Task::costs);
   return sum_costs(*solver_, ranks_, spent_);
 }
 
 RankMemory LeadingSolver::memory() const {
-  ask(ranks_, Task::memory);
+  run::ask(ranks_, Task::memory);
   return largest_memory(ranks_);
 }
 
 StepReport LeadingSolver::step(double t_limit) {
-  ask(ranks_, Task::step, t_limit);
+  run::ask(ranks_, Task::step, t_limit);
   const Spending spending(ranks_, spent_);
   return work_together(ranks_, Task::step, [&] { return solver_->step(t_limit); });
 }
 
 bool LeadingSolver::take_back() {
-  ask(ranks_, Task::take_back);
+  run::ask(ranks_, Task::take_back);
   return work_together(ranks_, Task::take_back, [&] { return solver_->take_back(); });
+}
+
+void LeadingSolver::pass(double t) {
+  run::ask(ranks_, Task::pass, t);
+  work_together(ranks_, Task::pass, [&] { solver_->pass(t); });
 }
 
 void LeadingSolver::give(parallel::Communicator&, scheme::PairGraph&) {}
@@ -263,12 +312,12 @@ void LeadingSolver::give(parallel::Communicator&, scheme::PairGraph&) {}
 void LeadingSolver::divide(parallel::Communicator&, const std::string&) {}
 
 scheme::Balance LeadingSolver::balance() const {
-  ask(ranks_, Task::balance);
+  run::ask(ranks_, Task::balance);
   return work_together(ranks_, Task::balance, [&] { return solver_->balance(); });
 }
 
 void LeadingSolver::take_snapshot(Snapshot& snapshot) const {
-  ask(ranks_, Task::snapshot);
+  run::ask(ranks_, Task::snapshot);
   work_together(ranks_, Task::snapshot, [&] { solver_->take_snapshot(snapshot); });
 }
 
@@ -277,9 +326,13 @@ Snapshot LeadingSolver::snapshot(std::span<const std::int32_t> nodes) const {
   return work_together(ranks_, Task::snapshot_of_nodes, [&] { return solver_->snapshot(nodes); });
 }
 
-Motion LeadingSolver::motion() const {
-  ask(ranks_, Task::motion);
-  return work_together(ranks_, Task::motion, [&] { return solver_->motion(); });
+Answers LeadingSolver::ask(size_t survey, std::span<const double> question) const {
+  run::ask(ranks_, Task::survey, 0, std::ssize(question), survey);
+  std::vector<double> copy(question.begin(), question.end());
+  ranks_.broadcast(parallel::bytes_of(copy.data()),
+                   std::ssize(copy) * static_cast<std::int64_t>(sizeof(double)));
+  return work_together(ranks_, Task::survey,
+                       [&] { return answers_of(*solver_, ranks_, survey, question); });
 }
 
 algebra::Vec3 LeadingSolver::reaction(const std::vector<std::int32_t>& nodes) {
@@ -288,22 +341,25 @@ algebra::Vec3 LeadingSolver::reaction(const std::vector<std::int32_t>& nodes) {
 }
 
 std::string LeadingSolver::state_hash(const std::vector<std::int32_t>& order) const {
-  ask(ranks_, Task::state_hash);
+  run::ask(ranks_, Task::state_hash);
   return work_together(ranks_, Task::state_hash, [&] { return solver_->state_hash(order); });
 }
 
 void LeadingSolver::archive(algebra::Archive& archive) {
   const Task task = archive.is_loading() ? Task::load : Task::keep;
-  ask(ranks_, task);
+  run::ask(ranks_, task);
   work_together(ranks_, task, [&] { solver_->archive(archive); });
 }
 
 std::optional<Snapshot> LeadingSolver::exact_state(double t) const {
-  ask(ranks_, Task::exact_state, t);
+  run::ask(ranks_, Task::exact_state, t);
   return work_together(ranks_, Task::exact_state, [&] { return solver_->exact_state(t); });
 }
 
-void follow(const cases::Case& setup, parallel::Communicator& ranks, const std::string& partition) {
+void follow(const cases::Case& setup,
+            parallel::Communicator& ranks,
+            const std::string& partition,
+            const MakeSurveys& surveys) {
   std::vector<scheme::BoundaryPatch> patches;  // which the solver refers to
   std::unique_ptr<Solver> solver;
   share_together(ranks, [&] {
@@ -312,6 +368,7 @@ void follow(const cases::Case& setup, parallel::Communicator& ranks, const std::
     patches = std::move(nodes.patches);
     nodes = {};
     solver->divide(ranks, partition);
+    if (surveys) solver->take(surveys(*solver));
   });
   parallel::CommunicationCost spent;
   for (;;) {

@@ -24,11 +24,13 @@ struct RankMemory {
 class LeadingSolver : public Solver {
  public:
   /// On rank 0; the others call follow().
-  /// @param graph  of the solver; it stays as it is
+  /// @param graph    of the solver; it stays as it is
+  /// @param surveys  makes those of this rank, while the others make theirs; may be empty
   LeadingSolver(std::unique_ptr<Solver> solver,
                 scheme::PairGraph& graph,
                 parallel::Communicator& ranks,
-                const std::string& partition);
+                const std::string& partition,
+                const MakeSurveys& surveys = {});
   /// The others stop following.
   ~LeadingSolver() override;
   LeadingSolver(const LeadingSolver&) = delete;
@@ -43,13 +45,22 @@ class LeadingSolver : public Solver {
   void divide(parallel::Communicator& ranks, const std::string& partition) override;
   double imbalance() const override { return solver_->imbalance(); }
   double time() const override { return solver_->time(); }
+  void pass(double t) override;
   bool is_sound() const override { return solver_->is_sound(); }
   scheme::Balance balance() const override;
   const scheme::Audit& audit() const override { return solver_->audit(); }
   const scheme::Interventions& interventions() const override { return solver_->interventions(); }
   void take_snapshot(Snapshot& snapshot) const override;
   Snapshot snapshot(std::span<const std::int32_t> nodes) const override;
-  Motion motion() const override;
+  const parallel::Part& part() const override { return solver_->part(); }
+  /// Of this rank alone, as the part is: surveys make use of them, on all ranks.
+  void visit_own(const Visit& visit) const override { solver_->visit_own(visit); }
+  NodeReads reads(std::vector<std::int32_t> nodes) const override {
+    return solver_->reads(std::move(nodes));
+  }
+  Motion motion(NodeReads& reads) const override { return solver_->motion(reads); }
+  Survey& survey(size_t survey) const override { return solver_->survey(survey); }
+  Answers ask(size_t survey, std::span<const double> question) const override;
   algebra::Vec3 reaction(const std::vector<std::int32_t>& nodes) override;
   std::string state_hash(const std::vector<std::int32_t>& order) const override;
   void archive(algebra::Archive& archive) override;
@@ -70,6 +81,10 @@ class LeadingSolver : public Solver {
 /// On the other ranks: is given the solver that rank 0 makes a LeadingSolver of, and does what that
 /// is asked for until it is gone. What goes wrong in being given it ends all ranks.
 /// @param setup, partition  those of rank 0
-void follow(const cases::Case& setup, parallel::Communicator& ranks, const std::string& partition);
+/// @param surveys           makes those of this rank
+void follow(const cases::Case& setup,
+            parallel::Communicator& ranks,
+            const std::string& partition,
+            const MakeSurveys& surveys = {});
 
 }  // namespace diptych::run

@@ -127,6 +127,31 @@ Snapshot snapshot_of(const MaterialModel& material,
 }
 
 template <int Dim>
+void visit_chunks(
+    const MaterialModel& material,
+    const Body<Dim>& body,
+    double time,
+    const std::function<void(std::int64_t chunk, std::int64_t first, const Snapshot&)>& visit) {
+  const std::vector<double> cell_J = body.bulk ? body.bulk->ratios(body) : std::vector<double>();
+  parallel::for_chunks(
+      body.part(), body.n_blocks, [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
+        const std::int64_t first = begin * algebra::n_lanes,
+                           last = std::min(body.n_owned, end * algebra::n_lanes);
+        Snapshot s;
+        s.time = time;
+        std::vector<double> J;
+        if (!cell_J.empty()) J.assign(cell_J.begin() + first, cell_J.begin() + last);
+        put_fields(
+            material, body, static_cast<size_t>(last - first),
+            [&](size_t k) {
+              return static_cast<std::int32_t>(first) + static_cast<std::int32_t>(k);
+            },
+            J, s);
+        visit(chunk, first, s);
+      });
+}
+
+template <int Dim>
 void take_snapshot(const MaterialModel& material,
                    const Body<Dim>& body,
                    double time,
@@ -138,10 +163,13 @@ void take_snapshot(const MaterialModel& material,
       [](size_t k) { return static_cast<std::int32_t>(k); }, cell_J, snapshot);
 }
 
-#define DIPTYCH_INSTANTIATE(Dim)                                                \
-  template Snapshot snapshot_of(const MaterialModel&, const Body<Dim>&, double, \
-                                std::span<const std::int32_t>);                 \
-  template void take_snapshot(const MaterialModel&, const Body<Dim>&, double, Snapshot&);
+#define DIPTYCH_INSTANTIATE(Dim)                                                          \
+  template Snapshot snapshot_of(const MaterialModel&, const Body<Dim>&, double,           \
+                                std::span<const std::int32_t>);                           \
+  template void take_snapshot(const MaterialModel&, const Body<Dim>&, double, Snapshot&); \
+  template void visit_chunks(                                                             \
+      const MaterialModel&, const Body<Dim>&, double,                                     \
+      const std::function<void(std::int64_t, std::int64_t, const Snapshot&)>&);
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)
 #undef DIPTYCH_INSTANTIATE

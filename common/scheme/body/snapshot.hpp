@@ -4,6 +4,7 @@
 #include "common/algebra/vectors.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,15 @@ Snapshot snapshot_of(const MaterialModel& material,
                      const Body<Dim>& body,
                      double time,
                      std::span<const std::int32_t> nodes);
+
+/// Calls visit(chunk, first, fields) for the chunks of nodes of this rank, by all threads: fields
+/// are those of the nodes from `first` on.
+template <int Dim>
+void visit_chunks(
+    const MaterialModel& material,
+    const Body<Dim>& body,
+    double time,
+    const std::function<void(std::int64_t chunk, std::int64_t first, const Snapshot&)>& visit);
 
 /// Of all nodes, in the memory of an earlier one.
 template <int Dim>

@@ -391,40 +391,6 @@ double AppliedBoundary::power_of_loads(const Body<Dim>& body) const {
                      });
 }
 
-template <int Dim>
-double AppliedBoundary::power_against_forces(const Body<Dim>& body) const {
-  if (!has_velocities_) return 0;
-  return parallel::sum_over<double>(body.part(), chunks_of_constrained_,
-                                    [&](std::int64_t i, double& power) {
-                                      const ConstrainedNode& c = constrained_[i];
-                                      if (!c.velocity) return;
-                                      const Vec3 v = vector_at<Dim>(body.v, c.node);
-                                      power -= vector_at<Dim>(body.T, c.node).dot(v - c.keep * v);
-                                    });
-}
-
-/// What keeps the velocity of a constrained node as prescribed, at a fraction of the step  [N]
-template <int Dim>
-Vec3 AppliedBoundary::force_on(const Body<Dim>& body, std::int64_t k, double fraction) const {
-  const ConstrainedNode& c = constrained_[k];
-  Vec3 force = -vector_at<Dim>(body.T, c.node);
-  if (c.velocity && in_step_.step() > 0)
-    force += body.options.rho_R * c.Omega * in_step_.rate(k, fraction);
-  return force - c.keep * force;
-}
-
-template <int Dim>
-Vec3 AppliedBoundary::reaction(const Body<Dim>& body,
-                               const std::vector<std::int32_t>& nodes) const {
-  const auto held = parallel::sum_over<VectorSum>(
-      body.part(), chunks_of_constrained_, [&](std::int64_t k, VectorSum& sum) {
-        const ConstrainedNode& c = constrained_[k];
-        if (!std::binary_search(nodes.begin(), nodes.end(), c.node)) return;
-        sum.value += force_on(body, k, 1);
-      });
-  return walls_.force(body, nodes) + held.value;
-}
-
 #define DIPTYCH_INSTANTIATE(Dim)                                                                  \
   template ConstraintAction AppliedBoundary::constrain(Body<Dim>&, double);                       \
   template ConstraintAction AppliedBoundary::constrain_stage(Body<Dim>&, const StageCombination&, \
@@ -433,10 +399,8 @@ Vec3 AppliedBoundary::reaction(const Body<Dim>& body,
   template void AppliedBoundary::evaluate_loads(const Body<Dim>&, double);                        \
   template LoadRates AppliedBoundary::add_loads(Body<Dim>&, double);                              \
   template double AppliedBoundary::power_of_loads(const Body<Dim>&) const;                        \
-  template double AppliedBoundary::power_against_forces(const Body<Dim>&) const;                  \
   template Vec3 AppliedBoundary::lag_of_moment(const Body<Dim>&, const StageCombination&, double) \
-      const;                                                                                      \
-  template Vec3 AppliedBoundary::reaction(const Body<Dim>&, const std::vector<std::int32_t>&) const;
+      const;
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)
 #undef DIPTYCH_INSTANTIATE

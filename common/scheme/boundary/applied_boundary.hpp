@@ -119,6 +119,11 @@ class AppliedBoundary {
   template <int Dim>
   double power_against_forces(const Body<Dim>& body) const;
 
+  /// What supports and walls take from the sum of |T|^2/m over all nodes, whose rest is that of
+  /// m |a|^2  [N^2/kg]
+  template <int Dim>
+  double squared_reactions(const Body<Dim>& body) const;
+
   /// Force of the constraints on these nodes (ascending), from the force field (loads included):
   /// what keeps their velocities as prescribed, and what walls exert  [N]
   template <int Dim>

@@ -254,6 +254,17 @@ Vec3 WallContacts::force(const Body<Dim>& body, const std::vector<std::int32_t>&
   return sum.value;
 }
 
+template <int Dim>
+double WallContacts::squared_forces(const Body<Dim>& body) const {
+  return parallel::sum_over<double>(body.part(), chunks_, [&](std::int64_t k, double& sum) {
+    const WallNode& w = nodes_[k];
+    if (!w.closed) return;
+    const Vec3 T = vector_at<Dim>(body.T, w.body.node);
+    const Vec3 left = T - T.dot(w.push) * w.wall.normal;
+    sum += (T.squaredNorm() - left.squaredNorm()) / (body.options.rho_R * w.body.Omega);
+  });
+}
+
 #define DIPTYCH_INSTANTIATE(Dim)                                                                 \
   template void WallContacts::require_in_front(const Body<Dim>&) const;                          \
   template void WallContacts::hold(Body<Dim>&, const StageCombination&, const StageCombination&, \
@@ -261,7 +272,8 @@ Vec3 WallContacts::force(const Body<Dim>& body, const std::vector<std::int32_t>&
   template void WallContacts::hold_in_middle(Body<Dim>&, double, ConstraintAction&);             \
   template Vec3 WallContacts::lag_of_moment(const Body<Dim>&, const StageCombination&) const;    \
   template void WallContacts::settle(Body<Dim>&, ConstraintAction&);                             \
-  template Vec3 WallContacts::force(const Body<Dim>&, const std::vector<std::int32_t>&) const;
+  template Vec3 WallContacts::force(const Body<Dim>&, const std::vector<std::int32_t>&) const;   \
+  template double WallContacts::squared_forces(const Body<Dim>&) const;
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)
 #undef DIPTYCH_INSTANTIATE

@@ -79,6 +79,10 @@ class WallContacts {
   template <int Dim>
   Vec3 force(const Body<Dim>& body, const std::vector<std::int32_t>& nodes) const;
 
+  /// What these forces take from the sum of |T|^2/m over all nodes  [N^2/kg]
+  template <int Dim>
+  double squared_forces(const Body<Dim>& body) const;
+
  private:
   struct WallNode {
     WallCandidate body;

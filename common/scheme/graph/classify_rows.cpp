@@ -39,7 +39,7 @@ struct Rows {
   const std::int64_t* row;
   const std::int32_t* neighbour;
   const Vec3* X;
-  const Vec3* C;
+  const algebra::SharedVectors& C;
   double inverse_X = 0, inverse_C = 0;
 };
 
@@ -132,7 +132,7 @@ class Classifier {
   Classifier(const PairGraph& graph, const std::vector<std::int32_t>& nodes)
       : graph_(graph),
         nodes_(nodes),
-        rows_{graph.row.data(), graph.neighbour.data(), graph.X.data(), graph.C.data()} {
+        rows_{graph.row.data(), graph.neighbour.data(), graph.X.data(), graph.C} {
     std::vector<Largest> parts(static_cast<size_t>(parallel::n_chunks_of(n_rows())));
     parallel::for_chunks(n_rows(), [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
       for (std::int64_t i = begin; i < end; ++i)

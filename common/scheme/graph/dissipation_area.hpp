@@ -33,7 +33,7 @@ inline double area_between(const PairGraph& graph, std::int32_t a, std::int32_t 
   const auto first = graph.neighbour.begin();
   const auto found = std::lower_bound(first + graph.row[a], first + graph.row[a + 1], b);
   const std::int64_t p = found - first;
-  return 0.5 * (graph.C[p] - graph.C[graph.reverse[p]]).norm();
+  return 0.5 * (graph.C[p] - graph.C[graph.reverse(p)]).norm();
 }
 
 }  // namespace diptych::scheme

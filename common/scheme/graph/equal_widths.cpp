@@ -18,14 +18,15 @@ bool is_long(const Mat3& shape) {
 /// Areas of nodes X as those of nodes B X, det B = 1.
 void stretch(const Mat3& B, PairGraph& graph) {
   const Mat3 cofactor = B.inverse().transpose();
+  const auto change = [&](Vec3& area) { area = cofactor * area; };
   const auto apply = [&](std::vector<Vec3>& areas) {
     for (Vec3& area : areas)
-      area = cofactor * area;
+      change(area);
   };
   apply(graph.boundary_area);
   for (BoundaryPatch& patch : graph.patches)
     apply(patch.area);
-  apply(graph.C);
+  graph.C.change_alike(change);
 }
 
 std::optional<PairGraph> of_stretched(const meshes::Mesh& mesh,

@@ -45,7 +45,7 @@ void check_sizes(const PairGraph& graph) {
   check("Omega", graph.Omega.size(), n);
   check("boundary_area", graph.boundary_area.size(), n);
   check("row", graph.row.size(), n + 1);
-  check("reverse", graph.reverse.size(), pairs);
+  check("reverse_place", graph.reverse_place.size(), pairs);
   check("C", graph.C.size(), pairs);
   if (graph.row.front() != 0 || graph.row.back() != graph.n_pairs()) {
     refuse(fmt::format("rows run from {} to {} instead of 0 to {}", graph.row.front(),
@@ -79,7 +79,7 @@ void check_row(const PairGraph& graph, std::int64_t a) {
     if (p > graph.row[a] && graph.neighbour[p - 1] >= b) {
       refuse(fmt::format("the neighbours of {} are not in ascending order", node_text(graph, a)));
     }
-    const std::int64_t r = graph.reverse[p];
+    const std::int64_t r = graph.reverse(p);
     if (r < graph.row[b] || r >= graph.row[b + 1] || graph.neighbour[r] != a) {
       refuse(fmt::format("{} and {} are not a pair both ways", node_text(graph, a),
                          node_text(graph, b)));
@@ -138,7 +138,7 @@ double linear_error(const PairGraph& graph, std::int64_t a) {
 double closure_error(const PairGraph& graph, std::int64_t a) {
   Vec3 closure = Vec3::Zero();
   for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p)
-    closure -= 0.5 * (graph.C[p] - graph.C[graph.reverse[p]]);
+    closure -= 0.5 * (graph.C[p] - graph.C[graph.reverse(p)]);
   const double d = graph.dimension;
   return (closure - graph.boundary_area[a]).norm() / std::pow(graph.Omega[a], (d - 1) / d);
 }
@@ -147,8 +147,7 @@ double closure_error(const PairGraph& graph, std::int64_t a) {
 void check_range(const PairGraph& graph) {
   constexpr double least = 1e-13, most = 1e13;
   double largest = 0;
-  for (const Vec3& C : graph.C)
-    largest = std::max(largest, C.norm());
+  graph.C.for_each_alike([&](const Vec3& C) { largest = std::max(largest, C.norm()); });
   if (largest > least && largest < most) return;
   refuse(fmt::format(
       "faces of {:.3g} m^{} are out of the range of scheme.precision = \"single\" ({:g} "
@@ -203,8 +202,12 @@ void set_precision(PairGraph& graph, Precision precision) {
   const RowClasses classes = classes_of(graph);  // rows of a class must not round apart
   for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
     for (std::int64_t k = graph.row[a]; k < graph.row[a + 1]; ++k)
-      graph.C[k] = shared_C(graph, classes, a, k).cast<float>().cast<double>();
+      graph.C.put_as(k, shared_place(graph, classes, a, k));
   }
+  graph.C.change_alike([](Vec3& C) {
+    for (double& component : C)  // Eigen 3.4 leaves rounding out of C.cast<float>().cast<double>()
+      component = static_cast<float>(component);
+  });
 }
 
 Mat3 metric_of_lines(const Mat3& edges) {
@@ -216,8 +219,8 @@ void release_pairs(PairGraph& graph) {
   graph.slopes = {};
   free_array(graph.row);
   free_array(graph.neighbour);
-  free_array(graph.reverse);
-  free_array(graph.C);
+  free_array(graph.reverse_place);
+  graph.C = {};
   free_array(graph.boundary_area);
   graph.classes = {};
 }
@@ -231,7 +234,7 @@ void release_volumes(PairGraph& graph) {
 void link_reverse_pairs(PairGraph& graph) {
   // Rows are ascending, so the rows that name b come by in the order of b's own row.
   std::vector<std::int64_t> next(graph.row.begin(), graph.row.end() - 1);
-  graph.reverse.assign(graph.neighbour.size(), -1);
+  graph.reverse_place.assign(graph.neighbour.size(), -1);
   for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
     for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
       const std::int32_t b = graph.neighbour[p];
@@ -244,7 +247,7 @@ void link_reverse_pairs(PairGraph& graph) {
         refuse(fmt::format("{} and {} are not a pair both ways", node_text(graph, a),
                            node_text(graph, b)));
       }
-      graph.reverse[p] = r;
+      graph.reverse_place[p] = static_cast<std::int32_t>(r - graph.row[b]);
     }
   }
 }

@@ -6,6 +6,7 @@
 ///   -1/2 sum_b (C_ab - C_ba) = A_a N_a.
 /// Tests: tests/graphs.
 
+#include "common/algebra/shared_vectors.hpp"
 #include "common/algebra/vectors.hpp"
 #include "common/scheme/graph/row_classes.hpp"
 #include "common/scheme/graph/slope_graph.hpp"
@@ -47,9 +48,9 @@ struct PairGraph {
   std::vector<BoundaryPatch> patches;  ///< one per boundary group of the mesh, same order
   std::vector<std::int64_t> row;       ///< [n_nodes + 1]
   std::vector<std::int32_t>
-      neighbour;                      ///< [n_pairs] ascending in each row, without the node itself
-  std::vector<std::int64_t> reverse;  ///< [n_pairs] index of pair (b,a)
-  std::vector<Vec3> C;                ///< [n_pairs] m^2, C_ab of the directed pair (a,b)
+      neighbour;  ///< [n_pairs] ascending in each row, without the node itself
+  std::vector<std::int32_t> reverse_place;  ///< [n_pairs] where pair (b,a) stands in the row of b
+  algebra::SharedVectors C;                 ///< [n_pairs] m^2, C_ab of the directed pair (a,b)
   /// Where the factory knows them, which takes that rows stand in their common order; else empty.
   RowClasses classes;
   VolumeCells cells;  ///< those between its nodes
@@ -67,6 +68,8 @@ struct PairGraph {
 
   std::int64_t n_nodes() const { return static_cast<std::int64_t>(X.size()); }
   std::int64_t n_pairs() const { return static_cast<std::int64_t>(neighbour.size()); }
+  /// Index of pair (b,a), where that of (a,b) is p.
+  std::int64_t reverse(std::int64_t p) const { return row[neighbour[p]] + reverse_place[p]; }
 };
 
 /// Figures of merit of a graph, for the log, the record and the tests. All are relative:
@@ -101,7 +104,7 @@ void release_pairs(PairGraph& graph);
 /// Frees cells, lines and edges, of which a solver makes its own too, but for those of other ranks.
 void release_volumes(PairGraph& graph);
 
-/// Fills graph.reverse from rows and neighbours (which must be structurally symmetric).
+/// Fills graph.reverse_place from rows and neighbours (which must be structurally symmetric).
 void link_reverse_pairs(PairGraph& graph);
 
 }  // namespace diptych::scheme

@@ -4,6 +4,7 @@
 /// for all units that have the same. Test: tests/graphs/line_slopes_test.cpp
 
 #include "common/algebra/node_table.hpp"
+#include "common/algebra/shared_vectors.hpp"
 #include "common/algebra/vectors.hpp"
 
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace diptych::scheme {
 struct SlopeRows {
   std::vector<std::int64_t> row;        ///< [n_nodes + 1]
   std::vector<std::int32_t> neighbour;  ///< [n_pairs] ascending in each row
-  std::vector<algebra::Vec3> weight;    ///< [n_pairs] 1/m
+  algebra::SharedVectors weight;        ///< [n_pairs] 1/m
   /// Of the pairs whose jumps they are for, the nearest neighbours: |metric (X_b - X_a)| <= 1. The
   /// others dissipate nothing then (dissipation_area.hpp).  [1/m]
   algebra::Mat3 metric = algebra::Mat3::Zero();

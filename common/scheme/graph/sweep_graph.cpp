@@ -90,7 +90,7 @@ void geometry_of(const PairGraph& graph,
   for (size_t k = 0; k < pairs.size(); ++k) {
     const std::int64_t p = pairs[k];
     if (p < 0) continue;
-    const std::int64_t reverse = graph.reverse[p];
+    const std::int64_t reverse = graph.reverse(p);
     C[2 * k] = shared_C(graph, classes, graph.neighbour[reverse], p);
     C[2 * k + 1] = shared_C(graph, classes, graph.neighbour[p], reverse);
   }
@@ -157,7 +157,7 @@ EqualGroups group_blocks(const PairGraph& graph, const RowClasses& classes) {
 /// X_b - X_a of a pair; 0 where there is none.
 Vec3 distance_of(const PairGraph& graph, std::int64_t p) {
   if (p < 0) return Vec3::Zero();
-  return graph.X[graph.neighbour[p]] - graph.X[graph.neighbour[graph.reverse[p]]];
+  return graph.X[graph.neighbour[p]] - graph.X[graph.neighbour[graph.reverse(p)]];
 }
 
 /// Geometry of every group once, set lane by lane by set(chunk, lane, C_ab, C_ba, X_b - X_a).

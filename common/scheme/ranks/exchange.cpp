@@ -123,15 +123,6 @@ void gather(Body<Dim>& body, Role role) {
 }
 
 template <int Dim>
-void gather_motion(Body<Dim>& body) {
-  if (!body.division) return;
-  for (const Field<Dim>* place : places_of(body, [&](const Field<Dim>& field) {
-         return field.block == &Body<Dim>::u || field.table == &Body<Dim>::v;
-       }))
-    gather_field(body, *place);
-}
-
-template <int Dim>
 void gather_state(Body<Dim>& body) {
   for (const Role role : {Role::unknown, Role::derived, Role::accumulated})
     gather(body, role);
@@ -141,7 +132,6 @@ void gather_state(Body<Dim>& body) {
   template void begin_exchange(Body<Dim>&, Tables<Dim>);  \
   template void finish_exchange(Body<Dim>&, Tables<Dim>); \
   template void gather(Body<Dim>&, Role);                 \
-  template void gather_motion(Body<Dim>&);                \
   template void gather_state(Body<Dim>&);
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)

@@ -43,10 +43,6 @@ void sweep_with(Body<Dim>& body,
 template <int Dim>
 void gather(Body<Dim>& body, Role role);
 
-/// Brings displacements and velocities to rank 0.
-template <int Dim>
-void gather_motion(Body<Dim>& body);
-
 /// All that is of the state as it stands, of every role but step_begin.
 template <int Dim>
 void gather_state(Body<Dim>& body);

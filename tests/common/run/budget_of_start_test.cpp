@@ -76,16 +76,50 @@ TEST_P(BudgetOfStartOf, RungeKuttaIsHeldToTheGuard) {
   EXPECT_EQ(loose.residual, free.residual);
 }
 
-TEST_P(BudgetOfStartOf, OthersAreLeftAlone) {
-  EXPECT_EQ(first_steps_of(tests::scene_of(GetParam(), twist("leapfrog"))).rejected, 0)
-      << "whose budget swings and closes again";
+/// A block that is let go with a stress that its free sides do not carry.
+const std::string let_go = R"case([mesh]
+cells = [4, 4, 4]
+[material]
+model = "neo-hookean"
+density = 1000
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+[initial]
+displacement = [0, 0, "0.1*z"]
+[[boundary]]
+group = "z_min"
+type = "fixed"
+[time]
+end = 0.1
+)case";
+
+/// Largest part of the energy by which the budget was open after one of the first steps.
+double largest_gap_of(Scene scene, int n_steps) {
+  const EnergyBudget initial{scene.solver->balance(), scene.solver->audit()};
+  const double held = initial.balance.kinetic + initial.balance.strain;
+  double largest = 0;
+  for (int k = 0; k < n_steps; ++k) {
+    scene.solver->step(scene.setup.time.end);
+    const EnergyBudget now{scene.solver->balance(), scene.solver->audit()};
+    largest = std::max(largest, std::abs(now.unaccounted() - initial.unaccounted()) / held);
+  }
+  return largest;
+}
+
+TEST_P(BudgetOfStartOf, LeapfrogIsHeldToTheGuardWhereItsEnergySwings) {
+  constexpr double bound = 0.01;
+  EXPECT_GT(largest_gap_of(tests::scene_of(GetParam(), let_go, {"time.max_retries=0"}), 40), bound)
+      << "this scene asks nothing";
+  EXPECT_LE(largest_gap_of(tests::scene_of(GetParam(), let_go), 40), bound);
+}
+
+TEST_P(BudgetOfStartOf, ABodyAtRestIsLeftAlone) {
   EXPECT_EQ(
       first_steps_of(tests::scene_of(GetParam(), twist("ssp-rk3"),
                                      {"initial.velocity=[0, 0, 0]", "boundary.0.type=\"traction\"",
                                       "boundary.0.value=[0, 0, 1e5]"}))
           .rejected,
-      0)
-      << "a body at rest";
+      0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Both,

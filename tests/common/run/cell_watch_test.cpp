@@ -23,21 +23,21 @@ struct Watched {
       : scene(tests::scene_of("fvm", free_cube, overrides)),
         probes(scene.setup.probes, scene.graph, {}),
         cells(
-            [this, room](std::span<const algebra::Vec3> u) {
+            [this, room] {
               ++n_looks_at_outputs;
-              return cell_of(u, room);
+              return cell_of(motion().u, room);
             },
             [this](std::int64_t step) { return watch.seen(step); }),
-        watch(*scene.solver,
-              [this, room](const Motion& motion, double dt) {
-                ++n_looks;
-                std::vector<algebra::Vec3> next = motion.u;
-                for (size_t a = 0; a < next.size(); ++a)
-                  next[a] += dt * motion.v[a];
-                const LeastCell now = cell_of(motion.u, room);
-                const double lost = now.J - cell_of(next, room).J;
-                return CellOutlook{now, lost > 0 ? now.J / lost : 1e300};
-              }),
+        watch([this, room](double dt) {
+          ++n_looks;
+          const Motion moving = motion();
+          std::vector<algebra::Vec3> next = moving.u;
+          for (size_t a = 0; a < next.size(); ++a)
+            next[a] += dt * moving.v[a];
+          const LeastCell now = cell_of(moving.u, room);
+          const double lost = now.J - cell_of(next, room).J;
+          return CellOutlook{now, lost > 0 ? now.J / lost : 1e300};
+        }),
         history(*scene.solver, probes, cells),
         simulation(scene.setup, *scene.solver, {&cells, &watch, &history}) {}
 
@@ -46,6 +46,10 @@ struct Watched {
     for (const algebra::Vec3& of_node : u)
       most = std::max(most, of_node.norm());
     return {1 - most / room, most >= room ? 1 : 0, 1};
+  }
+  Motion motion() const {
+    NodeReads all = scene.solver->reads({});
+    return scene.solver->motion(all);
   }
   std::string hash() { return scene.solver->state_hash(tests::natural_order(scene.graph)); }
 

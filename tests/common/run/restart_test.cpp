@@ -49,16 +49,16 @@ class Route {
         std::int64_t last_step = 0)
       : scene_(tests::scene_of(method, text, all(overrides, last_step))),
         probes_(scene_.setup.probes, scene_.graph, {}),
-        cells_([](auto u) {
-          return LeastCell{1 + u[0][0], 0, 1, u[0]};
+        cells_([this] {
+          const algebra::Vec3 u = first_displacement();
+          return LeastCell{1 + u[0], 0, 1, u};
         }),
-        watch_(*scene_.solver,
-               [](const Motion& motion, double) {
-                 return CellOutlook{{1 + motion.u[0][0], 0, 1}, 40};
-               }),
+        watch_([this](double) {
+          return CellOutlook{{1 + first_displacement()[0], 0, 1}, 40};
+        }),
         history_(*scene_.solver, probes_, cells_),
         steps_(*scene_.solver, probes_),
-        exact_(scene_.setup, scene_.graph, *scene_.solver, probes_),
+        exact_(scene_.setup, with_exact_survey(scene_), 0, probes_),
         scales_(scene_.graph),
         guard_(scene_.solver->balance(), 1e9, 1e9, {1e-9}),
         simulation_(scene_.setup,
@@ -115,6 +115,17 @@ class Route {
   const Scene& scene() const { return scene_; }
 
  private:
+  static const Solver& with_exact_survey(const Scene& scene) {
+    Surveys surveys;
+    if (ExactSurvey::is_for(scene.setup))
+      surveys.push_back(std::make_unique<ExactSurvey>(scene.setup, *scene.solver, scene.graph));
+    scene.solver->take(std::move(surveys));
+    return *scene.solver;
+  }
+  algebra::Vec3 first_displacement() const {
+    NodeReads all = scene_.solver->reads({});
+    return scene_.solver->motion(all).u[0];
+  }
   static std::vector<std::string> all(std::vector<std::string> overrides, std::int64_t last_step) {
     if (last_step > 0) overrides.push_back(fmt::format("time.max_steps={}", last_step));
     return overrides;

@@ -51,8 +51,8 @@ scheme::Body<Dim> body_of_one_pair(double rho_R) {
   graph.boundary_area.assign(2, Vec3::Zero());
   graph.row = {0, 1, 2};
   graph.neighbour = {1, 0};
-  graph.reverse = {1, 0};
-  graph.C = {Vec3::UnitX(), -Vec3::UnitX()};
+  graph.reverse_place = {0, 0};
+  graph.C.each() = {Vec3::UnitX(), -Vec3::UnitX()};
   scheme::BodyOptions options;
   options.rho_R = rho_R;
   return scheme::Body<Dim>(graph, options, scheme::Arrangement::rows);

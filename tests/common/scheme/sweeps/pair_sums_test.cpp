@@ -48,7 +48,7 @@ scheme::PairGraph random_graph(std::vector<Vec3> X,
     graph.Omega.push_back(1 + 0.3 * uniform(random));
     for (const std::int32_t b : row) {
       graph.neighbour.push_back(b);
-      graph.C.emplace_back(uniform(random), uniform(random), uniform(random));
+      graph.C.each().emplace_back(uniform(random), uniform(random), uniform(random));
     }
     graph.row.push_back(graph.n_pairs());
   }
@@ -167,7 +167,7 @@ void for_pairs(const RandomBody& random, const Use& use) {
     for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
       const auto k = static_cast<size_t>(p);
       use(a, static_cast<size_t>(graph.neighbour[k]), graph.C[k],
-          graph.C[static_cast<size_t>(graph.reverse[k])]);
+          graph.C[graph.reverse(k)]);
     }
   }
 }
@@ -302,7 +302,7 @@ scheme::SlopeRows random_slopes(const scheme::PairGraph& graph) {
     for (const std::int64_t b : {a - 2, a - 1, a + 1, a + 2}) {
       if (b < 0 || b >= graph.n_nodes()) continue;
       slopes.neighbour.push_back(static_cast<std::int32_t>(b));
-      slopes.weight.emplace_back(uniform(random), uniform(random), uniform(random));
+      slopes.weight.each().emplace_back(uniform(random), uniform(random), uniform(random));
     }
     slopes.row.push_back(static_cast<std::int64_t>(slopes.neighbour.size()));
   }
