@@ -30,7 +30,7 @@ struct Costs {
 };
 /// node, branch: the state; pair: a row of the graph; stored_pair: geometry, where rows are no
 /// translates.
-constexpr Costs in_double{1220, 220, 33, 90}, in_single{750, 100, 33, 57};
+constexpr Costs in_double{1220, 220, 29, 90}, in_single{750, 100, 29, 57};
 constexpr double graph_node = 900;
 constexpr double of_plane = 0.64;        ///< of the nodes of 3-D
 constexpr double of_mixed = 48;          ///< stored pair
@@ -38,9 +38,8 @@ constexpr double exact_impedance = 200;  ///< a node
 constexpr double frames = 128;           ///< a node, of the objective reconstruction
 constexpr double moments = 96;           ///< a node, of the symmetric reconstruction
 constexpr double hourglass = 460;        ///< a node, of what holds displacements unseen by F
-constexpr double lines = 250;            ///< a node of the graph, of slopes along lines
-constexpr double lattice_lines = 120;    ///< the same of SPH, whose weights stand once
-constexpr double lattice_pair = 16;      ///< a row of its graph, whose C_ab stand once
+constexpr double node_of_lines = 720;    ///< the graph of a box, with slopes along its lines
+constexpr double lattice_pair = 16;      ///< a row of SPH there, whose C_ab stand once
 constexpr double cell_bytes = 30;
 constexpr double volume_corner = 70;      ///< of a cell that carries pressure
 constexpr double volume_node = 60;        ///< of a node of such
@@ -293,8 +292,7 @@ double bytes_of(const cases::Case& setup,
   const double geometry = n_class_pairs > 0 ? class_pair * n_class_pairs : stored * size.pairs;
   const double solve =
       sums_anywhere(setup, method) ? solve_node * size.nodes + solve_pair * size.pairs : 0;
-  const double of_lines = on_lines ? lattice_lines : lines;
-  const double graph = plane * (graph_node + (has_lines ? of_lines : 0)) * size.nodes +
+  const double graph = plane * (has_lines ? node_of_lines : graph_node) * size.nodes +
                        (on_lines ? lattice_pair : costs.pair) * size.pairs + solve;
   return std::max(graph, plane * node * size.nodes) + volumes + cell_bytes * size.cells + geometry;
 }

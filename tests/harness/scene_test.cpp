@@ -125,6 +125,29 @@ TEST(Scene, TakesCellsOnMovedBlocksOfThreeNodesAlongSeveralDirections) {
               testing::StartsWith("sbp"));
 }
 
+TEST(Scene, TellsOfReactionsThatNothingExerts) {
+  const auto notices = [](const std::string& of_group) {
+    const std::string held = R"([[boundary]]
+group = "x_min"
+type = "fixed"
+[[boundary]]
+group = "x_max"
+type = "traction"
+value = [1, 0]
+[[probe]]
+name = "hold"
+unit = "N/m"
+kind = "reaction"
+direction = [1, 0]
+group = ")" + of_group + "\"\n";
+    return graph_of(cases::case_from_text(square + held, "scene", {}), "fvm", 0).notices;
+  };
+  EXPECT_TRUE(notices("x_min").empty());
+  EXPECT_TRUE(notices("y_min").empty()) << "which is held at its end";
+  EXPECT_THAT(notices("x_max"),
+              ElementsAre(testing::HasSubstr("probe 'hold': no support or wall")));
+}
+
 TEST(Scene, SaysThatNodesCarryThePressureOfOperatorsThatSumByParts) {
   std::vector<std::string> asked{"sph.gradient=\"sbp\"", "fvm.stencil=\"sbp\"",
                                  "material.poissons_ratio=0.45",
