@@ -166,8 +166,7 @@ void for_pairs(const RandomBody& random, const Use& use) {
   for (size_t a = 0; a < random.nodes.size(); ++a) {
     for (std::int64_t p = graph.row[a]; p < graph.row[a + 1]; ++p) {
       const auto k = static_cast<size_t>(p);
-      use(a, static_cast<size_t>(graph.neighbour[k]), graph.C[k],
-          graph.C[graph.reverse(k)]);
+      use(a, static_cast<size_t>(graph.neighbour[k]), graph.C[k], graph.C[graph.reverse(k)]);
     }
   }
 }
