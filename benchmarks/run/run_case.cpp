@@ -103,6 +103,7 @@ class CaseRun {
   void warn(const std::string& notice) const;
   void note_running_memory();
   void note_breakdown();
+  void note_dissipation();
   void measure();
   void finish();
   std::map<std::string, std::vector<double>> final_errors() const;
@@ -252,6 +253,22 @@ void CaseRun::note_breakdown() {
                                     frame.time, frame.path);
 }
 
+/// Far below what stops a run much of its energy may have gone into the mesh; shocks dissipate, of
+/// which limiters tell.
+void CaseRun::note_dissipation() {
+  constexpr double worth_telling = 0.1;
+  io::RunSummary& s = result_.summary;
+  const bool is_meant = setup_.scheme.limiter != "none" || setup_.guards.numerical_dissipation != 0;
+  if (is_meant || result_.history.empty()) return;
+  const double share = numerical_share(s, result_.history);
+  if (share <= worth_telling) return;
+  s.notices.push_back(fmt::format(
+      "numerical dissipation took {:.2g} of the largest energy: the mesh hardly resolves the "
+      "motion; see how much a finer one changes (--level, converge)",
+      share));
+  tell(s.notices.back());
+}
+
 /// What the run cost.
 void CaseRun::measure() {
   io::RunSummary& s = result_.summary;
@@ -291,6 +308,7 @@ void CaseRun::finish() {
   result_.order = std::move(scene_->mesh.order);
   result_.graph = std::move(scene_->graph);
   if (s.status == "done") {
+    note_dissipation();
     s.unmet = unmet_of(setup_.expect, s, result_.history);
     if (!s.unmet.empty()) s.status = "unmet";
     if (s.most_inverted_cells > 0) s.status = "unsound";

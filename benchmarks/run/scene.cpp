@@ -2,6 +2,7 @@
 
 #include "benchmarks/run/memory_estimate.hpp"
 #include "common/cases/reader.hpp"
+#include "common/run/step_ends.hpp"
 #include "common/scheme/boundary/boundary_condition.hpp"
 #include "meshes/cavities.hpp"
 #include "meshes/curved_groups.hpp"
@@ -107,8 +108,9 @@ void note_single_cells(const cases::Case& setup, int level, std::vector<std::str
         !is_free(axis + "_max"))
       continue;
     notices.push_back(fmt::format(
-        "mesh: one cell along {}, whose sides are free: a body of one cell across bends up to four "
-        "times as stiffly as it should; two are enough",
+        "mesh: one cell along {}, whose sides are free: a body of one cell across bends several "
+        "times as stiffly as it should, of long cells more than ten times; give two or more, of "
+        "triangles four",
         axis));
   }
 }
@@ -161,6 +163,8 @@ Scene::Scene(const cases::Case& setup,
       solver(pairs == GraphPairs::released
                  ? run::make_solver_of_pairs(resolved(setup, reconstruction), graph)
                  : run::make_solver(resolved(setup, reconstruction), graph)) {
+  (void)run::step_ends(setup,
+                       solver->undeformed_step());  // refuses what is too fast, while none runs
   if (made) made(ScenePart::solver, *this);
 }
 

@@ -105,21 +105,24 @@ void refine(std::vector<double>& grid, const std::vector<double>& changes) {
 
 }  // namespace
 
-std::vector<double> break_times(const std::vector<Expression>& expressions,
-                                double begin,
-                                double end) {
+BreakTimes break_times(const std::vector<Expression>& expressions,
+                       double begin,
+                       double end,
+                       int n_samples) {
   const auto program = std::make_shared<Program>();
   for (const Expression& expression : expressions)
     if (expression.depends_on_time()) program->append(expression);
   const std::vector<Switch> switches = switches_of(*program);
   if (switches.empty() || !(begin < end)) return {};
   std::vector<double> grid;
-  for (int i = 0; i <= samples_of_break; ++i)
-    grid.push_back(i == samples_of_break ? end : begin + (end - begin) * i / samples_of_break);
+  for (int i = 0; i <= n_samples; ++i)
+    grid.push_back(i == n_samples ? end : begin + (end - begin) * i / n_samples);
   const int zero = program->add_constant(0);
+  BreakTimes breaks;
   constexpr int n_rounds = 2;  // kinks of kinks
   for (int round = 0; round < n_rounds; ++round) {
-    std::vector<double> kinks;
+    std::vector<double>& kinks = breaks.kinks;
+    kinks.clear();
     for (const Switch& of : switches) {
       const bool compares = of.first >= 0;
       add_changes(compares ? Changing(program, {of.first, of.second >= 0 ? of.second : zero})
@@ -128,11 +131,12 @@ std::vector<double> break_times(const std::vector<Expression>& expressions,
     }
     refine(grid, kinks);
   }
-  std::vector<double> breaks;
   for (const Switch& of : switches)
-    if (of.result >= 0) add_changes(Changing(program, {of.result}), grid, breaks);
-  std::sort(breaks.begin(), breaks.end());
-  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+    if (of.result >= 0) add_changes(Changing(program, {of.result}), grid, breaks.jumps);
+  for (std::vector<double>* times : {&breaks.jumps, &breaks.kinks}) {
+    std::sort(times->begin(), times->end());
+    times->erase(std::unique(times->begin(), times->end()), times->end());
+  }
   return breaks;
 }
 

@@ -9,13 +9,20 @@
 
 namespace diptych::functions {
 
-/// The first double after each jump, ascending, of those in (begin, end]. Missed is what changes
-/// and changes back between two neighbours of `samples_of_break` instants and of those at which
-/// arguments of comparisons, abs, min and max change their order: not pulses between two constants.
-std::vector<double> break_times(const std::vector<Expression>& expressions,
-                                double begin,
-                                double end);
-
 inline constexpr int samples_of_break = 1024;
+
+/// Instants in (begin, end], ascending: the first double after each.
+struct BreakTimes {
+  std::vector<double> jumps;
+  std::vector<double> kinks;  ///< of abs, min and max, and where arguments of comparisons are equal
+};
+
+/// Missed is what changes and changes back between two neighbours of `n_samples` instants and of
+/// those at which arguments of comparisons, abs, min and max change their order: not pulses
+/// between two constants.
+BreakTimes break_times(const std::vector<Expression>& expressions,
+                       double begin,
+                       double end,
+                       int n_samples = samples_of_break);
 
 }  // namespace diptych::functions

@@ -119,10 +119,9 @@ StepReport BodySolver<Dim>::step(double t_limit) {
 template <int Dim>
 void BodySolver<Dim>::pass(double t) {
   moving_.clock.time = t;
-  if (moving_.integrator.is_leapfrog()) {
-    moving_.sweeps.strain_rates(moving_.body, {}, nullptr, 0);
-    time::begin_leapfrog(moving_);
-  }
+  time::book(moving_, moving_.boundary.jump(moving_.body, t));
+  moving_.sweeps.strain_rates(moving_.body, {}, nullptr, 0);
+  if (moving_.integrator.is_leapfrog()) time::begin_leapfrog(moving_);
   begin_.forget();  // what is of before the jump
   judge_from(balance());
 }
@@ -175,7 +174,9 @@ double BodySolver<Dim>::imbalance() const {
 
 template <int Dim>
 scheme::Balance BodySolver<Dim>::balance() const {
-  return scheme::balance(material(), moving_.body);
+  scheme::Balance balance = scheme::balance(material(), moving_.body);
+  if (moving_.integrator.is_leapfrog()) balance.swing = time::swing_of(moving_);
+  return balance;
 }
 
 template <int Dim>

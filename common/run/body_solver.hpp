@@ -46,6 +46,7 @@ class BodySolver : public Solver {
   int unknowns_per_node() const override { return moving_.body.unknowns_per_node(); }
   std::string arrangement() const override { return moving_.body.in_runs() ? "runs" : "rows"; }
   double undeformed_speed() const override { return material().undeformed_speed(); }
+  double undeformed_step() const override { return moving_.sweeps.undeformed_step(); }
   int evaluations_per_step() const override { return moving_.integrator.evaluations_per_step(); }
   Mat3 equilibrium_stress(const Mat3& F) const override;
   std::optional<Snapshot> exact_state(double t) const override;

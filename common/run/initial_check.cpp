@@ -16,7 +16,7 @@ using algebra::Vec3;
 namespace {
 
 constexpr std::int64_t most_places = 50'000;
-constexpr double tolerance = 1e-3;  ///< of F
+constexpr double tolerance = 1e-3;  ///< of the largest F - I
 constexpr double share = 1e-3;      ///< of the distance of nodes: step of a difference quotient
 constexpr double rounding = 1e-14;  ///< of places and displacements
 
@@ -69,12 +69,15 @@ void check_initial_deformation(const cases::Case& setup, const scheme::PairGraph
   const Places places = places_of(graph);
   const std::vector<Mat3> F = functions::tensors_at(*initial.deformation_gradient, places.X, 0);
   const std::vector<Vec3> u = functions::vectors_at(initial.displacement, places.X, 0);
+  double largest = 0;
+  for (const Mat3& of_place : F)
+    largest = std::max(largest, (of_place - Mat3::Identity()).norm());
   for (int j = 0; j < dimension; ++j) {
     const auto ahead = displacements_beside(initial.displacement, places, j, 1);
     const auto behind = displacements_beside(initial.displacement, places, j, -1);
     for (size_t k = 0; k < places.X.size(); ++k) {
       const double step = places.step[k], size = places.X[k].norm() + u[k].norm();
-      const double most = tolerance * std::max(1.0, F[k].norm()) + rounding * size / step;
+      const double most = tolerance * largest + rounding * size / step;
       const Vec3 given = F[k].col(j), central = Vec3::Unit(j) + (ahead[k] - behind[k]) / (2 * step);
       const auto agrees = [&](const Vec3& column) { return (given - column).norm() <= most; };
       if (agrees(central) || agrees(Vec3::Unit(j) + (ahead[k] - u[k]) / step) ||

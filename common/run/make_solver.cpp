@@ -1,5 +1,6 @@
 /// A case resolved for the solver: every name of a menu becomes what it stands for.
 
+#include "common/functions/break_times.hpp"
 #include "common/functions/placed_values.hpp"
 #include "common/run/body_solver.hpp"
 #include "common/run/boundary_group.hpp"
@@ -13,7 +14,6 @@
 #include "common/scheme/ranks/share_graph.hpp"
 #include "common/scheme/volumes/cell_laplacian.hpp"
 
-#include <array>
 #include <fmt/format.h>
 #include <functional>
 
@@ -86,6 +86,25 @@ void follow_motion(const scheme::VectorFunction& velocity, scheme::BoundaryValue
   values.depends_on_time = true;
 }
 
+/// At which boundary conditions that say different things do so: the start, the end, two instants
+/// that no symmetry picks out, and between jumps in time, of which the first ones.
+std::vector<double> telling_instants(const cases::Case& setup) {
+  constexpr size_t most = 16;
+  const double end = setup.time.end;
+  std::vector<functions::Expression> values;
+  for (const cases::BoundaryCase& boundary : setup.boundaries)
+    values.insert(values.end(), boundary.value.component.begin(), boundary.value.component.end());
+  std::vector<double> instants{0.0, 0.31 * end, 0.73 * end, end};
+  double before = 0;
+  for (const double jump : functions::break_times(values, 0, end).jumps) {
+    if (instants.size() >= most) break;
+    instants.push_back(before + 0.37 * (jump - before));
+    instants.push_back(jump);
+    before = jump;
+  }
+  return instants;
+}
+
 scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::PairGraph& graph) {
   std::vector<scheme::PlacedCondition> conditions;
   scheme::VectorFunction velocity;  // of the motion, one for all
@@ -109,9 +128,7 @@ scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::Pair
       conditions.push_back({make(values), &boundary_group(graph, group, boundary.where)});
     }
   }
-  // at the start, at the end, and at two instants that no symmetry picks out
-  const double end = setup.time.end;
-  scheme::check_shared_nodes(graph, conditions, std::array{0.0, 0.31 * end, 0.73 * end, end});
+  scheme::check_shared_nodes(graph, conditions, telling_instants(setup));
   scheme::VectorFunction body_force;
   if (!setup.body_force.is_zero()) body_force = field_of(setup.body_force);
   return {graph, std::move(conditions), body_force, setup.body_force.depends_on_time()};

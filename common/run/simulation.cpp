@@ -1,6 +1,5 @@
 #include "common/run/simulation.hpp"
 
-#include "common/functions/break_times.hpp"
 #include "common/scheme/boundary/boundary_condition.hpp"
 
 #include <algorithm>
@@ -25,23 +24,6 @@ const char* status_of(Ending ending) {
   return "done";
 }
 
-namespace {
-
-/// Tractions, pressures and body forces: velocities of supports are smooth within a step.
-std::vector<functions::Expression> loads_of(const cases::Case& setup) {
-  std::vector<functions::Expression> loads(setup.body_force.component.begin(),
-                                           setup.body_force.component.end());
-  for (const cases::BoundaryCase& boundary : setup.boundaries) {
-    if (scheme::boundary_menu().at(boundary.type).acts != scheme::BoundaryKind::Acts::load)
-      continue;
-    loads.insert(loads.end(), boundary.value.component.begin(), boundary.value.component.end());
-    loads.push_back(boundary.pressure);
-  }
-  return loads;
-}
-
-}  // namespace
-
 Simulation::Simulation(const cases::Case& setup,
                        Solver& solver,
                        std::vector<Observer*> observers,
@@ -49,29 +31,8 @@ Simulation::Simulation(const cases::Case& setup,
     : setup_(setup),
       solver_(solver),
       observers_(std::move(observers)),
-      interrupted_(std::move(interrupted)) {
-  find_jumps();
-}
-
-/// Those that are as good as at one instant, or at an instant of output, are: no step is left
-/// between them.
-void Simulation::find_jumps() {
-  const double near = 1e-13 * setup_.time.end;
-  for (const double after : functions::break_times(loads_of(setup_), 0, setup_.time.end)) {
-    Jump jump{std::nextafter(after, 0), after};
-    const int frame = static_cast<int>(std::lround(after / setup_.time.end * setup_.output.frames));
-    const double output = instant(frame);
-    if (std::abs(output - after) <= near) {
-      jump.before = std::min(jump.before, output);
-      jump.after = std::max(jump.after, output);
-    }
-    if (jumps_.empty() || jump.before - jumps_.back().after > near) {
-      jumps_.push_back(jump);
-    } else {
-      jumps_.back().after = std::max(jumps_.back().after, jump.after);
-    }
-  }
-}
+      interrupted_(std::move(interrupted)),
+      step_ends_(step_ends(setup, solver.undeformed_step())) {}
 
 Ending Simulation::run() {
   Ending ending = Ending::breakdown;
@@ -184,14 +145,15 @@ void Simulation::archive(algebra::Archive& archive) {
   kept_time_ = solver_.time();
 }
 
-/// Passes a jump of the loads that the body stands before.
-/// @return the instant before the next one, no later than the limit
+/// Passes a jump that the body stands before.
+/// @return the instant before the next end of a step, no later than the limit
 double Simulation::end_of_step(double limit) {
-  for (const Jump& jump : jumps_) {
-    if (jump.after <= solver_.time()) continue;
-    if (solver_.time() < jump.before) return std::min(limit, jump.before);
+  for (; next_end_ < step_ends_.size(); ++next_end_) {
+    const StepEnd& next = step_ends_[next_end_];
+    if (next.after <= solver_.time()) continue;
+    if (solver_.time() < next.before) return std::min(limit, next.before);
     if (solver_.time() >= limit) return limit;
-    solver_.pass(jump.after);
+    solver_.pass(next.after);
   }
   return limit;
 }

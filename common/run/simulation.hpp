@@ -5,6 +5,7 @@
 
 #include "common/base/error.hpp"
 #include "common/run/observers/observer.hpp"
+#include "common/run/step_ends.hpp"
 
 #include <chrono>
 #include <functional>
@@ -96,12 +97,8 @@ class Simulation {
   StepReport last_;
   StepTotals totals_before_;  ///< the last step; its report, too
   StepReport before_;
-  /// Where loads jump: the instants at which a step ends and at which the next one begins  [s].
-  struct Jump {
-    double before = 0, after = 0;
-  };
-  void find_jumps();
-  std::vector<Jump> jumps_;
+  std::vector<StepEnd> step_ends_;
+  size_t next_end_ = 0;      // of step_ends_: those before it have been passed
   std::int64_t judged_ = 0;  // step
   std::int64_t n_outputs_ = 0;
   double output_time_ = 0;  // s, of the last output

@@ -122,6 +122,8 @@ class Solver {
   virtual std::int64_t bytes() const = 0;
   /// c_p of the undeformed, virgin body with all branches  [m/s]
   virtual double undeformed_speed() const = 0;
+  /// The stable step of the undeformed, virgin body  [s]
+  virtual double undeformed_step() const = 0;
   /// P(F) of the material without its branches  [Pa]
   virtual Mat3 equilibrium_stress(const Mat3& F) const = 0;
   /// The exact fields at time t where the case gives the motion (manufactured solution).

@@ -39,7 +39,8 @@ double leapfrog_step(MovingBody<Dim>& moving, double t_limit) {
   rate.external_work = 0.5 * old_loads;
   rate.external_work += 0.5 * boundary.power_against_forces(body);
   const Rule rule = moving.has_branches() ? Rule::linear : Rule::frozen;
-  sweeps.strain_rates(body, {rule, true, dt, sweeps.material().branches()}, nullptr, dt);
+  sweeps.strain_rates(body, {rule, true, dt, sweeps.material().branches()}, nullptr, dt,
+                      scheme::Following::forces_and_step);
   if (!is_sound(moving)) return dt;
   // D_ab kicks twice, after it is summed and before: of one kick alone the budget is off by its lag
   rate.numerical_dissipation = 0.5 * sweeps.old_numerical_power(body, old_loads);

@@ -57,7 +57,9 @@ double ssp_step(MovingBody<Dim>& moving, double t_limit) {
     if (last) keep_angular_momentum(moving);
     book(moving, last ? boundary.constrain(body, clock.time + now.time * dt)
                       : boundary.constrain_stage(body, stage, combination(i + 1), fraction));
-    sweeps.strain_rates(body, relaxation_of(moving, now.time * dt, last), &stage, 0);  // (18b-d)
+    // (18b-d); what comes between two steps may need the forces of the one that ends
+    sweeps.strain_rates(body, relaxation_of(moving, now.time * dt, last), &stage, 0,
+                        last ? scheme::Following::nothing : scheme::Following::forces);
     if (!is_sound(moving)) break;
     fraction = now.time;
   }

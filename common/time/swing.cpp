@@ -43,6 +43,13 @@ double allowed_dt(const MovingBody<Dim>& moving) {
 }  // namespace
 
 template <int Dim>
+double swing_of(const MovingBody<Dim>& moving) {
+  const double dt = std::min(moving.clock.largest_dt, moving.sweeps.stable_dt());
+  const double swing = dt * dt / 8 * squared_accelerations(moving.body, moving.boundary);
+  return std::isfinite(swing) ? swing : 0;
+}
+
+template <int Dim>
 void limit_swing(MovingBody<Dim>& moving) {
   Clock& clock = moving.clock;
   if (clock.step >= clock.swings_until) return;
@@ -62,6 +69,7 @@ double shorter_for_swing(const MovingBody<Dim>& moving, double dt) {
 
 #define DIPTYCH_INSTANTIATE(Dim)                                                                   \
   template double squared_accelerations(const scheme::Body<Dim>&, const scheme::AppliedBoundary&); \
+  template double swing_of(const MovingBody<Dim>&);                                                \
   template void limit_swing(MovingBody<Dim>&);                                                     \
   template double shorter_for_swing(const MovingBody<Dim>&, double);
 DIPTYCH_INSTANTIATE(2)

@@ -20,6 +20,10 @@ template <int Dim>
 double squared_accelerations(const scheme::Body<Dim>& body,
                              const scheme::AppliedBoundary& boundary);
 
+/// dt^2/8 sum m |a|^2 of the state with the step that it allows  [J]
+template <int Dim>
+double swing_of(const MovingBody<Dim>& moving);
+
 /// The least part of the stable step that it is shortened to: a load that sets in on a body that
 /// holds next to nothing brings less in its first steps than they swing by.
 inline constexpr double least_part_of_step = 0.125;

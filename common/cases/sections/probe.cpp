@@ -58,11 +58,15 @@ SectionKeys<ProbeCase> probe_keys() {
       .key("direction", KeyType::vector,
            {"-", any, "The component of the reaction along this vector; any length but 0.",
             "[0, 0, 1]", "with reaction"})
-      .key("every_step", &ProbeCase::every_step,
-           {"-", any, "Also evaluate it after every step, for steps.csv.", "true"})
+      .key(
+          "every_step", &ProbeCase::every_step,
+          {"-", any,
+           "Also evaluate it after every step, for steps.csv; so is one with oscillation.", "true"})
       .key("oscillation", &ProbeCase::oscillation,
            {"-", any,
-            "Read period, logarithmic decrement and mean of an oscillation from its values.",
+            "Read period, logarithmic decrement and mean of an oscillation from its values after "
+            "every "
+            "step.",
             "true"});
 }
 
@@ -71,6 +75,7 @@ void read_quantity(const SectionValues& section,
                    functions::Vocabulary vocabulary,
                    ProbeCase& probe) {
   probe.where = section.where();
+  probe.every_step |= probe.oscillation;  // rows may be too far apart to show the period
   probe.name = label(section, "name", "[]/");
   probe.unit = label(section, "unit", "[]");
   const auto refuse = [&](const char* name) {

@@ -2,6 +2,7 @@
 
 #include "common/base/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -85,8 +86,10 @@ void EnergyGuard::at_check(const Check& check) {
   note_growth(scale, check.step.step);
   const double bound = bound_at(check.step.step);
   // first what an unstable step does, which dissipates, too
-  if (std::abs(residual) * scale > bound * scale + units_.rounding)
-    refuse_residual(check, residual, bound);
+  const double swing =
+      residual > 0 ? std::min(check.balance.swing, most_of_swing * threshold_ * scale) : 0;
+  if (std::abs(residual) * scale - swing > bound * scale + units_.rounding)
+    refuse_residual(check, residual - swing / scale, bound);
   if (check.step.step - at_rest_until_ < steps_of_any_loss) return;
   if (lost > largest_loss_ * scale + units_.rounding) refuse_loss(check, lost);
 }

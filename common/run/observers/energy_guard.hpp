@@ -67,6 +67,10 @@ class EnergyGuard : public Observer {
   /// makes all of what it grows by of nothing, and a residual that stays is judged later as any.
   static constexpr size_t n_doublings = 7;
   static constexpr double most_of_growth = 0.5;
+  /// Of a residual above zero what leapfrog's energy swings by is left out, up to as many times the
+  /// threshold: it comes back. A load that grows on a body that holds little brings less than that
+  /// for many steps.
+  static constexpr double most_of_swing = 10;
   /// Steps from rest in which what numerical dissipation takes is not judged.
   static constexpr std::int64_t steps_of_any_loss = 20;
 

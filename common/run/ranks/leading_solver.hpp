@@ -69,6 +69,7 @@ class LeadingSolver : public Solver {
   int evaluations_per_step() const override { return solver_->evaluations_per_step(); }
   std::int64_t bytes() const override { return solver_->bytes(); }
   double undeformed_speed() const override { return solver_->undeformed_speed(); }
+  double undeformed_step() const override { return solver_->undeformed_step(); }
   Mat3 equilibrium_stress(const Mat3& F) const override { return solver_->equilibrium_stress(F); }
   std::optional<Snapshot> exact_state(double t) const override;
 

@@ -232,6 +232,16 @@ ConstraintAction AppliedBoundary::constrain(Body<Dim>& body, double t) {
   return action;
 }
 
+template <int Dim>
+ConstraintAction AppliedBoundary::jump(Body<Dim>& body, double t) {
+  if (!has_velocities_ || in_step_.step() == 0) return {};
+  target_ = prescribed(t);
+  in_step_.jump(t, target_);
+  const ConstraintAction action{overwrite(body), kinetic_work(body)};
+  in_step_.jump(t, target_);  // the rate is not that of the jump
+  return action;
+}
+
 /// What the kinetic energy of the prescribed velocities has grown by in the step, whatever they did
 /// in between  [J]
 template <int Dim>
@@ -393,6 +403,7 @@ double AppliedBoundary::power_of_loads(const Body<Dim>& body) const {
 
 #define DIPTYCH_INSTANTIATE(Dim)                                                                  \
   template ConstraintAction AppliedBoundary::constrain(Body<Dim>&, double);                       \
+  template ConstraintAction AppliedBoundary::jump(Body<Dim>&, double);                            \
   template ConstraintAction AppliedBoundary::constrain_stage(Body<Dim>&, const StageCombination&, \
                                                              const StageCombination&, double);    \
   template double AppliedBoundary::withheld(const Body<Dim>&, const Projection&) const;           \

@@ -83,6 +83,10 @@ class AppliedBoundary {
   ///         velocities has grown by: the rest of their work is power_against_forces()
   template <int Dim>
   ConstraintAction constrain(Body<Dim>& body, double t);
+  /// Where a step has ended just before a jump in time: supports move as they do at t, behind it.
+  /// @return impulse and what their kinetic energy grows by
+  template <int Dim>
+  ConstraintAction jump(Body<Dim>& body, double t);
 
   /// Overwrites them by what the stage alpha v^n + beta (v + dt v') makes of the rate at the
   /// beginning of the stage (fraction of the step). The exact values at the time of the stage would

@@ -33,6 +33,14 @@ class VelocitiesInStep {
     for (int k = 1; k <= 4; ++k)
       at_[k] = prescribed(t + 0.25 * k * dt);
   }
+  /// At the end of a step, t: goes on with velocities behind a jump there, those of before as those
+  /// of the beginning.
+  void jump(double t, const std::vector<Vec3>& behind) {
+    begin_ = t - step_;
+    std::swap(at_[0], at_[4]);
+    for (int k = 1; k <= 4; ++k)
+      at_[k] = behind;
+  }
   /// The same where there are none.
   void begin_step(double t, double dt) {
     begin_ = t;

@@ -86,6 +86,7 @@ struct Balance {
   double least_J = 1;
   double involution_H = 0;  ///< max |H - cof F|
   double involution_J = 0;  ///< max |J - det F|
+  double swing = 0;         ///< J, what leapfrog's energy is off by and comes back from (notes 5.6)
 };
 
 }  // namespace diptych::scheme

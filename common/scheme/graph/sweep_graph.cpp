@@ -28,20 +28,6 @@ void copy(const std::vector<T>& from, algebra::AlignedArray<T>& to) {
   std::copy(from.begin(), from.end(), to.data());
 }
 
-/// Blocks of a segment: at least the reach of the pairs, and such that the segments of a phase
-/// (2^k or 3 2^k of them) divide evenly among two threads, and mostly among more.
-std::int64_t segment_of(std::int64_t n_blocks, std::int64_t reach) {
-  constexpr std::int64_t unit = parallel::chunk_size;
-  const std::int64_t n_units = std::max<std::int64_t>(1, (n_blocks + unit - 1) / unit);
-  const std::int64_t least =
-      std::max<std::int64_t>(1, (reach + n_lanes * unit - 1) / (n_lanes * unit));
-  const std::int64_t most = n_units / least;
-  std::int64_t n_segments = 1;
-  for (std::int64_t n = 2; n <= most; n *= 2)
-    n_segments = n >= 4 && n / 2 * 3 <= most ? n / 2 * 3 : n;
-  return unit * ((n_units + n_segments - 1) / n_segments);
-}
-
 /// The pairs of the chunks of one unit (a node in rows, a block in runs), lane by lane, -1: none.
 using Lay = std::vector<std::int64_t>;
 
@@ -244,7 +230,7 @@ void set_mutual(const PairGraph& graph,
   const PairRuns half = upward(runs);
   copy(half.row, mutual.row);
   copy(half.offset, mutual.offset);
-  mutual.segment = segment_of(sweep.n_blocks, runs.reach);
+  mutual.order = work_order(half);
   mutual.first = algebra::AlignedArray<std::int64_t>(sweep.n_blocks);
   const auto allocate = [&](std::int64_t n) {
     mutual.geometry = GeometryArray<MutualGeometry, Dim>(n, graph.precision != Precision::full);

@@ -20,6 +20,7 @@
 #include "common/algebra/node_table.hpp"
 #include "common/scheme/graph/pair_graph.hpp"
 #include "common/scheme/graph/pair_runs.hpp"
+#include "common/scheme/graph/work_order.hpp"
 
 #include <cstdint>
 
@@ -119,11 +120,9 @@ struct MutualPairs {
   algebra::AlignedArray<std::int32_t> offset;  ///< b - a > 0 of each chunk
   algebra::AlignedArray<std::int64_t> first;   ///< [n_blocks] into the geometry
   GeometryArray<MutualGeometry, Dim> geometry;
-  /// Blocks of a segment: no pair goes farther than into the next, so that every second segment
-  /// can be worked at the same time. A whole number of chunks of parallel::for_chunks.
-  std::int64_t segment = 0;
+  WorkOrder order;
   std::int64_t bytes() const {
-    return row.bytes() + offset.bytes() + first.bytes() + geometry.bytes();
+    return row.bytes() + offset.bytes() + first.bytes() + geometry.bytes() + order.bytes();
   }
 };
 

@@ -149,16 +149,19 @@ RunWork run_work(const Body<Dim>& body, const Division& division) {
     for_targets(c, [&](std::int64_t target) { written[target] = 1; });
   }
   RunWork work;
-  const std::int64_t length = graph.mutual.segment / parallel::chunk_size;
-  for (std::int64_t begin = 0; begin < n_chunks; begin += length) {
-    std::vector<std::int64_t> chunks;
-    for (std::int64_t c = begin; c < std::min(begin + length, n_chunks); ++c) {
-      if (works[c] != 0) chunks.push_back(c);
-      if (written[c] != 0) work.written.push_back(c);
-    }
-    if (!chunks.empty()) work.segments[begin / length % 2].push_back(std::move(chunks));
+  for (std::int64_t c = 0; c < n_chunks; ++c) {
+    if (written[c] != 0) work.written.push_back(c);
   }
-  const auto is_inner = [&](const std::vector<std::int64_t>& segment) {
+  const WorkOrder& order = graph.mutual.order;
+  for (std::int64_t s = 0; s < order.n_segments(); ++s) {
+    std::vector<std::int64_t> chunks;
+    for (const std::int32_t c : order.forces_of(s)) {
+      if (works[c] != 0) chunks.push_back(c);
+    }
+    if (!chunks.empty()) work.segments[s % 2].push_back(std::move(chunks));
+  }
+  const auto is_inner = [&](std::vector<std::int64_t> segment) {
+    std::sort(segment.begin(), segment.end());
     return std::includes(division.inner.begin(), division.inner.end(), segment.begin(),
                          segment.end());
   };

@@ -23,7 +23,8 @@ namespace diptych::scheme {
 
 /// Momentum sweep of runs.
 struct RunWork {
-  /// Of even and of odd segments: the chunks of each that this rank works, ascending.
+  /// Of even and of odd segments: the chunks of each that this rank works, as all ranks order
+  /// them.
   std::vector<std::vector<std::int64_t>> segments[2];
   std::int64_t n_inner = 0;           ///< of the even ones, the first, read no node of another rank
   std::vector<std::int64_t> written;  ///< chunks that they write to, and the own ones

@@ -55,7 +55,9 @@ void share_mutual(Communicator& ranks, MutualPairs<Dim>& mutual) {
   share_array(ranks, mutual.offset);
   share_array(ranks, mutual.first);
   share_size(ranks, mutual.geometry);
-  share(ranks, mutual.segment);
+  share(ranks, mutual.order.segment);
+  share(ranks, mutual.order.layer);
+  share(ranks, mutual.order.forces);
 }
 
 void share_patch(Communicator& ranks, BoundaryPatch& patch) {

@@ -46,14 +46,19 @@ MomentumFunction<Dim> momentum_function(const DissipationKind& kind, bool has_H)
 
 namespace {
 
-/// Runs: what segment [begin, end) adds to its own nodes and those of the next.
+/// Calls work(begin, end) with the blocks of a chunk.
+template <int Dim, class Work>
+void with_blocks(const Body<Dim>& body, std::int64_t chunk, const Work& work) {
+  const std::int64_t begin = chunk * parallel::chunk_size;
+  work(begin, std::min(body.n_blocks, begin + parallel::chunk_size));
+}
+
+/// Runs: what segment s adds to its own nodes and those of the next.
 template <int Dim>
-void work_segment(const MomentumSweep<Dim>& sweep,
-                  MomentumFunction<Dim> momentum,
-                  std::int64_t begin,
-                  std::int64_t end) {
-  for (std::int64_t b = begin; b < end; b += parallel::chunk_size) {
-    momentum(sweep, b, std::min(end, b + parallel::chunk_size), b / parallel::chunk_size);
+void work_segment(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> momentum, std::int64_t s) {
+  for (const std::int32_t chunk : sweep.body.graph.mutual.order.forces_of(s)) {
+    with_blocks(sweep.body, chunk,
+                [&](auto begin, auto end) { momentum(sweep, begin, end, chunk); });
   }
 }
 
@@ -107,23 +112,72 @@ DIPTYCH_CLONES void put_moments(const MomentumSweep<Dim>& sweep,
   }
 }
 
+/// All even segments, then all odd ones.
+template <int Dim>
+class Segments {
+ public:
+  explicit Segments(const Body<Dim>& body)
+      : n_blocks_(body.n_blocks),
+        length_(body.graph.mutual.order.segment),
+        n_(body.graph.mutual.order.n_segments()) {}
+  /// First block.
+  std::int64_t begin(std::int64_t s) const { return std::min(n_blocks_, s * length_); }
+  template <class Work>
+  void for_even(const Work& work) const {
+    parallel::for_shares((n_ + 1) / 2, [&](std::int64_t i) { work(2 * i); });
+  }
+  template <class Work>
+  void for_odd(const Work& work) const {
+    parallel::for_shares(n_ / 2, [&](std::int64_t i) { work(2 * i + 1); });
+  }
+
+ private:
+  std::int64_t n_blocks_, length_, n_;
+};
+
 template <int Dim>
 void sum_runs(const MomentumSweep<Dim>& sweep,
               MomentumFunction<Dim> work,
               const RunSums<Dim>& sums) {
-  const std::int64_t n = sweep.body.graph.n_blocks, length = sweep.body.graph.mutual.segment;
-  const std::int64_t n_segments = (n + length - 1) / length;
-  const auto begin = [&](std::int64_t segment) { return std::min(n, segment * length); };
-  parallel::for_shares((n_segments + 1) / 2, [&](std::int64_t i) {
-    const std::int64_t s = 2 * i;
-    clear(sums, begin(s), begin(s + 2));
-    work_segment(sweep, work, begin(s), begin(s + 1));
-    if (s == 0) sums.use(sweep, begin(0), begin(1));
+  const Segments<Dim> segments(sweep.body);
+  segments.for_even([&](std::int64_t s) {
+    clear(sums, segments.begin(s), segments.begin(s + 2));
+    work_segment(sweep, work, s);
+    if (s == 0) sums.use(sweep, segments.begin(0), segments.begin(1));
   });
-  parallel::for_shares(n_segments / 2, [&](std::int64_t i) {
-    const std::int64_t s = 2 * i + 1;
-    work_segment(sweep, work, begin(s), begin(s + 1));
-    sums.use(sweep, begin(s), begin(s + 2));
+  segments.for_odd([&](std::int64_t s) {
+    work_segment(sweep, work, s);
+    sums.use(sweep, segments.begin(s), segments.begin(s + 2));
+  });
+}
+
+/// The same in the order of a stage.
+template <int Dim>
+void sum_runs_of_stage(const MomentumSweep<Dim>& sweep,
+                       MomentumFunction<Dim> work,
+                       const RunSums<Dim>& sums,
+                       const MakeRecords& make_records) {
+  const Segments<Dim> segments(sweep.body);
+  const auto work_stage = [&](std::int64_t s) {
+    for (const std::int32_t turn : sweep.body.graph.mutual.order.stage_of(s)) {
+      const std::int64_t chunk = turn < 0 ? ~turn : turn;
+      with_blocks(sweep.body, chunk, [&](auto begin, auto end) {
+        if (turn < 0) {
+          make_records(begin, end, chunk);
+          clear(sums, begin, end);
+        } else {
+          work(sweep, begin, end, chunk);
+        }
+      });
+    }
+  };
+  segments.for_even([&](std::int64_t s) {
+    work_stage(s);
+    if (s == 0) sums.use(sweep, segments.begin(0), segments.begin(1));
+  });
+  segments.for_odd([&](std::int64_t s) {
+    work_stage(s);
+    sums.use(sweep, segments.begin(s), segments.begin(s + 2));
   });
 }
 
@@ -185,6 +239,13 @@ void sum_forces(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> momentum,
 }
 
 template <int Dim>
+void sum_forces_of_stage(const MomentumSweep<Dim>& sweep,
+                         MomentumFunction<Dim> momentum,
+                         const MakeRecords& make_records) {
+  sum_runs_of_stage<Dim>(sweep, momentum, {sweep.body.T, Dim + 1, put_forces<Dim>}, make_records);
+}
+
+template <int Dim>
 void sum_moments(const MomentumSweep<Dim>& sweep, MomentumFunction<Dim> moments, Share share) {
   sum_pairs<Dim>(sweep, moments, {sweep.body.moments, Dim * Dim, put_moments<Dim>}, share);
 }
@@ -206,6 +267,8 @@ void take_moments(Body<Dim>& body) {
 
 template void sum_forces(const MomentumSweep<2>&, MomentumFunction<2>, Share);
 template void sum_forces(const MomentumSweep<3>&, MomentumFunction<3>, Share);
+template void sum_forces_of_stage(const MomentumSweep<2>&, MomentumFunction<2>, const MakeRecords&);
+template void sum_forces_of_stage(const MomentumSweep<3>&, MomentumFunction<3>, const MakeRecords&);
 template void sum_moments(const MomentumSweep<2>&, MomentumFunction<2>, Share);
 template void sum_moments(const MomentumSweep<3>&, MomentumFunction<3>, Share);
 template void take_moments(Body<2>&);

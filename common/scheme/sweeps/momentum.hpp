@@ -21,6 +21,8 @@
 #include "common/scheme/dissipation/dissipation.hpp"
 #include "common/scheme/ranks/share.hpp"
 
+#include <functional>
+
 namespace diptych::scheme {
 
 /// Arguments and results of the sweep.
@@ -61,6 +63,18 @@ template <int Dim>
 void sum_forces(const MomentumSweep<Dim>& sweep,
                 MomentumFunction<Dim> momentum,
                 Share share = Share::whole);
+
+/// Makes the records of the blocks [begin, end) of a chunk.
+using MakeRecords = std::function<void(std::int64_t begin, std::int64_t end, std::int64_t chunk)>;
+
+/// Runs of one rank: makes the records of all blocks and sums the forces in the same pass, those of
+/// a chunk while the records that they read are in the caches (graph/work_order.hpp). The same bits
+/// as one after the other.
+/// @pre the records of a chunk need T of its own nodes at most, which sums replace
+template <int Dim>
+void sum_forces_of_stage(const MomentumSweep<Dim>& sweep,
+                         MomentumFunction<Dim> momentum,
+                         const MakeRecords& make_records);
 
 /// The compiled sweep of jump_adjoint.hpp.
 template <int Dim>

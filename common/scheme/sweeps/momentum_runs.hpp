@@ -132,10 +132,6 @@ DIPTYCH_INLINE std::int64_t consecutive_offsets(const MutualPairs<Dim>& mutual,
   return n;
 }
 
-/// Nodes between two pairs of a block beyond which the records of the nearer have left the second
-/// cache since the farther read them.
-inline constexpr std::int64_t far_apart = 2000;
-
 /// Blocks that are worked together at most: more find no more lines in the first cache.
 inline constexpr int most_blocks_together = 4;
 
@@ -174,15 +170,11 @@ DIPTYCH_INLINE void add_forces_of_blocks(const MomentumSweep<Dim>& sweep,
   }
 }
 
-/// Asks for what the pairs of the next blocks will be the first to read, in every layer of
-/// neighbours that has left the second cache.
+/// Asks for what the pairs of the next blocks will be the first to read.
 template <class Real, int Dim, bool exact>
 DIPTYCH_INLINE void prefetch_layers(const MomentumSweep<Dim>& sweep, std::int64_t b, int n_blocks) {
   const MutualPairs<Dim>& mutual = sweep.body.graph.mutual;
-  const std::int64_t prefetched = mutual.row[b + 1];
-  for (std::int64_t c = mutual.row[b]; c < prefetched; ++c) {
-    const std::int64_t offset = mutual.offset.data()[c];
-    if (c + 1 < prefetched && mutual.offset.data()[c + 1] - offset < far_apart) continue;
+  for_layers(mutual.row, mutual.offset, b, [&](std::int64_t offset) DIPTYCH_INLINE_LAMBDA {
     for (int k = 0; k < n_blocks; ++k) {
       prefetch_ahead<Real, NodeRecord<Dim>::n(exact)>(sweep.body.records, b + k, offset);
       prefetch_ahead<Real, Dim>(sweep.body.v, b + k, offset);
@@ -190,7 +182,7 @@ DIPTYCH_INLINE void prefetch_layers(const MomentumSweep<Dim>& sweep, std::int64_
       if (sweep.body.options.has_frames)
         prefetch_ahead<Real, NodeFrame<Dim>::n>(sweep.body.frames, b + k, offset);
     }
-  }
+  });
 }
 
 /// Runs: forces of the pairs of the next blocks of [b, end) with nodes above them, added to both.

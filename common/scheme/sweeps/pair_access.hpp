@@ -77,6 +77,25 @@ DIPTYCH_INLINE void prefetch_ahead(const NodeTable& table, std::int64_t b, std::
     __builtin_prefetch(ahead + c * table.component_stride(), 0, 2);
 }
 
+/// Nodes between two pairs of a block beyond which what the nearer has read has left the second
+/// cache since the farther read it.
+inline constexpr std::int64_t far_apart = 2000;
+
+/// Runs: use(offset) of the farthest pair of block b in every layer of neighbours that has left the
+/// second cache: what the next blocks will be the first to read lies there.
+template <class Use>
+DIPTYCH_INLINE void for_layers(const algebra::AlignedArray<std::int64_t>& row,
+                               const algebra::AlignedArray<std::int32_t>& offsets,
+                               std::int64_t b,
+                               const Use& use) {
+  const std::int64_t end = row[b + 1];
+  for (std::int64_t c = row[b]; c < end; ++c) {
+    const std::int64_t offset = offsets[c];
+    if (c + 1 < end && offsets[c + 1] - offset < far_apart) continue;
+    use(offset);
+  }
+}
+
 /// Asks, for writing, for n components of a block that will be written soon.
 template <int n>
 DIPTYCH_INLINE void prefetch_to_write(NodeTable& table, std::int64_t b) {

@@ -40,6 +40,15 @@ struct StrainRateSweep {
 template <int Dim>
 void evaluate_strain_rates(const StrainRateSweep<Dim>& sweep, Share share = Share::whole);
 
+/// The compiled sweep over the blocks of a chunk.
+template <int Dim>
+using StrainRateFunction = void (*)(const StrainRateSweep<Dim>& sweep,
+                                    std::int64_t begin,
+                                    std::int64_t end,
+                                    std::int64_t chunk);
+template <int Dim>
+StrainRateFunction<Dim> strain_rate_function();
+
 /// dF/dt (18b) of the velocities as they stand into the records, and nothing else: for set-up,
 /// where v stands for another field. With the face correction where kappa_f is not zero.
 template <int Dim>

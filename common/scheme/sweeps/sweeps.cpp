@@ -32,6 +32,7 @@ Sweeps<Dim>::Sweeps(const Body<Dim>& body,
     : material_(std::move(material)),
       options_(options),
       momentum_(momentum_function<Dim>(options.dissipation, material_->has_H())),
+      strain_rates_(strain_rate_function<Dim>()),
       face_(face_correction_sweeps<Dim>()),
       geometric_rate_(geometric_rate),
       undeformed_speed_(material_->undeformed_speed()),
@@ -58,9 +59,12 @@ MomentumSweep<Dim> Sweeps<Dim>::momentum_sweep(Body<Dim>& body, bool with_bound)
 template <int Dim>
 void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
   const Speeds speeds = options_.time_step.speeds;
-  const auto sweep = momentum_sweep(body, with_step && speeds == Speeds::exact);
-  sweep_with(body, {&Body<Dim>::records, &Body<Dim>::frames},
-             [&](Share share) { scheme::sum_forces(sweep, momentum_, share); });
+  if (made_ != (with_step ? Following::forces_and_step : Following::forces)) {
+    const auto sweep = momentum_sweep(body, wants_bound(with_step));
+    sweep_with(body, {&Body<Dim>::records, &Body<Dim>::frames},
+               [&](Share share) { scheme::sum_forces(sweep, momentum_, share); });
+  }
+  made_ = Following::nothing;
   if (body.bulk) {
     body.bulk->evaluate(body, *material_);
     body.bulk->add_forces(body);
@@ -95,11 +99,20 @@ double Sweeps<Dim>::rate() const {
   return rate;
 }
 
+/// Whether forces can follow strain rates chunk by chunk: where no other pass changes the records,
+/// and no other rank has some of them.
+template <int Dim>
+bool Sweeps<Dim>::is_one_pass(const Body<Dim>& body) const {
+  return body.in_runs() && !body.division && options_.face_correction == 0 &&
+         !body.options.has_frames && moments_ == nullptr;
+}
+
 template <int Dim>
 void Sweeps<Dim>::strain_rates(Body<Dim>& body,
                                const Relaxation& relaxation,
                                const StageCombination* stage,
-                               double drift) {
+                               double drift,
+                               Following following) {
   const double kappa_f = options_.face_correction;
   const StrainRateSweep<Dim> sweep{body,
                                    *material_,
@@ -110,6 +123,14 @@ void Sweeps<Dim>::strain_rates(Body<Dim>& body,
                                    viscous_dissipation_.data(),
                                    least_J_.data(),
                                    drift != 0 ? old_power_.data() : nullptr};
+  made_ = is_one_pass(body) ? following : Following::nothing;
+  if (made_ != Following::nothing) {
+    const auto forces = momentum_sweep(body, wants_bound(following == Following::forces_and_step));
+    scheme::sum_forces_of_stage(forces, momentum_, [&](auto begin, auto end, auto chunk) {
+      strain_rates_(sweep, begin, end, chunk);
+    });
+    return;
+  }
   if (kappa_f != 0) {
     sweep_with(body, {&Body<Dim>::v}, [&](Share share) {
       for_blocks(body, share, [&](auto begin, auto end) { face_.gradients(body, begin, end); });
@@ -179,6 +200,7 @@ void Sweeps<Dim>::set_results(const SweepResults& results) {
   least_J_ = results.least_J;
   numerical_power_ = results.numerical_power;
   largest_rate_ = results.largest_rate;
+  made_ = Following::nothing;
 }
 
 template class Sweeps<2>;

@@ -30,6 +30,13 @@ struct SweepResults {
   std::vector<double> numerical_power, largest_rate;  ///< [chunk] W, 1/s
 };
 
+/// What sums over pairs follow strain rates before anything else changes the body.
+enum class Following {
+  nothing,
+  forces,
+  forces_and_step,  ///< with the stable step
+};
+
 template <int Dim>
 class Sweeps {
  public:
@@ -43,11 +50,13 @@ class Sweeps {
   void sum_forces(Body<Dim>& body, bool with_step);
 
   /// Strain rates (18b-d), relaxation (14), stress (9), wave speeds into the records. F, H, J are
-  /// moved by the stage before (SSP), or drift in between (leapfrog).
+  /// moved by the stage before (SSP), or drift in between (leapfrog). Where it can, it sums the
+  /// forces that follow in the same pass; the next sum_forces then adds what is missing.
   void strain_rates(Body<Dim>& body,
                     const Relaxation& relaxation,
                     const StageCombination* stage,
-                    double drift);
+                    double drift,
+                    Following following = Following::nothing);
 
   double stable_dt() const { return stable_dt_; }  ///< s, of the last sum_forces with_step
   double numerical_power() const;                  ///< W, of the last sum_forces
@@ -71,19 +80,29 @@ class Sweeps {
   const MaterialModel& material() const { return *material_; }
   const TimeStepRule& time_step() const { return options_.time_step; }
   double geometric_rate() const { return geometric_rate_; }  ///< 1/m
+  /// Of the undeformed, virgin body, whatever the state is  [s]
+  double undeformed_step() const {
+    return options_.time_step.limit() / (geometric_rate_ * undeformed_speed_);
+  }
 
  private:
   double rate() const;
+  bool is_one_pass(const Body<Dim>& body) const;
+  bool wants_bound(bool with_step) const {
+    return with_step && options_.time_step.speeds == Speeds::exact;
+  }
   MomentumSweep<Dim> momentum_sweep(Body<Dim>& body, bool with_bound);
 
   std::shared_ptr<const MaterialModel> material_;
   SweepOptions options_;
   MomentumFunction<Dim> momentum_;
   MomentumFunction<Dim> moments_ = nullptr;  // where the reconstruction is symmetric
+  StrainRateFunction<Dim> strain_rates_;
   FaceCorrectionSweeps<Dim> face_;
   double geometric_rate_;
   double undeformed_speed_;
   double stable_dt_ = 0;
+  Following made_ = Following::nothing;  ///< by the last strain_rates, which sum_forces is to use
   double old_hourglass_power_ = 0;  ///< W, leapfrog: as old_power_, of what holds unseen motions
   // results of the sweeps, one per chunk
   std::vector<double> viscous_dissipation_, old_power_, least_J_, numerical_power_, largest_rate_,

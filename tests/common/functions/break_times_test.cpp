@@ -12,7 +12,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 std::vector<double> breaks_of(const std::string& text, double end = 1) {
-  return break_times({Expression(text, {}, {})}, 0, end);
+  return break_times({Expression(text, {}, {})}, 0, end).jumps;
 }
 
 double next(double t) {

@@ -101,6 +101,73 @@ TEST(EnergyGuard, StopsWhereNumericalDissipationGivesEnergy) {
   }
 }
 
+/// What leapfrog's energy swings by comes back; what it has lost does not, nor what grows.
+TEST(EnergyGuard, LeavesOutWhatSwingsBack) {
+  scheme::Balance initial;
+  initial.kinetic = 10;
+  const auto is_stopped = [&](double residual, double swing) {
+    EnergyGuard guard(initial, 0.01, any_loss, {1e-9});
+    scheme::Balance now = initial;
+    now.kinetic += 10 * residual;
+    now.swing = 10 * swing;
+    StepReport step;
+    step.step = 1000;
+    try {
+      guard.at_check({step, now, {}});
+    } catch (const base::BreakdownError&) {
+      return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(is_stopped(0.03, 0));
+  EXPECT_TRUE(is_stopped(0.03, 0.015));
+  EXPECT_FALSE(is_stopped(0.03, 0.025));
+  EXPECT_TRUE(is_stopped(-0.03, 0.025)) << "lost";
+  EXPECT_TRUE(is_stopped(0.3, 0.3)) << "no swing is as large";
+}
+
+/// A load that grows on a body that holds next to nothing: its first steps swing by more than the
+/// body holds, and are right.
+TEST(EnergyGuard, LetsLoadsGrowOnBodiesThatHoldLittle) {
+  constexpr double threshold = 0.003;
+  const std::string text = R"toml(
+[mesh]
+element = "triangle"
+cells = [8, 8]
+[material]
+model = "neo-hookean"
+density = 1000
+youngs_modulus = 1e7
+poissons_ratio = 0.3
+[initial]
+velocity = ["-0.08*x", 0]
+[[boundary]]
+group = "x_min"
+type = "fixed"
+[[boundary]]
+group = "x_max"
+type = "traction"
+value = ["7.5e5*sin(pi*t/0.0066)^2", "6.4e5*sin(pi*t/0.0066)^2"]
+[time]
+end = 1e-3)toml";
+  for (const char* method : {"sph", "fvm"}) {
+    const tests::Scene scene = tests::scene_of(method, text);
+    EnergyGuard guard(scene.solver->balance(), threshold, any_loss, {1e-12});
+    double largest = 0;
+    const scheme::Balance begun = scene.solver->balance();
+    for (int frame = 1; frame <= 20; ++frame) {
+      tests::run_to(*scene.solver, 5e-5 * frame);
+      const scheme::Balance now = scene.solver->balance();
+      const scheme::Audit& audit = scene.solver->audit();
+      const StepReport late{1000, 0, 0, 1, 0, false};  // no first steps any more
+      EXPECT_NO_THROW(guard.at_check({late, now, audit})) << method << ", frame " << frame;
+      const double off = now.kinetic + now.strain - begun.kinetic - begun.strain - audit.gain();
+      largest = std::max(largest, off / std::max(now.kinetic + now.strain, audit.external_work));
+    }
+    EXPECT_GT(largest, threshold) << "or there is nothing to leave out";
+  }
+}
+
 /// The budget closes here, too; a body without energy is not judged, nor the first steps after.
 TEST(EnergyGuard, StopsWhereNumericalDissipationHasTakenMoreThanItMay) {
   scheme::Balance initial, now;

@@ -1,6 +1,7 @@
 /// Steps end where loads jump in time: each step sees its loads on one side of a jump.
 
 #include "common/io/checkpoint_file.hpp"
+#include "common/run/observers/energy_guard.hpp"
 #include "common/run/observers/observer.hpp"
 #include "common/run/simulation.hpp"
 #include "tests/common/io/scratch.hpp"
@@ -62,6 +63,79 @@ TEST_P(Jumps, APulseShorterThanAStepGivesItsImpulse) {
   EXPECT_NEAR(ran.momentum(), 1e3 * 2e-4, 1e-12);
   EXPECT_THAT(ran.times.at, Contains(0.0501));
   EXPECT_THAT(ran.times.at, Contains(std::nextafter(0.0503, 0)));
+}
+
+TEST_P(Jumps, SmoothPulsesShorterThanAStepGiveTheirs) {
+  for (const auto& [load, impulse] : std::initializer_list<std::pair<const char*, double>>{
+           {"t < 1e-3 ? 1e3*sin(pi*t/1e-3)^2 : 0", 0.5},
+           {"(t > 0.0502 && t < 0.0503) ? 1e4*sin(pi*(t - 0.0502)/1e-4) : 0", 2 / M_PI},
+           {"1e5*max(0, 1 - abs(t - 0.05033)/1e-5)", 1},
+           {"1e3*exp(-((t - 0.05)/2e-3)^2)", 2 * std::sqrt(M_PI)}}) {
+    const Ran ran(GetParam(), load);
+    EXPECT_NEAR(ran.momentum(), impulse, 0.01 * impulse) << load;
+  }
+}
+
+/// Supports that start, stop or move for less than a step end up where they are told to.
+TEST_P(Jumps, SupportsMoveAsFarAsPrescribed) {
+  for (const auto& [velocity, distance] : std::initializer_list<std::pair<const char*, double>>{
+           {"(t > 0.0502 && t < 0.0522) ? 0.5 : 0", 1e-3},
+           {"(t > 0.0502 && t < 0.0503) ? 5 : 0", 5e-4},
+           {"t < 0.0105 ? 0.1 : 0", 1.05e-3},
+           {"(t > 0.0502 && t < 0.0504) ? 10*sin(pi*(t - 0.0502)/2e-4)^2 : 0", 1e-3}}) {
+    tests::Scene scene = tests::scene_of(
+        "fvm", pulled(GetParam(), "0") +
+                   fmt::format("[[boundary]]\ngroup = \"z_min\"\ntype = \"velocity\"\n"
+                               "value = [0, 0, \"{}\"]\n",
+                               velocity));
+    const scheme::Balance begun = scene.solver->balance();
+    Simulation simulation(scene.setup, *scene.solver, {});
+    EXPECT_EQ(simulation.run(), Ending::done);
+    const Snapshot fields = scene.solver->snapshot();
+    for (size_t a = 0; a < scene.graph.X.size(); ++a)
+      if (scene.graph.X[a][2] == 0) {
+        EXPECT_NEAR(fields.u[a][2], distance, 0.01 * distance) << velocity;
+      }
+    const scheme::Balance balance = scene.solver->balance();
+    const scheme::Audit& audit = scene.solver->audit();
+    EXPECT_NEAR(balance.kinetic - begun.kinetic + balance.strain + audit.numerical_dissipation,
+                audit.external_work, 0.02 * std::abs(audit.external_work))
+        << velocity;
+  }
+}
+
+/// Exactly, step by step, and what an impact of supports brings is in the budget at once, also at
+/// an output.
+TEST_P(Jumps, OfSupportsAreBookedWhereTheyAre) {
+  for (const char* instant : {"0.05", "0.0512345"}) {
+    const double t = std::stod(instant);
+    tests::Scene scene =
+        tests::scene_of("fvm",
+                        pulled(GetParam(), "0") + fmt::format("[[boundary]]\ngroup = \"z_min\"\n"
+                                                              "type = \"velocity\"\n"
+                                                              "value = [0, 0, \"t < {} ? 1 : 3\"]\n"
+                                                              "[initial]\nvelocity = [0, 0, 1]\n",
+                                                              instant),
+                        {"time.max_retries=0"});
+    EnergyGuard guard(scene.solver->balance(), 0.01, 0.5, {1e-9});
+    Simulation simulation(scene.setup, *scene.solver, {&guard});
+    EXPECT_EQ(simulation.run(), Ending::done) << instant;
+    const Snapshot fields = scene.solver->snapshot();
+    for (size_t a = 0; a < scene.graph.X.size(); ++a) {
+      if (scene.graph.X[a][2] == 0) {
+        EXPECT_NEAR(fields.u[a][2], t + 3 * (0.1 - t), 1e-9) << instant;
+      }
+    }
+    tests::Scene retried = tests::scene_of(
+        "fvm", pulled(GetParam(), "0") +
+                   fmt::format("[[boundary]]\ngroup = \"z_min\"\ntype = \"velocity\"\n"
+                               "value = [0, 0, \"t < {} ? 1 : 3\"]\n[initial]\n"
+                               "velocity = [0, 0, 1]\n",
+                               instant));
+    Simulation other(retried.setup, *retried.solver, {});
+    EXPECT_EQ(other.run(), Ending::done);
+    EXPECT_LE(other.totals().rejected, 3) << "steps are not made again for a jump that is booked";
+  }
 }
 
 TEST_P(Jumps, ALoadThatStopsHasActedUntilThen) {

@@ -200,6 +200,15 @@ value = )";
   EXPECT_THROW(driven_scene("symmetry", other + R"(["0.2*t", 0])"), base::InputError);
 }
 
+/// For a moment only.
+TEST(SharedNodes, AreRefusedWhereTheyPartBetweenTwoJumps) {
+  for (const char* value : {R"(["t > 0.0503 && t < 0.0523 ? 1 : 0", 0])",
+                            R"(["t > 0.2 && t < 0.206 ? sin(pi*(t - 0.2)/0.006) : 0", 0])"}) {
+    EXPECT_THROW(driven_scene("fixed", value), base::InputError) << value;
+    EXPECT_NO_THROW(driven_scene("symmetry", value)) << value;
+  }
+}
+
 /// The least J of a step is of nodes, not of what fills up the last block (25 nodes).
 TEST(StepReport, HasTheLeastJOfABodyThatIsStretched) {
   const Scene scene = scene_of("fvm", R"toml(

@@ -86,6 +86,24 @@ class RandomBody {
     }
     scheme::sum_forces(sweep, momentum);
   }
+  /// Both in one pass, or in two, of a body that drifts by dt, which takes the power of the forces
+  /// before. @pre runs, no frames or moments
+  void evaluate_drifting(double dt, bool in_one_pass) {
+    const scheme::Relaxation frozen;
+    const scheme::StrainRateSweep<3> rates{
+        state, material, frozen, 0, nullptr, dt, viscous.data(), least_J.data(), old_power.data()};
+    if (!in_one_pass) {
+      scheme::evaluate_strain_rates(rates);
+      scheme::sum_forces<3>({state, 1, true, numerical.data(), rate.data(), limited.data()},
+                            scheme::momentum_function<3>(kind_, true));
+      return;
+    }
+    const auto make_records = scheme::strain_rate_function<3>();
+    scheme::sum_forces_of_stage(
+        {state, 1, true, numerical.data(), rate.data(), limited.data()},
+        scheme::momentum_function<3>(kind_, true),
+        [&](auto begin, auto end, auto chunk) { make_records(rates, begin, end, chunk); });
+  }
   void evaluate(double factor = 1) {
     evaluate(algebra::version_here<StrainRates>(), scheme::momentum_function<3>(kind_, true),
              factor);
@@ -139,7 +157,7 @@ class RandomBody {
 
  public:
   std::vector<double> viscous = std::vector<double>(chunks_), least_J = viscous,
-                      numerical = viscous, rate = viscous, limited = viscous;
+                      numerical = viscous, rate = viscous, limited = viscous, old_power = viscous;
 };
 
 inline constexpr DissipationKind isotropic{};

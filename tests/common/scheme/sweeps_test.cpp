@@ -90,7 +90,7 @@ TEST_P(Methods, SegmentsDoNotDependOnThreads) {
     for (const int threads : {1, 2}) {
       parallel::set_threads(threads);
       RandomBody runs(GetParam(), symmetric, Arrangement::runs, false, cells, precision);
-      ASSERT_GE(runs.state.n_blocks / runs.state.graph.mutual.segment, 4);
+      ASSERT_GE(runs.state.n_blocks / runs.state.graph.mutual.order.segment, 4);
       runs.evaluate();
       const auto other = results(runs);
       const auto rate = *std::max_element(runs.rate.begin(), runs.rate.end());
@@ -102,6 +102,44 @@ TEST_P(Methods, SegmentsDoNotDependOnThreads) {
         ASSERT_NEAR(one[k], other[k], (full ? 1e-9 : 3e-6) * largest(one));
       EXPECT_NEAR(rows.numerical_power(), runs.numerical_power(),
                   (full ? 1e-8 : 1e-6) * rows.numerical_power());
+    }
+  }
+  parallel::set_threads(1);
+}
+
+/// Forces that follow the records of their chunks at a distance are those of two passes to the last
+/// bit: few and many segments, layers that are worked in tiles; and the power of the forces before
+/// is taken before their sums are begun anew.
+TEST_P(Methods, OnePassHasTheBitsOfTwo) {
+  constexpr double dt = 1e-5;
+  for (const std::array<int, 3> cells : {std::array{5, 4, 3}, {14, 14, 14}, {63, 33, 9}}) {
+    for (const DissipationKind& kind : {isotropic, exact, venkatakrishnan}) {
+      if (cells[0] == 63 && kind.limiter != scheme::PairLimiter::none) continue;  // takes long
+      for (const auto precision : {scheme::Precision::full, scheme::Precision::single}) {
+        // the exact impedance is of doubles
+        if (precision == scheme::Precision::single && kind.impedance == exact.impedance) continue;
+        for (const int threads : {1, 2}) {
+          parallel::set_threads(threads);
+          RandomBody two(GetParam(), kind, Arrangement::runs, false, cells, precision),
+              one(GetParam(), kind, Arrangement::runs, false, cells, precision);
+          ASSERT_EQ(one.state.graph.mutual.order.has_large_layers(), cells[0] == 63);
+          for (RandomBody* body : {&two, &one}) {
+            for (std::int64_t a = 0; a < one.graph().n_nodes(); ++a) {
+              for (int i = 0; i < 4; ++i)
+                body->state.T.set(a, i, 1e3 + static_cast<double>(a % 100));
+            }
+          }
+          two.evaluate_drifting(dt, false);
+          one.evaluate_drifting(dt, true);
+          ASSERT_EQ(results(one), results(two)) << cells[0] << ", " << threads << " threads";
+          EXPECT_EQ(one.numerical, two.numerical);
+          EXPECT_EQ(one.rate, two.rate);
+          EXPECT_EQ(one.limited, two.limited);
+          EXPECT_EQ(one.least_J, two.least_J);
+          EXPECT_EQ(one.old_power, two.old_power);
+          EXPECT_NE(parallel::sum_in_order(one.old_power), 0);
+        }
+      }
     }
   }
   parallel::set_threads(1);

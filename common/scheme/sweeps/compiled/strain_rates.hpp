@@ -10,6 +10,18 @@
 
 namespace diptych::scheme {
 
+/// Asks for the velocities that the pairs of the next blocks will be the first to read.
+template <int Dim>
+DIPTYCH_INLINE void prefetch_velocities(const Body<Dim>& body, std::int64_t b) {
+  for_layers(body.graph.row, body.graph.offset, b, [&](std::int64_t offset) DIPTYCH_INLINE_LAMBDA {
+    if (body.is_single()) {
+      prefetch_ahead<float, Dim>(body.v, b, offset);
+    } else {
+      prefetch_ahead<double, Dim>(body.v, b, offset);
+    }
+  });
+}
+
 template <InstructionSet isa, int Dim>
 DIPTYCH_INLINE void evaluate_blocks(const StrainRateSweep<Dim>& sweep,
                                     std::int64_t begin,
@@ -18,11 +30,13 @@ DIPTYCH_INLINE void evaluate_blocks(const StrainRateSweep<Dim>& sweep,
   Body<Dim>& body = sweep.body;
   const algebra::FlushToZero flush(body.is_single());
   const auto evaluate = block_physics<Dim>(sweep.material).evaluate;
+  const bool ahead = body.in_runs() && body.graph.mutual.order.has_large_layers();
   BlockTotals totals;
   for (std::int64_t b = begin; b < end;) {
     Lanes L[2][Dim * Dim];
     int n = 1;
     if (sweep.face_correction == 0) {
+      if (ahead) prefetch_velocities(body, b);
       n = strain_rates_of_next<isa>(body, b, end, L);
     } else {
       corrected_block<isa, Side::rates>(body.graph, body.gradients, sweep.face_correction, b, L[0]);
@@ -108,8 +122,13 @@ void velocity_gradients(Body<Dim>& body, double kappa_f) {
 }
 
 template <int Dim>
+StrainRateFunction<Dim> strain_rate_function() {
+  return algebra::version_here<StrainRateVersions<Dim>>();
+}
+
+template <int Dim>
 void evaluate_strain_rates(const StrainRateSweep<Dim>& sweep, Share share) {
-  const auto evaluate = algebra::version_here<StrainRateVersions<Dim>>();
+  const auto evaluate = strain_rate_function<Dim>();
   for_chunks_of(sweep.body, share,
                 [&](auto begin, auto end, auto chunk) { evaluate(sweep, begin, end, chunk); });
 }

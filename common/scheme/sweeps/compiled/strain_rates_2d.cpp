@@ -2,6 +2,7 @@
 
 namespace diptych::scheme {
 
+template StrainRateFunction<2> strain_rate_function<2>();
 template void evaluate_strain_rates(const StrainRateSweep<2>&, Share);
 template void velocity_gradients(Body<2>&, double);
 

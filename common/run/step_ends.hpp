@@ -1,0 +1,22 @@
+#pragma once
+/// Instants at which steps end because of what a case prescribes in time (notes 5.7): where
+/// tractions, pressures, body forces and velocities of supports jump, and wherever steps could not
+/// follow them otherwise. Test: tests/common/run/step_ends_test.cpp
+
+#include "common/cases/case.hpp"
+
+#include <vector>
+
+namespace diptych::run {
+
+/// A step ends at `before` and the next one begins at `after`: the same but at a jump  [s].
+struct StepEnd {
+  double before = 0, after = 0;
+};
+
+/// @param dt  of steps that nothing hinders  [s]
+/// @return ascending; instants that are as good as one, or as good as an instant of output, are one
+/// @throws base::InputError where something changes faster than steps can follow at a sensible cost
+std::vector<StepEnd> step_ends(const cases::Case& setup, double dt);
+
+}  // namespace diptych::run

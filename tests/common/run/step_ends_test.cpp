@@ -1,0 +1,76 @@
+/// Where steps end because of what a case prescribes in time.
+
+#include "common/run/step_ends.hpp"
+
+#include "common/base/error.hpp"
+#include "common/cases/reader.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+namespace diptych::run {
+namespace {
+
+using testing::HasSubstr;
+
+cases::Case with(const std::string& boundary) {
+  return cases::case_from_text(
+      "[mesh]\ncells = [2, 2, 2]\n[material]\nmodel = \"neo-hookean\"\ndensity = 1000\n"
+      "youngs_modulus = 1e6\npoissons_ratio = 0.3\n[[boundary]]\ngroup = \"z_max\"\n" +
+          boundary + "[time]\nend = 0.1\n[output]\nframes = 10\n",
+      "scene", {});
+}
+
+constexpr double dt = 1e-3;
+
+std::vector<StepEnd> ends_of(const std::string& boundary) {
+  return step_ends(with(boundary), dt);
+}
+
+TEST(StepEnds, AreBothSidesOfJumpsOfLoadsAndOfSupports) {
+  for (const char* type : {"traction", "velocity"}) {
+    const auto ends =
+        ends_of(fmt::format("type = \"{}\"\nvalue = [0, 0, \"t < 0.0251 ? 1 : 0\"]\n", type));
+    ASSERT_EQ(ends.size(), 1U) << type;
+    EXPECT_EQ(ends[0].before, std::nextafter(0.0251, 0));
+    EXPECT_EQ(ends[0].after, 0.0251);
+  }
+}
+
+TEST(StepEnds, AreInsideAPulseThatIsZeroAtBothEnds) {
+  const auto ends = ends_of(
+      "type = \"pressure\"\nvalue = \"(t > 0.0251 && t < 0.0253) ? sin(pi*(t - 0.0251)/2e-4) : "
+      "0\"\n");
+  ASSERT_GE(ends.size(), 9U);
+  EXPECT_LE(ends.size(), 40U);
+  int n_jumps = 0;
+  for (size_t k = 0; k < ends.size(); ++k) {
+    n_jumps += ends[k].before < ends[k].after ? 1 : 0;
+    EXPECT_GE(ends[k].before, 0.0251);
+    EXPECT_LE(ends[k].after, 0.0253);
+    const double before = k > 0 ? ends[k - 1].after : 0;
+    EXPECT_GT(ends[k].before, before);
+  }
+  EXPECT_EQ(n_jumps, 2);
+}
+
+TEST(StepEnds, AreNoneWhereNothingHappensInAStep) {
+  EXPECT_TRUE(ends_of("type = \"traction\"\nvalue = [0, 0, \"sin(300*t)\"]\n").empty());
+  EXPECT_TRUE(ends_of("type = \"fixed\"\n").empty());
+}
+
+TEST(StepEnds, RefuseWhatNoStepsCouldFollow) {
+  const auto setup = with("type = \"traction\"\nvalue = [0, 0, \"1e3*sin(2*pi*1e6*t)\"]\n");
+  try {
+    step_ends(setup, dt);
+    ADD_FAILURE() << "not refused";
+  } catch (const base::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("1e3*sin(2*pi*1e6*t)"));
+    EXPECT_THAT(error.what(), HasSubstr("changes so fast"));
+  }
+  EXPECT_NO_THROW(ends_of("type = \"traction\"\nvalue = [0, 0, \"sin(2*pi*500*t)\"]\n"));
+}
+
+}  // namespace
+}  // namespace diptych::run
