@@ -126,10 +126,11 @@ class Resolving {
       : functions_(functions), dt_(dt), most_(most), times_(times) {}
   using Five = std::array<const OfTime::Values*, 5>;
   /// Nowhere straight in a step, or too many parts of all.
-  bool is_full() const {
-    return static_cast<double>(n_parts_) > most_ || n_parts_ - n_before_ > most_of_step;
-  }
+  bool is_full() const { return static_cast<double>(n_parts_) > most_ || is_step_full(); }
   void begin_step() { n_before_ = n_parts_; }
+  std::int64_t n_parts() const { return n_parts_; }
+  /// The step that is worked is straight nowhere.
+  bool is_step_full() const { return n_parts_ - n_before_ > most_of_step; }
   /// Adds the ends of the parts of [begin, end].
   void split(double begin, double end, const Five& values, int depth = 0) {
     constexpr int deepest = 12;
@@ -192,6 +193,7 @@ ResolvingTimes resolving_times(const std::vector<Expression>& expressions,
   const auto n_pieces = static_cast<double>(pieces.size());
   const double most = std::min(most_parts, most_per_step * ((end - begin) / dt + n_pieces));
   Resolving resolving(functions, dt, most, result.times);
+  double looked_at = begin;
   for (const Piece& piece : pieces) {
     // a kink beside what is shorter than a step
     const bool is_short = piece.end - piece.begin < dt;
@@ -203,6 +205,7 @@ ResolvingTimes resolving_times(const std::vector<Expression>& expressions,
       resolving.split(piece.at(4 * step), piece.at(4 * step + 4),
                       {&first, &one, &two, &three, &last});
       first = last;
+      looked_at = piece.at(4 * step + 4);
     }
     if (is_short) {
       result.times.push_back(piece.begin);
@@ -210,6 +213,8 @@ ResolvingTimes resolving_times(const std::vector<Expression>& expressions,
     }
   }
   result.are_too_many = resolving.is_full();
+  const double per_step = static_cast<double>(resolving.n_parts()) * dt / (looked_at - begin);
+  if (result.are_too_many && !resolving.is_step_full() && per_step <= followed_anyway) return {};
   std::sort(result.times.begin(), result.times.end());
   result.times.erase(std::unique(result.times.begin(), result.times.end()), result.times.end());
   return result;

@@ -17,6 +17,8 @@ struct ResolvingTimes {
   /// Expressions swing so fast that following them would take more than `most_per_step` times as
   /// many steps, `most_parts` parts of steps, or parts of a 4096th of a step without end: `times`
   /// then ends before.
+  /// Not so what takes no more than `followed_anyway` parts a step, waves of four steps a period
+  /// and more: steps follow it without aliases, and a run of so many of them has no times.
   bool are_too_many = false;
 };
 ResolvingTimes resolving_times(const std::vector<Expression>& expressions,
@@ -27,5 +29,6 @@ ResolvingTimes resolving_times(const std::vector<Expression>& expressions,
 
 inline constexpr double least_bend = 0.02, resolved_bend = 0.01;
 inline constexpr double most_steps = 1e5, most_per_step = 100, most_parts = 1e6;
+inline constexpr double followed_anyway = 4.5;
 
 }  // namespace diptych::functions

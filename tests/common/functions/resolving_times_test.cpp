@@ -82,6 +82,9 @@ TEST(ResolvingTimes, LookAtWhatEntersAnExpressionOfPlace) {
 TEST(ResolvingTimes, AreTooManyOfWhatNoStepsCouldFollow) {
   EXPECT_TRUE(resolved(Expression("sin(2*pi*1e6*t)", {}, {})).resolving.are_too_many);
   EXPECT_FALSE(resolved(Expression("sin(2*pi*2e3*t)", {}, {})).resolving.are_too_many);
+  const ResolvingTimes of_long_run = resolved(Expression("sin(2*pi*90*t)", {}, {}), 1000).resolving;
+  EXPECT_FALSE(of_long_run.are_too_many) << "eleven steps a period, a million of them";
+  EXPECT_TRUE(of_long_run.times.empty());
 }
 
 }  // namespace
