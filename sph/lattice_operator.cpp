@@ -83,9 +83,9 @@ Vector least_change(const Eigen::SparseMatrix<double>& Z, const Vector& W, const
   constexpr double relative_shift = 1e-11;
   constexpr int n_rounds = 4;
   const Eigen::SparseMatrix<double> WZ = W.asDiagonal() * Z.transpose();
-  Matrix S = Matrix(Z * WZ);
+  Matrix S = Z * WZ;
   S.diagonal().array() += relative_shift * S.diagonal().maxCoeff();
-  const Eigen::LLT<Matrix> factors(S);
+  const Eigen::LLT<Eigen::Ref<Matrix>> factors(S);  // in its place
   Vector x = Vector::Zero(Z.cols());
   for (int round = 0; round < n_rounds; ++round)
     x += WZ * factors.solve(r - Z * x);
@@ -155,8 +155,7 @@ class LatticeConditions {
     const double side = Omega / rows_.weight_at(0, node[0]);
     r_[first] += Omega;
     r_[closure + 1] += Omega;
-    if (node[0] == 0) r_[closure] += side;  // -A_aN_a
-    if (node[0] == rows_.n_[0] - 1) r_[closure] -= side;
+    if (node[0] == 0) r_[closure] += side;  // -A_aN_a; no kind is at the far side
     for (const Offset& o : rows_.offsets_) {
       const Offset b = sum_of(node, o);
       if (!is_on_lattice(b)) continue;
@@ -210,7 +209,11 @@ bool LatticeRows::is_long(int d) const {
 }
 
 int LatticeRows::n_kinds(int d) const {
-  return is_long(d) ? layers + 1 : n_[d];
+  return is_long(d) ? layers + 1 : (n_[d] + 1) / 2;
+}
+
+bool LatticeRows::is_own_mirror_image(const Offset& kind, int d) const {
+  return is_long(d) ? kind[d] == layers : 2 * kind[d] == n_[d] - 1;
 }
 
 std::vector<Offset> LatticeRows::kinds() const {
@@ -267,13 +270,16 @@ size_t LatticeRows::place_in_table(const Offset& offset) const {
                              reach_);
 }
 
-LatticeRows::Slot LatticeRows::slot(const Offset& kind, const Offset& offset) const {
-  Offset o = offset;
+LatticeRows::Slot LatticeRows::slot(const Offset& place, const Offset& offset) const {
+  Offset kind = place, o = offset;
   double sign = 1;
   for (int d = 0; d < 3; ++d) {
-    if (!is_long(d) || kind[d] != layers) continue;
-    if (d == 0) sign = o[0] < 0 ? -1 : o[0] > 0 ? 1 : 0;
-    o[d] = std::abs(o[d]);
+    const bool is_own = is_own_mirror_image(kind, d);
+    const bool is_turned = is_own ? o[d] < 0 : kind[d] >= n_kinds(d);
+    if (d == 0) sign = is_turned ? -1 : is_own && o[0] == 0 ? 0 : 1;
+    if (!is_turned) continue;
+    o[d] = -o[d];
+    if (!is_own) kind[d] = n_[d] - 1 - kind[d];
   }
   return {first_of(kind) + static_cast<size_t>(numbers_[place_in_table(o)]), sign};
 }
@@ -303,14 +309,16 @@ void LatticeRows::set_inside(const Kernel& kernel, double kappa) {
   for (const Offset& kind : kinds()) {
     for (int k = 0; k < n; ++k) {
       const Offset b = sum_of(kind, offsets_[k]);
-      double volumes = 1;
+      double volumes = 1, images = 1;
       for (int d = 0; d < dimension; ++d) {
+        // what a short line has once beside what its two halves have twice
+        if (!is_long(d) && is_own_mirror_image(kind, d) && offsets_[k][d] == 0) images *= 0.5;
         if (b[d] < 0 || b[d] >= (is_long(d) ? layers : n_[d]) || (is_long(d) && kind[d] == layers))
           continue;
         volumes *= weight_at(d, kind[d]) * weight_at(d, b[d]);
       }
       C_.push_back(C[k] * volumes);
-      weight_.push_back(W[k] * volumes);
+      weight_.push_back(W[k] * volumes / images);
     }
   }
 }

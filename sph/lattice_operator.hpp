@@ -7,9 +7,9 @@
 /// Constant s is the closure of notes 3.3. In lattice coordinates, in which all lattices are alike,
 /// C_ab depends on the offset X_b - X_a and on how far a is from the sides that both nodes are near
 /// to: within `layers` nodes of a side rows are of their own, elsewhere they are those of the
-/// inside. On lines with fewer than 2 layers nodes every place has rows of its own. Volumes and
-/// areas are products of the weights 3/8, 7/6, 23/24, 1, ... of a line (Gregory), which are exact
-/// for cubics.
+/// inside. On lines with fewer than 2 layers nodes every place has rows of its own, those of one
+/// half the mirror images of the other's. Volumes and areas are products of the weights 3/8, 7/6,
+/// 23/24, 1, ... of a line (Gregory), which are exact for cubics.
 ///
 /// The conditions can be met with rows of a bounded layer only where the rows inside are exact for
 /// cubics, too: the sum over all nodes of Omega_a times the error of grad x^3 is the difference of
@@ -52,20 +52,24 @@ class LatticeRows {
  private:
   friend class LatticeConditions;
 
-  /// Where a component is kept: rows inside are mirror images of themselves.
+  /// Where a component is kept: rows inside and in the middle of a short line are mirror images of
+  /// themselves, those beyond that middle of others.
   struct Slot {
     size_t at = 0;
     double sign = 1;  ///< 0: it is zero by that symmetry
   };
   bool is_long(int d) const;
-  int n_kinds(int d) const;  ///< of places along a direction, the inside of long lines the last
+  /// Of places along a direction: the inside of long lines the last; half of a short line.
+  int n_kinds(int d) const;
+  bool is_own_mirror_image(const LatticeOffset& kind, int d) const;
   std::vector<LatticeOffset> kinds() const;
   /// Places that are common to both ends of a pair: below the sides that both are near to, else the
   /// inside. @param node  of a long line: below its near side
   LatticeOffset common_kind(const LatticeOffset& node, const LatticeOffset& offset) const;
   bool is_inside(const LatticeOffset& kind) const;
   double weight_at(int d, int place) const;
-  Slot slot(const LatticeOffset& kind, const LatticeOffset& offset) const;
+  /// @param place  a kind, or beyond the middle of a short line
+  Slot slot(const LatticeOffset& place, const LatticeOffset& offset) const;
   size_t first_of(const LatticeOffset& kind) const;
   void number_offsets();
   size_t place_in_table(const LatticeOffset& offset) const;

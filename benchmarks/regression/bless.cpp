@@ -32,7 +32,7 @@ void check_affordable(const ListedCase& entry) {
   double seconds = 0;
   std::int64_t steps = 0;
   for (const std::string& method : method_menu().names()) {
-    const CaseCheck check = check_case(setup, method, 0);
+    const CaseCheck check = check_case(setup, method, 0, 0);
     seconds += finer * stages_a_step * seconds_a_pair * static_cast<double>(check.pairs) *
                static_cast<double>(check.steps);
     steps = std::max(steps, check.steps);

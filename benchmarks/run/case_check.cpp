@@ -22,11 +22,9 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-constexpr double timing_seconds = 0.5;
-
-/// Mean time of a step, over half a second of them  [s]. A scene that breaks down is timed as far
-/// as it comes: that it does is what a run tells, not this check.
-double step_seconds(run::Solver& solver, double end) {
+/// Mean time of a step, over `timing` seconds of them  [s]. A scene that breaks down is timed as
+/// far as it comes: that it does is what a run tells, not this check.
+double step_seconds(run::Solver& solver, double end, double timing) {
   const auto start = Clock::now();
   int n = 0;
   do {
@@ -36,13 +34,16 @@ double step_seconds(run::Solver& solver, double end) {
     } catch (const base::BreakdownError&) {
       break;
     }
-  } while (seconds_since(start) < timing_seconds && solver.time() < end && !interrupt_requested());
+  } while (seconds_since(start) < timing && solver.time() < end && !interrupt_requested());
   return seconds_since(start) / n;
 }
 
 }  // namespace
 
-CaseCheck check_case(const cases::Case& setup, const std::string& method, int level) {
+CaseCheck check_case(const cases::Case& setup,
+                     const std::string& method,
+                     int level,
+                     double timing) {
   CaseCheck check;
   const auto start = Clock::now();
   const std::int64_t before = settled_memory();
@@ -75,7 +76,7 @@ CaseCheck check_case(const cases::Case& setup, const std::string& method, int le
       static_cast<std::int64_t>(std::min(9e18, std::ceil(setup.time.end / report.dt - 1e-9)));
   if (setup.time.max_steps > 0) check.steps = std::min(check.steps, setup.time.max_steps);
   if (solver.time() < setup.time.end) {
-    check.seconds = static_cast<double>(check.steps) * step_seconds(solver, setup.time.end);
+    check.seconds = static_cast<double>(check.steps) * step_seconds(solver, setup.time.end, timing);
   }
   return check;
 }

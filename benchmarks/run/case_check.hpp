@@ -24,7 +24,11 @@ struct CaseCheck {
   std::vector<std::string> notices;  ///< see CaseGraph
 };
 
-/// Builds mesh, graph and solver, and makes steps for half a second.
-CaseCheck check_case(const cases::Case& setup, const std::string& method, int level);
+/// Builds mesh, graph and solver, and makes two steps at least.
+/// @param timing  for how long steps are made, for their mean time  [s]
+CaseCheck check_case(const cases::Case& setup,
+                     const std::string& method,
+                     int level,
+                     double timing = 0.5);
 
 }  // namespace diptych::harness

@@ -200,16 +200,20 @@ TEST(Verbs, EveryShippedCaseIsListedAndSound) {
   const Folder folder;
   const auto list = diptych(folder, "list");
   ASSERT_EQ(list.exit_code, 0) << list.text;
-  int n_cases = 0;
+  int n_cases = 0, n_meshed = 0;
   for (const auto& entry :
        std::filesystem::directory_iterator(tests::source_folder() + "/benchmarks/cases")) {
     if (!entry.is_directory()) continue;
     const std::string name = entry.path().filename().string();
     EXPECT_THAT(list.text, HasSubstr(name + " "));
+    ++n_cases;
+    // what is meshed by gmsh: the others are checked by Cases.AreSoundOnBothMethodsAndExplained
+    if (text_of(entry.path() / "case.toml").find(".geo\"") == std::string::npos) continue;
     const auto check = diptych(folder, "check " + name + " --threads 1");
     EXPECT_EQ(check.exit_code, 0) << name << ": " << check.text;
-    ++n_cases;
+    ++n_meshed;
   }
+  EXPECT_GE(n_meshed, 10);
   EXPECT_GE(n_cases, 4);
 }
 

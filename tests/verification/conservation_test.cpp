@@ -38,7 +38,7 @@ Drift drift_over(run::Solver& solver, int n_steps, double limit) {
   return largest;
 }
 
-class Conservation : public testing::TestWithParam<std::tuple<const char*, const char*>> {
+class Conservation : public testing::TestWithParam<std::tuple<std::string, std::string>> {
  protected:
   std::string method() const { return std::get<0>(GetParam()); }
   std::string integrator() const { return text_of("time.integrator", std::get<1>(GetParam())); }

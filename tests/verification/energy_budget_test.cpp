@@ -64,7 +64,7 @@ group = "z_max"
 type = "fixed"
 )toml";
 
-class EnergyBudget : public testing::TestWithParam<std::tuple<const char*, const char*>> {
+class EnergyBudget : public testing::TestWithParam<std::tuple<std::string, std::string>> {
  protected:
   /// Largest at eight instants of n equal steps, relative to the energy at the start: at a single
   /// one, errors of second and third order may cancel.

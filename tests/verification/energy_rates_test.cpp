@@ -266,7 +266,7 @@ class LoadedBody {
   scheme::AppliedBoundary boundary_;
 };
 
-class EnergyRates : public testing::TestWithParam<std::tuple<const char*, int, double>> {};
+class EnergyRates : public testing::TestWithParam<std::tuple<std::string, int, double>> {};
 INSTANTIATE_TEST_SUITE_P(All,
                          EnergyRates,
                          testing::Combine(testing::Values("sph", "fvm"),

@@ -48,7 +48,7 @@ TEST(Cases, AreSoundOnBothMethodsAndExplained) {
                                                    << "for its pass numbers";
     if (!setup.mesh.file.empty()) continue;  // meshed by gmsh, which may not be there
     for (const std::string& method : method_menu().names()) {
-      const CaseCheck check = check_case(setup, method, 0);
+      const CaseCheck check = check_case(setup, method, 0, 0);
       EXPECT_GT(check.dt, 0) << name;
       // the rounding of least-squares solves on a few hundred nodes; others are near 1e-15
       EXPECT_LE(check.quality.closure, 1e-12) << name << ' ' << method;

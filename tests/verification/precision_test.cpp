@@ -25,7 +25,7 @@ std::ostream& operator<<(std::ostream& out, const PrecisionCase& c) {
 }
 
 class Precision
-    : public testing::TestWithParam<std::tuple<const char*, PrecisionCase, const char*>> {};
+    : public testing::TestWithParam<std::tuple<std::string, PrecisionCase, std::string>> {};
 
 scheme::Snapshot final_state(const std::string& method,
                              const PrecisionCase& c,

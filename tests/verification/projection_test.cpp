@@ -12,7 +12,7 @@ using algebra::Mat3;
 using tests::Scene;
 using tests::text_of;
 
-class Projection : public testing::TestWithParam<std::tuple<const char*, const char*>> {
+class Projection : public testing::TestWithParam<std::tuple<std::string, std::string>> {
  protected:
   /// The spinning, stretching cube after n equal steps to 1 ms.
   std::unique_ptr<Scene> after(int n) const {

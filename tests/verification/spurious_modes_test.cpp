@@ -14,7 +14,7 @@ using tests::Scene;
 using tests::text_of;
 
 class SpuriousModes : public testing::TestWithParam<
-                          std::tuple<const char*, const char*, const char*, const char*>> {
+                          std::tuple<std::string, std::string, std::string, std::string>> {
  protected:
   Scene scene(const std::string& text) const {
     parallel::set_threads(1);

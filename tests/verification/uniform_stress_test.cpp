@@ -25,7 +25,7 @@ void PrintTo(const Operators& o, std::ostream* out) {
 }
 
 class UniformStress
-    : public testing::TestWithParam<std::tuple<Operators, const char*, const char*>> {};
+    : public testing::TestWithParam<std::tuple<Operators, std::string, std::string>> {};
 
 TEST_P(UniformStress, IsInBalanceAtEveryNode) {
   const auto& [operators, nodes, nu] = GetParam();

@@ -95,7 +95,7 @@ value = ["t < 0.01 ? 1 : 0", 0]
 end = 0.02
 )";
 
-class VelocityThatJumps : public testing::TestWithParam<std::tuple<const char*, const char*>> {
+class VelocityThatJumps : public testing::TestWithParam<std::tuple<std::string, std::string>> {
  protected:
   void SetUp() override { parallel::set_threads(1); }
   void TearDown() override { parallel::set_threads(0); }

@@ -39,7 +39,7 @@ end = 0.045
 constexpr double v0 = 0.1, mass = 62.5, contact_begin = 0.01, contact_time = 0.02;
 constexpr double front_force = 625;  ///< rho c v0 times the cross-section
 
-class RigidWall : public testing::TestWithParam<std::tuple<const char*, const char*>> {
+class RigidWall : public testing::TestWithParam<std::tuple<std::string, std::string>> {
  protected:
   void SetUp() override { parallel::set_threads(1); }  // a few hundred nodes
   void TearDown() override { parallel::set_threads(0); }

@@ -13,7 +13,7 @@ namespace diptych::tests {
 namespace {
 
 class Sweeps
-    : public testing::TestWithParam<std::tuple<const char*, DissipationKind, Arrangement>> {};
+    : public testing::TestWithParam<std::tuple<std::string, DissipationKind, Arrangement>> {};
 
 TEST_P(Sweeps, InternalForcesSumToZero) {
   RandomBody body(std::get<0>(GetParam()), std::get<1>(GetParam()), std::get<2>(GetParam()));

@@ -35,7 +35,7 @@ std::set<std::int64_t> reached(const scheme::PairRuns& upward, std::int64_t chun
   return chunks;
 }
 
-class Orders : public testing::TestWithParam<std::tuple<const char*, std::array<int, 3>>> {};
+class Orders : public testing::TestWithParam<std::tuple<std::string, std::array<int, 3>>> {};
 
 TEST_P(Orders, RecordsComeOnceAndBeforeTheForcesThatReadThem) {
   const auto& [method, cells] = GetParam();
