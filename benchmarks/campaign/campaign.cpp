@@ -33,6 +33,7 @@ Schedule schedule_of(const std::vector<CampaignRun>& plan) {
 std::optional<RunResult> finished_before(const CampaignRun& run, TakeOver take_over) {
   if (take_over == TakeOver::nothing) return std::nullopt;
   auto finished = finished_run(*run.setup, run.options, take_over == TakeOver::ended);
+  if (finished) renew_references(*run.setup, run.options.directory, *finished);
   if (!finished || take_over != TakeOver::timed) return finished;
   parallel::set_threads(run.options.threads);
   const bool same = finished->summary.threads == parallel::running_threads() &&

@@ -1,14 +1,39 @@
 #include "benchmarks/run/resumption.hpp"
 
 #include "benchmarks/run/provenance.hpp"
+#include "benchmarks/run/run_folder.hpp"
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
+#include "common/run/references.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace diptych::harness {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// steps.csv of a run, without rows where nothing is held against them.
+/// @throws base::InputError, base::EnvironmentError
+std::vector<io::StepRow> steps_in(const std::string& directory, const cases::Case& setup) {
+  const bool is_needed =
+      !setup.references.empty() && std::any_of(setup.probes.begin(), setup.probes.end(),
+                                               [](const auto& probe) { return probe.every_step; });
+  if (!is_needed) return {};
+  const fs::path path = fs::path(directory) / "steps.csv";
+  const auto columns = io::columns_from_csv(io::read_file(path.string()), path.string());
+  std::vector<io::StepRow> rows(columns.at(0).values.size());
+  for (size_t i = 0; i < rows.size(); ++i) {
+    rows[i].time = columns[0].values[i];
+    for (size_t k = 2; k < columns.size(); ++k)  // behind the number of the step
+      rows[i].probes.push_back(columns[k].values[i]);
+  }
+  return rows;
+}
+
+}  // namespace
 
 std::string input_hash(const cases::Case& setup, const std::vector<NodeMeasure>& measures) {
   std::string all = setup.hash;
@@ -33,7 +58,8 @@ std::optional<RunResult> finished_run(const cases::Case& setup,
     run.history = io::history_from_csv(io::read_file(history.string()), history.string());
     const std::string exact = (fs::path(options.directory) / "exact.csv").string();
     if (fs::exists(exact, error)) run.exact = io::columns_from_csv(io::read_file(exact), exact);
-  } catch (const base::InputError&) {
+    run.steps = steps_in(options.directory, setup);
+  } catch (const base::Error&) {
     return std::nullopt;  // of another version, or cut off: the run is made again
   }
   const io::RunSummary& s = run.summary;
@@ -43,6 +69,13 @@ std::optional<RunResult> finished_run(const cases::Case& setup,
   const bool ended = s.is_ended() || (broken_down && s.status == "breakdown");
   if (!same || !ended || run.history.empty()) return std::nullopt;
   return run;
+}
+
+void renew_references(const cases::Case& setup, const std::string& directory, RunResult& run) {
+  if (setup.references.empty()) return;
+  const std::string before = io::to_json(run.summary);
+  run.summary.references = run::references_of(setup, run.history, run.steps);
+  if (io::to_json(run.summary) != before) RunFolder(directory).renew(run.summary);
 }
 
 }  // namespace diptych::harness

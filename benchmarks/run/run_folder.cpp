@@ -118,7 +118,13 @@ void RunFolder::close(const RunResult& result) const {
   if (!is_written()) return;
   if (!result.exact.empty())
     io::write_file_atomically(file("exact.csv"), io::columns_csv(result.exact));
-  io::write_file_atomically(file("summary.json"), io::to_json(result.summary));
+  renew(result.summary);
+}
+
+void RunFolder::renew(const io::RunSummary& summary) const {
+  std::error_code ignored;
+  fs::remove(file(io::checksums_file), ignored);  // of a text that changes now
+  io::write_file_atomically(file("summary.json"), io::to_json(summary));
   std::vector<std::string> texts{"summary.json", "history.csv", "steps.csv", "exact.csv",
                                  "run.hdf.series"};
   if (!is_case_of_the_user(file("case.toml"))) texts.emplace_back("case.toml");

@@ -26,6 +26,8 @@ class RunFolder {
   void open(const cases::Case& setup, io::RunSummary summary, bool goes_on) const;
   /// What a run leaves besides its frames and rows; the summary last.
   void close(const RunResult& result) const;
+  /// Another summary of the run that has ended there. @throws base::EnvironmentError
+  void renew(const io::RunSummary& summary) const;
   /// The summary of a run that could not be finished, even where the disk is full. Never throws.
   void close_failed(const io::RunSummary& summary) const noexcept;
 

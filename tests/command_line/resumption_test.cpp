@@ -1,6 +1,6 @@
 /// Studies go on where they stopped: what is finished is not run again, what is not is.
 
-#include "tests/command_line/program.hpp"
+#include "tests/command_line/small_case.hpp"
 
 #include <gtest/gtest.h>
 
@@ -91,6 +91,52 @@ TEST_F(Resumption, AsksForQuantitiesByNameAndKnowsThem) {
   const auto misspelt = diptych(folder, study + "--quantity 'kinetic enrgy'");
   EXPECT_EQ(misspelt.exit_code, 2);
   EXPECT_THAT(misspelt.text, HasSubstr("did you mean 'kinetic energy'?"));
+}
+
+/// The mean speed of the cube is 0.5 m/s at t = 0, by a probe of every step.
+class HeldAgainstAFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    tests::write_case(folder, ".", "mine",
+                      tests::cube + tests::probes +
+                          "[time]\nend = 2e-4\n[output]\nframes = 1\n[[reference]]\nprobe = "
+                          "\"speed\"\nfile = \"ref.csv\"\nuncertainty = 0.1\nsource = \"s\"\n");
+    write_values("0.5");
+  }
+  void write_values(const std::string& value) const {
+    folder.write("mine/ref.csv", "time [s],speed [m/s]\n0," + value + "\n");
+  }
+  Folder folder;
+};
+
+TEST_F(HeldAgainstAFile, TakesOverRunsAndHoldsThemAgainstItAsItIsNow) {
+  const std::string command = "converge mine --levels 2 --method fvm --threads 1 --quiet --out out";
+  const auto first = diptych(folder, command);
+  ASSERT_EQ(first.exit_code, 0) << first.text;
+  EXPECT_THAT(first.text, Not(HasSubstr("NOT")));
+  write_values("10");
+  const auto off = diptych(folder, command);
+  EXPECT_EQ(n_taken_over(off.text), 2) << off.text;
+  EXPECT_THAT(off.text, HasSubstr("NOT met, 95 times"));
+  const std::filesystem::path run = folder.path() / "out" / "level_1" / "fvm";
+  EXPECT_NEAR(tests::summary_in(run).references.at(0).greatest, 9.5, 1e-9);
+  EXPECT_EQ(diptych(folder, "check out").exit_code, 0) << "its checksums are of the new summary";
+  write_values("0.45");
+  const auto met = diptych(folder, command);
+  EXPECT_EQ(n_taken_over(met.text), 2);
+  EXPECT_THAT(met.text, Not(HasSubstr("NOT")));
+}
+
+TEST_F(HeldAgainstAFile, HoldsAFinishedRunThatGoesOnAgainstItToo) {
+  const std::string command = "run mine --method fvm --threads 1 --quiet --out out";
+  ASSERT_EQ(diptych(folder, command).exit_code, 0);
+  write_values("10");
+  const auto second = diptych(folder, command + " --restart latest");
+  EXPECT_EQ(n_taken_over(second.text), 1) << second.text;
+  EXPECT_THAT(second.text, HasSubstr("NOT met, 95 times"));
+  std::filesystem::remove(folder.path() / "out" / "fvm" / "steps.csv");
+  const auto third = diptych(folder, command + " --restart latest");
+  EXPECT_EQ(third.exit_code, 2) << "what would be held against it is no longer there";
 }
 
 }  // namespace
