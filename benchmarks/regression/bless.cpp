@@ -88,8 +88,9 @@ RegressBaseline recorded(const RegressRequest& request,
                          const RegressMeasurement& now) {
   for (const auto& [method, measurement] : now.methods) {
     if (!measurement.failure.empty()) {
-      throw base::BreakdownError(fmt::format("{} {}: {}; nothing is recorded", size.case_name,
-                                             method, measurement.failure));
+      throw base::Error(measurement.failure_code,
+                        fmt::format("{} {}: {}; nothing is recorded", size.case_name, method,
+                                    measurement.failure));
     }
   }
   RegressBaseline record = record_of(size, now, request.why);

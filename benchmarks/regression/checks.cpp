@@ -111,7 +111,8 @@ std::vector<RegressCheck> checks_of(const MethodFigures& recorded,
                                     const MethodMeasurement& now,
                                     bool same_platform) {
   if (!now.failure.empty()) {
-    return {failure("run", "breakdown", now.failure, base::ExitCode::breakdown)};
+    const bool is_breakdown = now.failure_code == base::ExitCode::breakdown;
+    return {failure("run", is_breakdown ? "breakdown" : "end", now.failure, now.failure_code)};
   }
   std::vector<RegressCheck> checks;
   if (recorded.canary.empty() || recorded.quantities.empty())

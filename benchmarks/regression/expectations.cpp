@@ -3,6 +3,7 @@
 #include "benchmarks/campaign/campaign.hpp"
 #include "benchmarks/regression/regress.hpp"
 #include "benchmarks/run/backends.hpp"
+#include "benchmarks/run/breakdowns.hpp"
 #include "benchmarks/run/judgement.hpp"
 #include "benchmarks/run/menus.hpp"
 
@@ -43,6 +44,8 @@ std::vector<RegressCheck> ending_checks(const std::string& prefix,
   const bool is_stopped = run.status == "breakdown";
   const std::string message = run.failure ? run.failure->message : "";
   const std::string figure = prefix + "ending";
+  if (!cut_short({run}).empty())
+    return {failure(expect_check, figure, cut_short_message(run), base::ExitCode::wrong_input)};
   if (stops.empty()) {
     if (!is_stopped) return {met(figure, run.status)};
     return {failure(expect_check, figure, "is stopped: " + first_line(message),
@@ -75,7 +78,7 @@ std::vector<RegressCheck> wished(const cases::ExpectCase& expect,
                                  const io::RunSummary& run,
                                  const std::vector<io::HistoryRow>& history) {
   std::vector<RegressCheck> checks = ending_checks(prefix, run, expect.stops, expect.by_step);
-  if (!expect.stops.empty() || run.status == "breakdown") return checks;
+  if (!expect.stops.empty() || !run.is_ended()) return checks;
   for (const AskedBound& asked : asked_of(run, history, expect.holds)) {
     RegressCheck check =
         checked(expect_check, prefix + asked.bound.figure, asked.measured, asked.bound.value);

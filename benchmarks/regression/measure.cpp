@@ -385,6 +385,13 @@ RegressMeasurement measure_regress(const std::string& case_file,
       if (now.failure.empty()) now.failure = breakdown_message(s);
       return;
     }
+    if (!cut_short({s}).empty()) {
+      if (now.failure.empty()) {
+        now.failure = cut_short_message(s) + "; the size of a case is its time.end";
+        now.failure_code = base::ExitCode::wrong_input;
+      }
+      return;
+    }
     records.push_back(record_of(setup, run));
     if (s.level + 1 == size.levels) ask_references(run, now);
     if (s.level > 0) return;

@@ -105,7 +105,8 @@ struct MethodMeasurement {
   MethodFigures figures;
   std::vector<RegressCheck> conservation;
   std::vector<RegressCheck> asked;  ///< of [bounds] and [[reference]], whatever is known
-  std::string failure;              ///< of a run that broke down
+  std::string failure;              ///< of a run that broke down or that its step limit ended
+  base::ExitCode failure_code = base::ExitCode::breakdown;  ///< of the failure
   double seconds = 0;
 };
 

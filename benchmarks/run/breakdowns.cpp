@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace diptych::harness {
 
@@ -55,6 +56,38 @@ std::string breakdown_table(const std::vector<report::Breakdown>& breakdowns) {
   for (const report::Breakdown& one : breakdowns)
     text += base::folded(fmt::format("{} level {}: {}\n", one.column, one.level, one.message), 2);
   return text;
+}
+
+std::vector<io::RunSummary> cut_short(const std::vector<io::RunSummary>& runs) {
+  std::vector<io::RunSummary> some;
+  std::copy_if(runs.begin(), runs.end(), std::back_inserter(some),
+               [](const io::RunSummary& run) { return run.status == "step limit"; });
+  return some;
+}
+
+std::string cut_short_message(const io::RunSummary& run) {
+  return fmt::format("{} level {} ended at its step limit (time.max_steps): step {}, t = {:.6g} s",
+                     run.column(), run.level, run.steps, run.end_time);
+}
+
+std::string cut_short_table(const std::vector<io::RunSummary>& runs, bool left_out) {
+  std::string text;
+  for (const io::RunSummary& run : cut_short(runs)) {
+    text += base::folded(
+        cut_short_message(run) + ", before time.end" +
+            (left_out ? "; it is left out of what compares values at the end\n" : "\n"),
+        2);
+  }
+  return text;
+}
+
+int code_with_cut_short(int code, const std::vector<io::RunSummary>& runs) {
+  const auto some = cut_short(runs);
+  for (const io::RunSummary& run : some)
+    std::fputs(fmt::format("diptych: {}\n", cut_short_message(run)).c_str(), stderr);
+  const bool is_worse = code != static_cast<int>(base::ExitCode::done) &&
+                        code != static_cast<int>(base::ExitCode::bound_not_met);
+  return some.empty() || is_worse ? code : static_cast<int>(base::ExitCode::wrong_input);
 }
 
 int exit_code_of_study(const std::vector<report::Breakdown>& breakdowns,

@@ -151,6 +151,8 @@ const char* word_of(Outcome outcome) {
       return "stopped";
     case Outcome::wrong:
       return "wrong";
+    case Outcome::unfinished:
+      return "unfinished";
     default:
       return "refused";
   }
@@ -159,7 +161,13 @@ const char* word_of(Outcome outcome) {
 Judgement judged(const io::RunSummary& run,
                  const std::vector<io::HistoryRow>& history,
                  const std::vector<cases::BoundCase>& bounds) {
-  if (!run.is_ended() && run.status != "step limit") {
+  if (run.status == "step limit") {
+    const std::string so_far = missed(asked_of(run, history, bounds));
+    return {Outcome::unfinished,
+            fmt::format("step limit (time.max_steps) at step {}, t = {:.4g} s{}", run.steps,
+                        run.end_time, so_far.empty() ? "" : "; so far " + so_far)};
+  }
+  if (!run.is_ended()) {
     const std::string message = run.failure ? run.failure->message : run.status;
     return {run.status == "breakdown" ? Outcome::stopped : Outcome::refused,
             message.substr(0, message.find('\n'))};

@@ -58,10 +58,11 @@ std::string unmet_of(const cases::ExpectCase& expect,
 void check_figures(const cases::Case& setup);
 
 enum class Outcome {
-  stable,   ///< came to its end, every bound holds
-  stopped,  ///< code 3
-  wrong,    ///< came to its end, a bound does not hold
-  refused   ///< code 2: could not be begun
+  stable,     ///< came to its end, every bound holds
+  stopped,    ///< code 3
+  wrong,      ///< came to its end, a bound does not hold
+  refused,    ///< code 2: could not be begun
+  unfinished  ///< its step limit ended it before the end of its case: that says nothing of the rest
 };
 const char* word_of(Outcome outcome);
 

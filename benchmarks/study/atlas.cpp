@@ -114,14 +114,17 @@ std::vector<std::string> files_of(const AtlasPlan& plan) {
 }
 
 /// A map of nothing says that the atlas is at fault, not the schemes.
-void check_any_begun(const AtlasMap& map) {
-  const bool none = std::all_of(map.points.begin(), map.points.end(), [](const AtlasPoint& point) {
-    return point.judgement.outcome == Outcome::refused;
-  });
-  if (none && !map.points.empty()) {
-    throw base::InputError(fmt::format("{}: no point could be begun: {}", map.atlas.file,
-                                       map.points.front().judgement.reason));
+void check_any_judged(const AtlasMap& map) {
+  bool any_judged = map.points.empty(), any_begun = false;
+  for (const AtlasPoint& point : map.points) {
+    const Outcome outcome = point.judgement.outcome;
+    any_begun |= outcome != Outcome::refused;
+    any_judged |= outcome != Outcome::refused && outcome != Outcome::unfinished;
   }
+  if (any_judged) return;
+  throw base::InputError(fmt::format("{}: no point {}: {}", map.atlas.file,
+                                     any_begun ? "came to its end" : "could be begun",
+                                     map.points.front().judgement.reason));
 }
 
 }  // namespace
@@ -166,7 +169,7 @@ std::string make_atlas(const AtlasRequest& request) {
   write_output(directory, "atlas.csv", atlas_csv(map));
   write_output(directory, "atlas.json", atlas_json(map));
   write_output(directory, "atlas.html", atlas_html(map));
-  check_any_begun(map);
+  check_any_judged(map);
   return directory;
 }
 

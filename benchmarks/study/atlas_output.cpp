@@ -22,10 +22,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array outcomes{Outcome::stable, Outcome::stopped, Outcome::wrong, Outcome::refused};
+constexpr std::array outcomes{Outcome::stable, Outcome::stopped, Outcome::wrong, Outcome::refused,
+                              Outcome::unfinished};
 
 char letter_of(Outcome outcome) {
-  return ".SW-"[static_cast<size_t>(outcome)];
+  return ".SW-U"[static_cast<size_t>(outcome)];
 }
 
 /// The choices of some axes.
@@ -169,11 +170,11 @@ size_t count(const AtlasMap& map, Outcome before, Outcome now) {
 std::string changes_text(const AtlasMap& map) {
   std::string text = fmt::format("\n{:<16}", "before \\ now");
   for (const Outcome now : outcomes)
-    text += fmt::format("{:>9}", word_of(now));
+    text += fmt::format("{:>11}", word_of(now));
   for (const Outcome before : outcomes) {
     text += fmt::format("\n{:<16}", word_of(before));
     for (const Outcome now : outcomes)
-      text += fmt::format("{:>9}", count(map, before, now));
+      text += fmt::format("{:>11}", count(map, before, now));
   }
   text += "\n";
   for (const AtlasPoint& point : map.points) {
@@ -195,6 +196,11 @@ std::string verdict_of(const AtlasMap& map) {
       count(map, Outcome::refused) > 0
           ? fmt::format(", {} could not be begun", count(map, Outcome::refused))
           : "");
+  if (count(map, Outcome::unfinished) > 0) {
+    text +=
+        fmt::format(" {} ended at their step limit (time.max_steps), which says nothing of them.",
+                    count(map, Outcome::unfinished));
+  }
   if (map.points.size() < map.n_planned) {
     text += fmt::format(" {} are still to be run: the same command goes on.",
                         map.n_planned - map.points.size());
@@ -261,7 +267,7 @@ std::string atlas_text(const AtlasMap& map) {
   std::string text = map.atlas.title + "\n\n";
   for (const std::string& method : methods_in(map))
     text += grid_text(map, method);
-  text += ". stable, S stopped, W wrong, - refused";
+  text += ". stable, S stopped, W wrong, - refused, U unfinished";
   text += has_before(map) ? ", S>. stopped before and stable now\n" : "\n";
   text += verdict_of(map) + "\n" + causes_text(map);
   if (has_before(map)) text += changes_text(map);

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
 
 namespace diptych::harness {
 
@@ -169,6 +170,7 @@ Study run_study(const cases::Case& setup, const StudyOptions& options) {
     study.exact[column] = result.exact;
     if (made.taken_over) study.taken_over.push_back(run.directory);
     if (made.taken_over || run.level != options.levels.back()) return;
+    if (result.summary.status == "step limit") return;  // of another time than the others
     if (run.shapes) study.shapes[column] = std::move(result.shapes);
     finest.push_back({column, run.variant.empty(), std::move(result)});
   };
@@ -211,6 +213,15 @@ void add_quantities(const ColumnConvergence& column, report::StudyReport& report
   }
 }
 
+/// Without what would stand beside values at the ends of runs, where it was cut short.
+io::RunSummary shown(io::RunSummary run) {
+  if (run.is_ended()) return run;
+  run.errors.clear();
+  for (io::QuantitySummary& one : run.quantities)
+    one.final_value = std::numeric_limits<double>::quiet_NaN();
+  return run;
+}
+
 /// What probes and energies are drawn against: the exact solution as the first of the columns met
 /// it, and the values from elsewhere.
 report::References references_of(const cases::Case& setup, const Study& study) {
@@ -240,7 +251,8 @@ report::StudyReport report_of(const cases::Case& setup,
       fmt::format("Case {}{}", setup.name,
                   setup.overrides.empty() ? "" : ", with " + base::joined(setup.overrides));
   report.material = material_lines(setup.material);
-  report.runs = study.runs;
+  for (const io::RunSummary& run : study.runs)
+    report.runs.push_back(shown(run));
   report.histories = study.histories;
   report.breakdowns = study.breakdowns;
   for (report::Breakdown& one : report.breakdowns)

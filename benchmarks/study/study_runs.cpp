@@ -119,7 +119,9 @@ StudyRuns runs_of_study(const StudyRequest& request,
     }
     n_taken_over += made.taken_over ? 1 : 0;
     WorkCurve& curve = runs.curves[number % runs.curves.size()];
-    if (run.status != "breakdown") {
+    if (run.status == "step limit") {
+      if (plan[number].repetition == 1) runs.cut_short.emplace_back(run).variant = curve.variant;
+    } else if (run.status != "breakdown") {
       add_to_curve(run, *plan[number].setup, curve);
       if ((run.status == "unsound" || !run.unmet.empty()) && plan[number].repetition == 1)
         runs.unsound.push_back(run);

@@ -91,12 +91,12 @@ StudyRuns study_variants(const StudyRequest& asked) {
   const cases::Case base_case = harness::read_case(request.case_file, request.overrides);
   OutputFolder output(request.run.directory, base_case, OutputKind::study, request.run.force);
   const StudyRuns runs = runs_of_study(request, variants, cases, output);
-  if (!runs.curves.empty()) {  // else interrupted in the first run, or all broke down
+  if (!runs.curves.empty()) {  // else interrupted in the first run, or none came to its end
     if (has_exact(setup)) show_errors(request, setup, runs);
     if (!has_exact(setup) || !request.quantities.empty())
       show_quantities(request, setup, variants, runs);
   }
-  print(breakdown_table(runs.breakdowns));
+  print(cut_short_table(runs.cut_short, true) + breakdown_table(runs.breakdowns));
   return runs;
 }
 

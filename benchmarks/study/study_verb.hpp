@@ -38,13 +38,14 @@ struct StudyRuns {
   std::string field;                          ///< whose error is shown, or empty
   std::vector<report::Breakdown> breakdowns;  ///< with the variant in the message
   std::vector<io::RunSummary> unsound;        ///< or unmet, of the runs in the curves
+  std::vector<io::RunSummary> cut_short;      ///< at their step limit: they are in no curve
 };
 
 /// Runs all variants, methods and levels. Where the case has an exact solution, prints the table of
 /// errors against cost and writes DIR/work_precision.csv and .html; else, and where quantities are
 /// asked for, those with DIR/quantities.csv and .html. Runs are kept in DIR/runs, and taken over
 /// where the same program has finished them with as many threads on the same kind of processor.
-/// A run that breaks down is left out.
+/// A run that breaks down or is cut short is left out.
 /// @throws base::InputError before the first run
 StudyRuns study_variants(const StudyRequest& request);
 

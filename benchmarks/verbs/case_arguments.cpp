@@ -138,6 +138,11 @@ void print_breakdowns(const harness::Study& study) {
   if (!table.empty()) print(table + "\n");
 }
 
+void print_cut_short(const harness::Study& study, bool left_out) {
+  const std::string table = harness::cut_short_table(study.runs, left_out);
+  if (!table.empty()) print((left_out ? "\n" : "") + table);
+}
+
 void print_later_references(const cases::Case& setup, const harness::Study& study) {
   double end = 0;
   for (const io::RunSummary& run : study.runs)

@@ -64,6 +64,10 @@ using harness::write_output;
 /// The runs that broke down; nothing where none did.
 void print_breakdowns(const harness::Study& study);
 
+/// The runs that their step limit ended; nothing where there is none. @param left_out  see
+/// cut_short_table
+void print_cut_short(const harness::Study& study, bool left_out);
+
 /// How far its runs are from the values from elsewhere that the case names, or why that is not
 /// judged; nothing where it names none.
 void print_references(const cases::Case& setup, const harness::Study& study);

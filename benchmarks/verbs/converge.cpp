@@ -48,11 +48,13 @@ void show_convergence(const cases::Case& setup,
   print_references(setup, study);
   for (const auto& summary : study.runs)
     print(harness::inverted_cells_warning(summary));
+  print_cut_short(study, true);
   print_breakdowns(study);
   if (convergence.empty()) return;
   write_output(folder, "convergence.csv", harness::convergence_csv(convergence));
   write_output(folder, "convergence.tex", harness::convergence_tex(convergence));
-  const bool is_whole = study.breakdowns.empty() && !harness::interrupt_requested();
+  const bool is_whole = study.breakdowns.empty() && harness::cut_short(study.runs).empty() &&
+                        !harness::interrupt_requested();
   if (study.shapes.size() < arguments.methods().size() && is_whole) {
     print(
         "bodies and difference of the methods: not all in this report, as a run of the finest "
@@ -74,7 +76,8 @@ int converge(const ConvergeArguments& arguments) {
     print("taken over, not run again: " + folder + "\n");
   if (!study.taken_over.empty()) print("\n");
   show_convergence(setup, arguments, study, options.directory);
-  return exit_code_of(study, harness::go_on_from(options.directory));
+  return harness::code_with_cut_short(exit_code_of(study, harness::go_on_from(options.directory)),
+                                      study.runs);
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ int run_methods(const CaseArguments& arguments) {
   for (const auto& summary : study.runs)
     print(harness::run_table(summary) + "\n");
   print_later_references(setup, study);
+  print_cut_short(study, false);
   print_breakdowns(study);
   if (!study.is_empty()) print("output: " + options.directory + "\n");
   return exit_code_of(study, study.is_empty() ? end_of(study, options.directory)

@@ -96,8 +96,9 @@ int study(const StudyArguments& arguments) {
   request.run.levels =
       arguments.levels(arguments.n_levels == arguments.by_default ? 3 : arguments.n_levels, 1);
   const harness::StudyRuns runs = harness::study_variants(request);
-  return harness::exit_code_of_study(runs.breakdowns, runs.unsound,
-                                     harness::go_on_from(request.run.directory));
+  const int code = harness::exit_code_of_study(runs.breakdowns, runs.unsound,
+                                               harness::go_on_from(request.run.directory));
+  return harness::code_with_cut_short(code, runs.cut_short);
 }
 
 }  // namespace

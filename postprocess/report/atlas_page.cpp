@@ -18,6 +18,7 @@ const char* letter_of(const std::string& state) {
   if (state == "stopped") return "S";
   if (state == "wrong") return "W";
   if (state == "refused") return "–";
+  if (state == "unfinished") return "U";
   return "";
 }
 
@@ -143,7 +144,8 @@ std::string legend() {
        {std::pair("stable", "stable: came to its end, whole"),
         std::pair("stopped", "S stopped by the program (code 3)"),
         std::pair("wrong", "W wrong: came to its end, and is no solution"),
-        std::pair("refused", "– refused: could not be begun (code 2)")})
+        std::pair("refused", "– refused: could not be begun (code 2)"),
+        std::pair("unfinished", "U unfinished: its step limit ended it before its end")})
     text += fmt::format("<li><span class=\"{}\"></span>{}</li>\n", state, meaning);
   return text + "</ul>\n";
 }

@@ -7,7 +7,8 @@
 
 namespace diptych::report {
 
-/// A point of a map. States: stable, stopped, wrong, refused; empty: no such point, or not yet run.
+/// A point of a map. States: stable, stopped, wrong, refused, unfinished; empty: no such point, or
+/// not yet run.
 struct AtlasCell {
   std::string state, reason;
   std::string before;  ///< its state in an earlier map, or empty

@@ -65,6 +65,17 @@ TEST_F(JudgedRun, IsStoppedWithTheFirstLineOfItsMessage) {
   EXPECT_EQ(outcome(), Outcome::refused);
 }
 
+TEST_F(JudgedRun, IsUnfinishedWhereItsStepLimitEndedIt) {
+  run.status = "step limit";
+  run.steps = 60;
+  run.end_time = 0.028;
+  const Judgement short_one = judged(run, history, {bound("least J", false, 0.5)});
+  EXPECT_EQ(short_one.outcome, Outcome::unfinished);
+  EXPECT_EQ(short_one.reason, "step limit (time.max_steps) at step 60, t = 0.028 s");
+  EXPECT_THAT(judged(run, history, {bound("least J", false, 1)}).reason,
+              testing::EndsWith("; so far least J 0.7, asked >= 1"));
+}
+
 TEST_F(JudgedRun, SaysWhatItsCaseAsksAndDoesNotHold) {
   cases::ExpectCase expect;
   expect.holds = {bound("kinetic growth", true, 1)};
