@@ -3,6 +3,7 @@
 #include "benchmarks/study/variant_quantities.hpp"
 
 #include "benchmarks/run/case_list.hpp"
+#include "benchmarks/run/judgement.hpp"
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 
@@ -145,6 +146,35 @@ TEST(VariantQuantities, AreChosenByNameOrProbe) {
   }
   EXPECT_THAT(chosen_quantities(setup, {probe}, {}), testing::Contains(probe + ", greatest"));
   EXPECT_THAT(chosen_quantities(setup, {"least J"}, {}), ElementsAre("least J"));
+}
+
+/// What history.csv, bounds and tables have of every run.
+std::vector<std::string> names_of_every_run() {
+  std::vector<std::string> names{"all"};
+  for (const auto& column : io::history_columns_from_csv(io::history_csv({}, {}), "history.csv"))
+    names.push_back(column.name);
+  for (const auto& [name, value] : run_figures({}, {io::HistoryRow{}}))
+    names.push_back(name);
+  for (const RunQuantity& quantity : quantities_of_run({}))
+    names.push_back(quantity.name);
+  return names;
+}
+
+TEST(VariantQuantities, HaveNamesThatNoProbeMayTake) {
+  const auto names = names_of_every_run();
+  EXPECT_GT(names.size(), 40U);
+  for (const std::string& name : names) {
+    try {
+      cases::case_from_text(
+          "[mesh]\ncells = [2, 2, 2]\n[material]\nmodel = 'neo-hookean'\ndensity = 1\n"
+          "shear_modulus = 1\nlame = 1\n[time]\nend = 1\n[[probe]]\nname = \"" +
+              name + "\"\nunit = \"m\"\nkind = \"mean\"\nquantity = \"ux\"\n",
+          "case.toml");
+      ADD_FAILURE() << name << " is accepted";
+    } catch (const base::InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("case.toml:11:8: probe.0.name = '" + name + "' is what"));
+    }
+  }
 }
 
 // energies that are zero in every run say nothing; a residual of zero does

@@ -1,7 +1,10 @@
 #include "common/base/error.hpp"
 #include "common/cases/sections/sections.hpp"
 
+#include <algorithm>
+#include <array>
 #include <fmt/format.h>
+#include <string_view>
 
 namespace diptych::cases {
 
@@ -15,6 +18,79 @@ std::string label(const SectionValues& section, const char* key, const char* for
                                  : fmt::format("= '{}' holds one of {} and cannot be part of the "
                                                "header of a column",
                                                text, forbidden));
+}
+
+/// What tables, bounds and columns call what every run has: a probe of such a name would stand for
+/// it, or it for the probe. (A test holds them against history.csv, bounds and tables.)
+constexpr std::array<std::string_view, 35> taken_names{
+    "all",
+    "time",
+    "step",
+    "dt",
+    "kinetic energy",
+    "strain energy",
+    "viscous dissipation",
+    "numerical dissipation",
+    "external work",
+    "projection work",
+    "relative energy residual",
+    "linear momentum x",
+    "linear momentum y",
+    "linear momentum z",
+    "angular momentum x",
+    "angular momentum y",
+    "angular momentum z",
+    "min jacobian",
+    "involution H",
+    "involution J",
+    "least cell J",
+    "energy residual",
+    "inverted cells",
+    "least J",
+    "kinetic growth",
+    "numerical share",
+    "linear momentum drift",
+    "angular momentum drift",
+    "steps",
+    "seconds",
+    "nodes",
+    "pairs",
+    "end time",
+    "fall of viscous dissipation",
+    "fall of numerical dissipation",
+};
+
+/// What stands behind the name of a probe where tables and bounds mean a number of it.
+constexpr std::array<std::string_view, 6> parts_of_probes{", final",    ", end",    ", least",
+                                                          ", greatest", ", period", ", amplitude"};
+
+/// The probe that a name would be a part of, "tip" of "tip, final"; empty where it has no such end.
+std::string_view whole_of(std::string_view name) {
+  for (const std::string_view part : parts_of_probes) {
+    if (name.ends_with(part)) return name.substr(0, name.size() - part.size());
+  }
+  return {};
+}
+
+void check_name(const SectionValues& section, const std::string& name) {
+  if (std::find(taken_names.begin(), taken_names.end(), name) == taken_names.end()) return;
+  section.fail("name",
+               fmt::format("= '{}' is what every run has under this name, in its tables and "
+                           "columns; rename the probe",
+                           name));
+}
+
+/// @throws base::InputError where a name could be meant as that of one or as a part of another
+void check_parts(const std::vector<ProbeCase>& probes) {
+  for (const ProbeCase& probe : probes) {
+    for (const ProbeCase& other : probes) {
+      if (whole_of(probe.name) != other.name) continue;
+      throw base::InputError(
+          fmt::format("{}'{}' is what tables and bounds call a part of the probe "
+                      "'{}' (line {}); rename one",
+                      functions::prefix(probe.where), probe.name, other.name, other.where.line));
+    }
+  }
 }
 
 SectionKeys<ProbeCase> probe_keys() {
@@ -77,6 +153,7 @@ void read_quantity(const SectionValues& section,
   probe.where = section.where();
   probe.every_step |= probe.oscillation;  // rows may be too far apart to show the period
   probe.name = label(section, "name", "[]/");
+  check_name(section, probe.name);
   probe.unit = label(section, "unit", "[]");
   const auto refuse = [&](const char* name) {
     section.refuse(name, fmt::format("has no effect on kind = \"{}\"; remove it", probe.kind));
@@ -123,6 +200,7 @@ std::vector<ProbeCase> read_probes(const Reading& reading, const SectionKeys<Pro
     }
     probes.push_back(std::move(probe));
   }
+  check_parts(probes);
   return probes;
 }
 

@@ -263,6 +263,19 @@ const BadCase of_types[] = {
     {"name_empty",
      after("[[probe]]\nname = \"\"\nunit = \"m\"\nkind = \"mean\"\nquantity = \"ux\"\n"),
      "11:8: ", "probe.0.name is empty; give it a text for the column's header"},
+    {"probe_taken",
+     after("[[probe]]\nname = \"kinetic energy\"\nunit = \"J\"\nkind = \"mean\"\n"
+           "quantity = \"ux\"\n"),
+     "11:8: ",
+     "probe.0.name = 'kinetic energy' is what every run has under this name, in its "
+     "tables and columns; rename the probe"},
+    {"probe_part",
+     after("[[probe]]\nname = \"u, final\"\nunit = \"m\"\nkind = \"mean\"\nquantity = "
+           "\"ux\"\n" +
+           mean_u + "quantity = \"ux\"\n"),
+     "10:1: ",
+     "'u, final' is what tables and bounds call a part of the probe 'u' (line 15); "
+     "rename one"},
     {"probe_twice", after(mean_u + "quantity = \"ux\"\n" + mean_u + "quantity = \"uy\"\n"),
      "15:1: ", "a probe is already called 'u' (line 10); rename one"},
     {"probe_at", after(mean_u + "quantity = \"ux\"\nat = [0, 0, 0]\n"),
