@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace diptych::harness {
 
@@ -185,7 +186,42 @@ class Walk {
   double scale_ = 1;
 };
 
+const char* name_of(Course course) {
+  return course == Course::step ? "a step" : course == Course::ramp ? "a ramp" : "an oscillation";
+}
+
+/// Numbers that are none, and those that the path does not use.
+void check_numbers(const MaterialPath& path) {
+  for (const auto& [name, value] :
+       {std::pair{"--amplitude", path.amplitude}, std::pair{"--rate", path.rate},
+        std::pair{"--frequency", path.angular_frequency}, std::pair{"--end", path.end}}) {
+    if (!std::isfinite(value))
+      throw base::InputError(fmt::format("{} {} must be a finite number", name, value));
+  }
+  const auto refuse = [&](bool is_used, double value, const char* name) {
+    if (is_used || value == 0) return;
+    throw base::InputError(
+        fmt::format("{} has no effect on {}; remove it", name, name_of(path.course)));
+  };
+  refuse(path.course == Course::ramp, path.rate, "--rate");
+  refuse(path.course != Course::ramp, path.amplitude, "--amplitude");
+  refuse(path.course == Course::oscillation, path.angular_frequency, "--frequency");
+}
+
+/// Enough steps for the moduli of the last cycle, where there is a whole one.
+void check_cycle(const MaterialPath& path) {
+  const double cycles = path.end * path.angular_frequency / (2 * pi);
+  if (path.course != Course::oscillation || cycles < 1 - 1e-9) return;
+  const double asked = steps_of_a_cycle(path.update), steps = path.n_steps / cycles;
+  if (steps >= asked * (1 - 1e-9)) return;
+  throw base::InputError(fmt::format(
+      "--steps {} are {:.3g} a cycle, and its moduli need {:g}: give --steps {:.0f}, or a shorter "
+      "--end",
+      path.n_steps, steps, asked, std::ceil(asked * cycles * (1 - 1e-9))));
+}
+
 void check(const MaterialPath& path) {
+  check_numbers(path);
   const auto need = [](bool given, const char* what, const char* why) {
     if (!given) throw base::InputError(fmt::format("{} is needed {}", what, why));
   };
@@ -207,6 +243,7 @@ void check(const MaterialPath& path) {
     throw base::InputError(
         fmt::format("the path reaches the stretch 1 + a = {:g}; it must stay above 0", 1 + least));
   }
+  check_cycle(path);
 }
 
 }  // namespace
@@ -228,6 +265,10 @@ void read_path_name(const std::string& name, MaterialPath& path) {
   const Entry entry = menu.at(name);
   path.loading = entry.loading;
   path.course = entry.course;
+}
+
+double steps_of_a_cycle(Update update) {
+  return update == Update::gauss ? 16 : 25;
 }
 
 std::vector<PathPoint> follow(const run::MaterialPoint& material, const MaterialPath& path) {
@@ -262,21 +303,33 @@ DynamicModuli dynamic_moduli(const std::vector<PathPoint>& points, const Materia
   if (path.course != Course::oscillation || begin < -1e-9 * period) {
     throw base::InputError("dynamic moduli need an oscillation of one period or more");
   }
-  const int component = path.loading == Loading::shear ? 1 : 0;
-  DynamicModuli G;
-  // trapezoidal rule, the first interval cut at the begin of the cycle
-  for (size_t n = 1; n < points.size(); ++n) {
-    const PathPoint &a = points[n - 1], &b = points[n];
-    if (b.time <= begin) continue;
-    const double share = std::min(1.0, (b.time - begin) / dt);
-    for (const PathPoint* p : {&a, &b}) {
-      const double phase = path.angular_frequency * p->time;
-      const double weight = share * dt / period / path.amplitude * p->P(0, component);
-      G.storage += weight * std::sin(phase);
-      G.loss += weight * std::cos(phase);
-    }
+  // P12 or P11 of an imposed strain; the strain of an imposed stress
+  const auto response = [&](const PathPoint& point) {
+    if (path.loading == Loading::creep) return point.state.F(0, 0) - 1;
+    return point.P(0, path.loading == Loading::shear ? 1 : 0);
+  };
+  std::vector<const PathPoint*> cycle;  // without its first instant, which is the last one again
+  for (const PathPoint& point : points) {
+    if (point.time > begin + 1e-6 * dt) cycle.push_back(&point);
   }
-  return G;
+  // Least squares of a mean and harmonics: whatever the phase at which the steps meet the cycle.
+  constexpr int n_harmonics = 3;
+  Eigen::MatrixXd waves(cycle.size(), 1 + 2 * n_harmonics);
+  Eigen::VectorXd values(cycle.size());
+  for (Eigen::Index n = 0; n < values.size(); ++n) {
+    const PathPoint& point = *cycle[static_cast<size_t>(n)];
+    const double phase = path.angular_frequency * point.time;
+    waves(n, 0) = 1;
+    for (int k = 1; k <= n_harmonics; ++k) {
+      waves(n, 2 * k - 1) = std::sin(k * phase);
+      waves(n, 2 * k) = std::cos(k * phase);
+    }
+    values[n] = response(point);
+  }
+  const Eigen::VectorXd fit = waves.colPivHouseholderQr().solve(values) / path.amplitude;
+  if (path.loading != Loading::creep) return {fit[1], fit[2]};
+  const double squares = fit[1] * fit[1] + fit[2] * fit[2];  // of the compliance
+  return {fit[1] / squares, -fit[2] / squares};
 }
 
 HyperbolicityScan scan_hyperbolicity(const run::MaterialPoint& material,

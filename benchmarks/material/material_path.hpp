@@ -49,8 +49,11 @@ struct PathPoint {
 ///         deformation satisfies the conditions
 std::vector<PathPoint> follow(const run::MaterialPoint& material, const MaterialPath& path);
 
+/// Steps of a cycle from which on both moduli are within 1 % of those of many more steps.
+double steps_of_a_cycle(Update update);
+
 /// Storage and loss modulus of the last whole cycle of an oscillation: first Fourier coefficients
-/// of P12 (shear) or P11 over the amplitude  [Pa].
+/// of P12 (shear) or P11 over the amplitude; of creep from those of the strain  [Pa].
 struct DynamicModuli {
   double storage = 0, loss = 0;
 };

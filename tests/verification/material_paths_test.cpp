@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <gmock/gmock.h>
+#include <limits>
 
 namespace diptych::harness {
 namespace {
@@ -103,9 +105,74 @@ TEST(MaterialPath, OscillatoryShearIsLinearAtAnyAmplitude) {
     path.amplitude = amplitude;
     path.angular_frequency = omega;
     const DynamicModuli G = dynamic_moduli(followed(ve2(), path), path);
-    // the start has decayed to exp(-7 T/tau_C) = 1e-19; trapezoids of a cycle of 250 are exact
+    // the start has decayed to exp(-7 T/tau_C) = 1e-19; of a cycle of 250 nothing is missed
     EXPECT_NEAR(G.storage, storage, 1e-7 * mu) << amplitude;
     EXPECT_NEAR(G.loss, loss, 1e-7 * mu) << amplitude;
+  }
+}
+
+/// Whatever the phase at which the steps meet the cycle: the loss modulus is a tenth of the other.
+TEST(MaterialPath, ModuliAreKnownToAPercentFromTheStepsOnThatTheyAskFor) {
+  MaterialPath path = path_of("confined-oscillation", 8.37 * 2 * M_PI / 500, 4000);
+  path.amplitude = 0.2;
+  path.angular_frequency = 500;
+  const DynamicModuli exact = dynamic_moduli(followed(ve2(), path), path);
+  for (const auto update : {Update::linear, Update::gauss}) {
+    path.update = update;
+    path.n_steps = static_cast<int>(std::ceil(8.37 * steps_of_a_cycle(update)));
+    const DynamicModuli G = dynamic_moduli(followed(ve2(), path), path);
+    EXPECT_NEAR(G.storage / exact.storage, 1, 0.01);
+    EXPECT_NEAR(G.loss / exact.loss, 1, 0.01);
+  }
+}
+
+/// An imposed stress has the moduli of an imposed strain.
+TEST(MaterialPath, CreepHasTheModuliOfUniaxialStrain) {
+  DynamicModuli G[2];
+  for (const int i : {0, 1}) {
+    MaterialPath path =
+        path_of(i == 0 ? "uniaxial-oscillation" : "creep-oscillation", 8 * 2 * M_PI / 500, 400);
+    path.amplitude = i == 0 ? 1e-3 : 1e-3 * mu;
+    path.angular_frequency = 500;
+    G[i] = dynamic_moduli(followed(ve2(), path), path);
+  }
+  EXPECT_NEAR(G[1].storage / G[0].storage, 1, 1e-3);
+  EXPECT_NEAR(G[1].loss / G[0].loss, 1, 1e-3);
+}
+
+std::string refusal(const MaterialPath& path) {
+  try {
+    followed(ve2(), path);
+  } catch (const base::InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(MaterialPath, RefusesWhatItCannotFollowOrDoesNotUse) {
+  MaterialPath path = path_of("shear-oscillation", 1, 1000);
+  path.amplitude = 0.1;
+  path.angular_frequency = 6000;  // 955 cycles
+  EXPECT_EQ(refusal(path),
+            "--steps 1000 are 1.05 a cycle, and its moduli need 16: give --steps 15279, or a "
+            "shorter --end");
+  path.n_steps = 15279;
+  EXPECT_EQ(refusal(path), "accepted");
+  path.update = Update::linear;
+  EXPECT_THAT(refusal(path), testing::HasSubstr("--steps 23874"));
+  path.rate = 1;
+  EXPECT_EQ(refusal(path), "--rate has no effect on an oscillation; remove it");
+  path = path_of("shear-step", 1, 10);
+  path.amplitude = path.angular_frequency = 1;
+  EXPECT_EQ(refusal(path), "--frequency has no effect on a step; remove it");
+  path.angular_frequency = 0;
+  for (double* value : {&path.amplitude, &path.rate, &path.angular_frequency, &path.end}) {
+    MaterialPath whole = path;
+    for (const double none : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+      *value = none;
+      EXPECT_THAT(refusal(path), testing::HasSubstr("must be a finite number"));
+    }
+    path = whole;
   }
 }
 
