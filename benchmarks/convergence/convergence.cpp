@@ -101,10 +101,9 @@ ColumnConvergence convergence_of_column(std::vector<LevelRecord> records,
     Quantity quantity{column.name, column.unit, false, {}, 0};
     for (const LevelRecord& record : records) {
       quantity.values.push_back(final_value(record, column.name));
-      for (const auto& own : record.history) {
-        if (own.name == column.name)
-          quantity.scale = std::max(quantity.scale, scale_of(record, own));
-      }
+    }
+    for (const auto& own : records.back().history) {
+      if (own.name == column.name) quantity.scale = scale_of(records.back(), own);
     }
     const bool is_zero = std::all_of(quantity.values.begin(), quantity.values.end(),
                                      [](double value) { return value == 0; });

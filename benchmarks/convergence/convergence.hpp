@@ -25,7 +25,8 @@ struct Quantity {
   std::string name, unit;
   bool is_error = false;
   std::vector<double> values;  ///< coarse to fine; NaN where a level has none
-  double scale = 0;  ///< largest size over all runs; of an energy, that of all energies together
+  double scale = 0;  ///< largest size over the run of the finest level; of kinetic and strain
+                     ///< energy and dissipations, that of their sum
 };
 
 struct ColumnConvergence {

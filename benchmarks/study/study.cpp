@@ -200,7 +200,7 @@ std::vector<std::string> material_lines(const cases::MaterialCase& m) {
 void add_quantities(const ColumnConvergence& column, report::StudyReport& report) {
   for (const Quantity& scalar : column.scalars) {
     report::GridSeries series{
-        column.column, {}, std::nullopt, report::formal_order(column.levels.back())};
+        column.column, {}, std::nullopt, report::formal_order(column.levels.back()), scalar.scale};
     for (size_t i = 0; i < scalar.values.size(); ++i) {
       if (!std::isfinite(scalar.values[i])) continue;
       series.estimate = estimate(column, scalar, i);

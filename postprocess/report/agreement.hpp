@@ -45,7 +45,7 @@ struct Verdict {
 /// 262, 2014) give values without an order; near and far are said where it is below
 /// `largest_index` of the scale for both. Values that are equal in the six digits that a page
 /// shows agree, or are near.
-/// @param scale  > 0, largest size of the quantity over the run
+/// @param scale  > 0, largest size of the quantity over the runs of the finest level
 Verdict verdict_on(const ScalarOfMethod& a, const ScalarOfMethod& b, double scale);
 
 /// "agree", "APART", "unresolved, near: ...", "unresolved, far: ...", "unresolved: ..."

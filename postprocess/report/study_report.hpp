@@ -34,6 +34,7 @@ struct GridSeries {
   std::vector<GridPoint> points;
   std::optional<GridConvergence> estimate;  ///< of the finest level: three grids or more
   FormalOrder formal_order = {};            ///< of the method as it ran
+  std::optional<double> scale = {};  ///< over the run of the finest level; nothing: of the points
 };
 
 /// Values of a probe from elsewhere.

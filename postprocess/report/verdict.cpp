@@ -192,7 +192,7 @@ Sentences single_sentences(const StudyReport& study, const std::vector<RunSummar
       return s.column == finest.method && s.points.back().error_bar > 0;
     });
     if (one == series.end()) continue;
-    const double scale = scale_of(study, quantity.first, quantity.second, {*one});
+    const double scale = scale_of({*one});
     (one->points.back().error_bar > too_far_apart * scale ? unsure : sure)
         .push_back(quantity.first);
   }

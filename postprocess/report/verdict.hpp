@@ -45,15 +45,11 @@ struct Pair {
 };
 
 /// On a quantity that both methods have.
-Verdict verdict_on(const GridSeries& a, const GridSeries& b, double scale);
+Verdict verdict_on(const GridSeries& a, const GridSeries& b);
 
-/// Largest size that a quantity has over the run, so that one that ends near zero is not judged by
-/// its last value; of an energy or a dissipation the largest energy that there is. Variants do not
-/// count.
-double scale_of(const StudyReport& study,
-                const std::string& name,
-                const std::string& unit,
-                const std::vector<GridSeries>& series);
+/// The larger of the sizes that a quantity has over the runs, so that one that ends near zero is
+/// not judged by its last value.
+double scale_of(const std::vector<GridSeries>& series);
 
 /// Whether the quantities agree; without errors, first of all which method is nearer to
 /// convergence.

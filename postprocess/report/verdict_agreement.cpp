@@ -10,29 +10,15 @@
 
 namespace diptych::report {
 
-double scale_of(const StudyReport& study,
-                const std::string& name,
-                const std::string& unit,
-                const std::vector<GridSeries>& series) {
+double scale_of(const std::vector<GridSeries>& series) {
   double scale = 0;
   for (const GridSeries& one : series) {
+    if (one.scale) {
+      scale = std::max(scale, *one.scale);
+      continue;
+    }
     for (const GridPoint& point : one.points)
       scale = std::max(scale, std::abs(point.value));
-  }
-  for (const io::RunSummary& run : study.runs) {
-    if (!run.variant.empty()) continue;
-    for (const io::QuantitySummary& q : run.quantities) {
-      if (q.name == name) scale = std::max({scale, std::abs(q.least), std::abs(q.greatest)});
-    }
-  }
-  if (unit != "J") return scale;
-  for (const auto& [column, rows] : study.histories) {
-    if (!variant_of_column(column).empty()) continue;
-    for (const io::HistoryRow& row : rows) {
-      scale =
-          std::max(scale, row.energy.kinetic + row.energy.strain + row.energy.viscous_dissipation +
-                              row.energy.numerical_dissipation);
-    }
   }
   return scale;
 }
@@ -45,12 +31,12 @@ std::vector<GridSeries> series_of_methods(const std::vector<GridSeries>& series)
   return methods;
 }
 
-Verdict verdict_on(const GridSeries& a, const GridSeries& b, double scale) {
+Verdict verdict_on(const GridSeries& a, const GridSeries& b) {
   const auto side = [](const GridSeries& one) {
     return ScalarOfMethod{column_in_sentence(one.column), one.points.back().value,
                           one.points.back().error_bar, one.estimate, one.formal_order};
   };
-  return verdict_on(side(a), side(b), scale);
+  return verdict_on(side(a), side(b), scale_of({a, b}));
 }
 
 namespace {
@@ -74,9 +60,7 @@ AgreementOfStudy agreement_of(const StudyReport& study, const Pair& pair) {
     const GridPoint& a = series[same_order ? 0 : 1].points.back();
     const GridPoint& b = series[same_order ? 1 : 0].points.back();
     if (a.level != b.level || a.level == 0) continue;
-    const double scale = scale_of(study, quantity.first, quantity.second, series);
-    const Verdict verdict =
-        verdict_on(series[same_order ? 0 : 1], series[same_order ? 1 : 0], scale);
+    const Verdict verdict = verdict_on(series[same_order ? 0 : 1], series[same_order ? 1 : 0]);
     if (!verdict.why.empty()) {
       agreement.unresolved.push_back(escaped(quantity.first + " (" + verdict.why + ")"));
       if (verdict.agreement == Agreement::near) agreement.near.push_back(quantity.first);

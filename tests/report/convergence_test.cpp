@@ -2,6 +2,8 @@
 
 #include "benchmarks/convergence/convergence.hpp"
 
+#include "benchmarks/study/study.hpp"
+#include "postprocess/report/verdict.hpp"
 #include "tests/report/sample_study.hpp"
 
 #include <gtest/gtest.h>
@@ -49,6 +51,31 @@ TEST(Convergence, ExtrapolatesEveryScalarOfTheHistory) {
   EXPECT_FALSE(estimate(study, study.scalars[0], 1).has_value()) << "two levels";
   EXPECT_NEAR(order_of_error(study, study.errors[1], 2), 2, 1e-12);
   EXPECT_EQ(convergence_of(records(), {"all"})[0].scalars.size(), 4u);
+}
+
+/// Coarse levels may be far off: what they come to does not make wide bars narrow.
+TEST(Convergence, HasOneScaleForTerminalAndReportThatOfTheFinestRun) {
+  std::vector<LevelRecord> all;
+  for (const int level : {0, 1, 2}) {
+    const double off = std::exp2(-2 * level);  // 1, 1/4, 1/16
+    all.push_back({sample_run("sph", level),
+                   {{"time", "s", {0, 1, 2}},
+                    {"kinetic energy", "J", {3, 1, 2}},
+                    {"strain energy", "J", {0, 4, 1}},
+                    {"external work", "J", {0, -2 - 32 * off, off}},
+                    {"tip", "m", {0, 8 * off, off}}}});
+  }
+  const auto studies = convergence_of(all, {});
+  ASSERT_EQ(studies[0].scalars.size(), 4U);
+  EXPECT_EQ(studies[0].scalars[0].scale, 5) << "kinetic and strain energy together";
+  EXPECT_EQ(studies[0].scalars[1].scale, 5);
+  EXPECT_EQ(studies[0].scalars[2].scale, 4) << "work by itself, of the finest level";
+  EXPECT_EQ(studies[0].scalars[3].scale, 0.5);
+  const report::StudyReport report = report_of(cases::Case{}, Study{}, studies);
+  for (const Quantity& scalar : studies[0].scalars) {
+    const auto& series = report.quantities.at({scalar.name, scalar.unit});
+    EXPECT_EQ(report::scale_of(series), scalar.scale) << scalar.name;
+  }
 }
 
 TEST(Convergence, SaysWhereValuesDoNotConverge) {

@@ -141,7 +141,7 @@ TEST(Verdict, ComparesErrorBarsWhereThereIsNoExactSolution) {
 
 TEST(Verdict, IsGivenOfWhatBothMethodsResolveOnly) {
   StudyReport study = without_errors(test::full_study());
-  study.histories.clear();  // the scale is then that of the values, 1.17
+  // the scale is that of the values, 1.17
   auto& series = study.quantities.begin()->second;
   const GridConvergence good = *series[0].estimate;
   const auto verdict_with = [&](const std::optional<GridConvergence>& estimate) {

@@ -18,18 +18,14 @@ std::string titled(const std::pair<std::string, std::string>& quantity) {
 }
 
 /// Of the finest values of the two methods.
-std::string agreement(const StudyReport& study,
-                      const std::pair<std::string, std::string>& quantity,
-                      const std::vector<GridSeries>& all) {
+std::string agreement(const std::vector<GridSeries>& all) {
   const std::vector<GridSeries> series = series_of_methods(all);
   if (series.size() != 2) return "";
-  const double scale = scale_of(study, quantity.first, quantity.second, series);
-  const Verdict verdict = verdict_on(series[0], series[1], scale);
+  const Verdict verdict = verdict_on(series[0], series[1]);
   return verdict.agreement == Agreement::apart ? "apart" : escaped(verdict_text(verdict));
 }
 
-std::string rows_of(const StudyReport& study,
-                    const std::pair<std::string, std::string>& quantity,
+std::string rows_of(const std::pair<std::string, std::string>& quantity,
                     const std::vector<GridSeries>& series) {
   std::string rows;
   const std::vector<GridSeries> methods = series_of_methods(series);
@@ -46,7 +42,7 @@ std::string rows_of(const StudyReport& study,
             cell(e                        ? convergence_name(e->kind)
                  : one.points.size() == 2 ? "two grids"
                                           : "") +
-            cell(one.column == last ? agreement(study, quantity, series) : "") + "</tr>\n";
+            cell(one.column == last ? agreement(series) : "") + "</tr>\n";
   }
   return rows;
 }
@@ -59,7 +55,7 @@ std::string quantities_section(const StudyReport& study) {
   size_t number = 0;
   for (const auto& [quantity, series] : study.quantities) {
     options += fmt::format("<option value=\"{}\">{}</option>\n", number++, titled(quantity));
-    rows += rows_of(study, quantity, series);
+    rows += rows_of(quantity, series);
   }
   std::string head;
   for (const char* name : {"quantity", "method", "finest grid", "error bar", "extrapolated",
@@ -72,7 +68,10 @@ std::string quantities_section(const StudyReport& study) {
       "give (grid convergence index; on the second level with the formal order and a factor of "
       "3). The methods agree where their finest values are no further apart than the sum of their "
       "bars. Unresolved: one of them shows no order within 0.5 of its own, or its bar is wider "
-      "than 5 % of the quantity over the run; near or far: within, or beyond, three times what the "
+      "than 5 % of the largest size of the quantity over the run of the finest level (of kinetic "
+      "and "
+      "strain energy and dissipations: of their sum); near or far: within, or beyond, three times "
+      "what the "
       "last three levels change by, where that is below the same 5 %.</p>\n<p "
       "class=\"choice\"><label>Quantity <select "
       "id=\"quantity\">\n" +
