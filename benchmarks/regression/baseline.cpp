@@ -1,8 +1,10 @@
 /// Baselines of the regression as JSON: numbers with all their digits, one file for each case.
 
 #include "benchmarks/regression/regress.hpp"
+#include "benchmarks/run/backends.hpp"
 #include "benchmarks/run/data_folder.hpp"
 #include "common/base/error.hpp"
+#include "common/base/text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -96,6 +98,8 @@ RegressBaseline baseline_from(const Reader& reader) {
   RegressBaseline b;
   b.case_name = reader.text("case");
   b.reason = reader.text("reason");
+  if (b.reason.find_first_not_of(" \t\r\n") == std::string::npos)
+    reader.wrong("reason", "the reason why it was recorded");
   b.commit = reader.text("commit");
   b.date = reader.text("date");
   const Reader platform = reader.object("platform");
@@ -116,8 +120,15 @@ RegressBaseline baseline_from(const Reader& reader) {
   const Reader disagreement = reader.object("disagreement");
   for (const auto& item : disagreement.json().items())
     b.disagreement[item.key()] = disagreement.number(item.key().c_str());
+  if (b.levels == 1 && !b.disagreement.empty())
+    reader.wrong("disagreement", "empty where there is one level, which compares no methods");
   const Reader methods = reader.object("methods");
+  const std::vector<std::string> known = method_menu().names();
   for (const auto& item : methods.json().items()) {
+    if (std::find(known.begin(), known.end(), item.key()) == known.end()) {
+      throw base::InputError(fmt::format("{}: '{}' is no method; known: {}", methods.where(),
+                                         item.key(), base::joined(known)));
+    }
     const Reader method(item.value(), methods.where() + ": " + item.key());
     method.only({"state", "canary", "errors", "quantities", "unmet"});
     b.methods[item.key()] = {method.text("state"),
@@ -169,7 +180,7 @@ RegressBaseline baseline_from_json(const std::string& text, const std::string& p
   Json json;
   try {
     json = Json::parse(text);
-  } catch (const Json::parse_error& error) {
+  } catch (const Json::exception& error) {  // of a number beyond all doubles, too
     throw base::InputError(fmt::format("{}: no JSON: {}", path, error.what()));
   }
   return baseline_from(Reader(json, path));

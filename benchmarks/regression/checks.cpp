@@ -17,6 +17,9 @@ const double sqrt_eps = std::sqrt(std::numeric_limits<double>::epsilon());
 /// grows by the factors of a wave across a few cells.
 constexpr double canary_elsewhere = 1e-9, canary_here = 1e-13;
 
+/// Of a recorded scale over that of the run: a wider one would let more pass than is said.
+constexpr double scale_growth = 1.001;
+
 /// Growth of a known disagreement that is only rounding.
 constexpr double known_growth = 1e-6;
 
@@ -92,6 +95,14 @@ std::vector<RegressCheck> compare_figures(const std::string& check,
     const auto found = now.find(name);
     if (found == now.end()) {
       checks.push_back(failure(check, name, "was recorded, is not measured"));
+      continue;
+    }
+    // rounding and a change that is accepted move a scale with its figure: by less
+    if (old.scale > scale_growth * found->second.scale) {
+      checks.push_back(failure(check, name,
+                               fmt::format("was recorded with the scale {:.4g}, which its bound is "
+                                           "relative to; the run itself gives {:.4g}",
+                                           old.scale, found->second.scale)));
       continue;
     }
     const double change = std::abs(found->second.value - old.value);

@@ -61,6 +61,15 @@ TEST(RegressComparer, IsMetByEqualFiguresOnly) {
   EXPECT_THAT(fired(compare_figures("x", one, {{"a", {2.4, 4}}}, 0.09)), Contains("x"));
 }
 
+TEST(RegressComparer, FailsOnAScaleThatTheRunDoesNotGive) {
+  const RegressFigures now{{"a", {2, 4}}};
+  EXPECT_THAT(fired(compare_figures("x", {{"a", {2, 1e30}}}, now, 1)), Contains("x"));
+  EXPECT_THAT(compare_figures("x", {{"a", {1, 1e30}}}, now, 1).at(0).note,
+              HasSubstr("recorded with the scale 1e+30"));
+  EXPECT_THAT(fired(compare_figures("x", {{"a", {2, 4.0001}}}, now, 0)), IsEmpty());
+  EXPECT_THAT(fired(compare_figures("x", {{"a", {2, 2}}}, now, 0)), IsEmpty()) << "it is narrower";
+}
+
 TEST(RegressComparer, FailsOnNaN) {
   const RegressFigures good{{"a", {2, 2}}}, bad{{"a", {nan, 2}}}, bad_scale{{"a", {1, nan}}};
   EXPECT_THAT(fired(compare_figures("x", good, bad, 1e9)), Contains("x"));
@@ -189,6 +198,15 @@ TEST(RegressBaselineFile, RefusesWhatIsNoRecord) {
   EXPECT_EQ(complaint(""), "x.json: the file is empty");
   EXPECT_THAT(complaint(good.substr(0, good.size() / 2)), HasSubstr("no JSON"));
   EXPECT_THAT(complaint("[]"), HasSubstr("must be an object"));
+  EXPECT_THAT(complaint(replaced(good, "\"value\": 0.1,", "\"value\": 1e999,")),
+              testing::StartsWith("x.json: no JSON: "));
+  EXPECT_THAT(complaint(replaced(good, "\"fvm\"", "\"fvn\"")),
+              HasSubstr("x.json: methods: 'fvn' is no method; known: sph, fvm"));
+  EXPECT_THAT(complaint(replaced(good, "why \\\"not\\\"", " ")),
+              HasSubstr("x.json: 'reason' must be the reason why it was recorded"));
+  EXPECT_THAT(complaint(replaced(replaced(good, "\"levels\": 2", "\"levels\": 1"),
+                                 "\"one_level_because\": \"\"", "\"one_level_because\": \"b\"")),
+              HasSubstr("x.json: 'disagreement' must be empty"));
   EXPECT_THAT(complaint(replaced(good, "\"errors\"", "\"error\"")),
               HasSubstr("unknown key 'error'"));
   EXPECT_THAT(complaint(replaced(good, "\"value\": 0.1,", "")), HasSubstr("'value' is missing"));
