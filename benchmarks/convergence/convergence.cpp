@@ -26,21 +26,6 @@ bool is_on_demand(const std::string& name) {
          name.rfind("angular momentum ", 0) == 0;
 }
 
-void check_names(const std::vector<LevelRecord>& records, const std::vector<std::string>& wanted) {
-  std::vector<std::string> known{"all"};
-  for (const LevelRecord& record : records) {
-    for (const auto& column : record.history) {
-      if (!contains(known, column.name)) known.push_back(column.name);
-    }
-  }
-  for (const std::string& name : wanted) {
-    if (!contains(known, name)) {
-      throw base::InputError("--quantity '" + name + "': no column of history.csv has that name" +
-                             base::suggestion(name, known));
-    }
-  }
-}
-
 bool is_wanted(const std::string& name, const std::vector<std::string>& wanted) {
   if (wanted.empty()) return !is_on_demand(name);
   return contains(wanted, "all") || contains(wanted, name);
@@ -118,12 +103,29 @@ ColumnConvergence convergence_of_column(std::vector<LevelRecord> records,
 
 }  // namespace
 
+void check_columns(const std::vector<io::HistoryColumn>& columns,
+                   const std::vector<std::string>& wanted) {
+  std::vector<std::string> known{"all"};
+  for (const auto& column : columns) {
+    if (!contains(known, column.name)) known.push_back(column.name);
+  }
+  for (const std::string& name : wanted) {
+    if (!contains(known, name)) {
+      throw base::InputError("--quantity '" + name + "': no column of history.csv has that name" +
+                             base::suggestion(name, known));
+    }
+  }
+}
+
 std::vector<ColumnConvergence> convergence_of(const std::vector<LevelRecord>& records,
                                               const std::vector<std::string>& wanted) {
-  check_names(records, wanted);
   std::vector<io::RunSummary> summaries;
-  for (const LevelRecord& record : records)
+  std::vector<io::HistoryColumn> columns;
+  for (const LevelRecord& record : records) {
     summaries.push_back(record.summary);
+    columns.insert(columns.end(), record.history.begin(), record.history.end());
+  }
+  if (!records.empty()) check_columns(columns, wanted);
   std::vector<ColumnConvergence> studies;
   for (const std::string& column : report::columns_of(summaries)) {
     std::vector<LevelRecord> finished;

@@ -37,6 +37,11 @@ struct ColumnConvergence {
   std::vector<std::string> zero;       ///< their names
 };
 
+/// @param columns  of the history
+/// @throws base::InputError on a name that none of them has
+void check_columns(const std::vector<io::HistoryColumn>& columns,
+                   const std::vector<std::string>& wanted);
+
 /// @param wanted  names of columns of the history, without units; empty: energies, least J, and
 ///                all that the case adds (probes); "all": every column
 /// @throws base::InputError on a name that no column has

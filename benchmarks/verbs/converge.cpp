@@ -7,6 +7,7 @@
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
 #include "common/io/run_record.hpp"
+#include "common/run/probes.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -63,6 +64,22 @@ void show_convergence(const cases::Case& setup,
   write_report(setup, study, folder, convergence);
 }
 
+/// Before anything is run: what histories will have is known.
+void check_quantities(const cases::Case& setup,
+                      const harness::StudyOptions& options,
+                      const std::vector<std::string>& wanted) {
+  std::vector<io::HistoryColumn> columns;
+  const auto add = [&](const cases::Case& one) {
+    const std::string header = io::history_header(run::probe_columns(one.probes, false));
+    for (const auto& column : io::history_columns_from_csv(header, one.name))
+      columns.push_back(column);
+  };
+  add(setup);
+  for (const harness::Column& variant : options.variants)
+    add(variant.setup);
+  harness::check_columns(columns, wanted);
+}
+
 int converge(const ConvergeArguments& arguments) {
   const std::vector<int> levels = arguments.levels(arguments.n_levels, 2);
   const cases::Case setup = arguments.read();
@@ -71,6 +88,7 @@ int converge(const ConvergeArguments& arguments) {
   options.shapes = true;
   options.resume = !arguments.fresh;
   options.levels = levels;
+  check_quantities(setup, options, arguments.quantities);
   const harness::Study study = harness::run_study(setup, options);
   for (const std::string& folder : study.taken_over)
     print("taken over, not run again: " + folder + "\n");

@@ -91,6 +91,10 @@ TEST_F(Resumption, AsksForQuantitiesByNameAndKnowsThem) {
   const auto misspelt = diptych(folder, study + "--quantity 'kinetic enrgy'");
   EXPECT_EQ(misspelt.exit_code, 2);
   EXPECT_THAT(misspelt.text, HasSubstr("did you mean 'kinetic energy'?"));
+  const auto new_one = diptych(folder, "converge shear-wave-elastic --quantity nope --out none");
+  EXPECT_EQ(new_one.exit_code, 2);
+  EXPECT_THAT(new_one.text, HasSubstr("--quantity 'nope': no column of history.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "none")) << "nothing is run before";
 }
 
 /// The mean speed of the cube is 0.5 m/s at t = 0, by a probe of every step.
