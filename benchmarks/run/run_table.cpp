@@ -37,7 +37,7 @@ std::string inverted_cells_warning(const io::RunSummary& s) {
       s.column(), s.level, *s.inverted_from, s.most_inverted_cells, s.least_cell_J);
 }
 
-std::string run_table(const io::RunSummary& s) {
+std::string run_table(const io::RunSummary& s, const ReferenceTimes& times) {
   std::string text =
       fmt::format("{} level {}: {} nodes, {} pairs ({:.3g} a node), {} unknowns a node{}\n",
                   s.column(), s.level, s.nodes, s.pairs, s.mean_neighbours, s.unknowns_per_node,
@@ -87,7 +87,8 @@ std::string run_table(const io::RunSummary& s) {
     text += "  " + quantity_line(quantity) + "\n";
   for (const io::ReferenceSummary& one : s.references) {
     text += fmt::format("  {} against {}: off by at most {:.3g} (at {:.4g} s), {}\n", one.name,
-                        one.source, one.greatest, one.greatest_at, uncertainty_verdict(one));
+                        one.source, one.greatest, one.greatest_at,
+                        uncertainty_verdict(one, s.end_time, times));
   }
   text += fmt::format("  status {}, least J {} (cells {}), state {}\n", s.status,
                       least_text(s.min_jacobian), least_text(s.least_cell_J), s.state_hash);

@@ -24,10 +24,13 @@ std::string cell(double value) {
   return number_text(value, "{:.3g}");
 }
 
-std::string line_of(const io::RunSummary& run, const io::ReferenceSummary& one) {
+std::string line_of(const io::RunSummary& run,
+                    const io::ReferenceSummary& one,
+                    const ReferenceTimes& times) {
   return fmt::format("  {:<20}{:>3}{:>10}{:>10}{:>10}{:>11}{:>9}  {}\n", run.column().substr(0, 20),
                      run.level, cell(one.greatest), cell(one.greatest_at), cell(one.rms),
-                     cell(one.at_end), cell(one.until), uncertainty_verdict(one));
+                     cell(one.at_end), cell(one.until),
+                     uncertainty_verdict(one, run.end_time, times));
 }
 
 std::string uncertainty_text(const io::ReferenceSummary& one) {
@@ -36,14 +39,23 @@ std::string uncertainty_text(const io::ReferenceSummary& one) {
 
 }  // namespace
 
-std::string uncertainty_verdict(const io::ReferenceSummary& reference) {
+std::string uncertainty_verdict(const io::ReferenceSummary& reference,
+                                double end,
+                                const ReferenceTimes& times) {
   if (!reference.uncertainty) return "none stated";
-  if (reference.is_inside()) return "met";
+  if (reference.is_inside()) {
+    const auto all = times.find(reference.name);
+    if (all == times.end()) return "met";
+    const auto n = std::count_if(all->second.begin(), all->second.end(),
+                                 [&](double t) { return t <= end * (1 + 1e-9); });
+    const auto n_all = std::ssize(all->second);
+    return n < n_all ? fmt::format("met at {} of {} times", n, n_all) : "met";
+  }
   return fmt::format("NOT met, {} times",
                      number_text(reference.greatest / *reference.uncertainty, "{:.2g}"));
 }
 
-std::string reference_table(const std::vector<io::RunSummary>& runs) {
+std::string reference_table(const std::vector<io::RunSummary>& runs, const ReferenceTimes& times) {
   const std::vector<std::string> names = names_of(runs);
   if (names.empty()) return "";
   std::string text = fmt::format(
@@ -62,7 +74,7 @@ std::string reference_table(const std::vector<io::RunSummary>& runs) {
           text += (source + one.source).substr(0, 100) + "\n";
         }
         is_titled = true;
-        text += line_of(run, one);
+        text += line_of(run, one, times);
       }
     }
   }

@@ -161,7 +161,7 @@ void print_later_references(const cases::Case& setup, const harness::Study& stud
 
 void print_references(const cases::Case& setup, const harness::Study& study) {
   print_later_references(setup, study);
-  const std::string table = harness::reference_table(study.runs);
+  const std::string table = harness::reference_table(study.runs, run::reference_times(setup));
   if (!table.empty()) print("\n" + table);
   const std::string changed = run::changed_scene(setup.overrides);
   if (setup.references.empty() || changed.empty()) return;

@@ -7,6 +7,7 @@
 #include "benchmarks/terminal/tables.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
+#include "common/run/references.hpp"
 
 #include <memory>
 
@@ -34,7 +35,7 @@ void print_comparison(const cases::Case& setup, const harness::Study& study) {
       print(harness::inverted_cells_warning(summary));
   } else {  // the other one broke down, was refused, cut short or never begun
     for (const auto& summary : study.runs)
-      print(harness::run_table(summary) + "\n");
+      print(harness::run_table(summary, run::reference_times(setup)) + "\n");
   }
 }
 

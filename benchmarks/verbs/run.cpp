@@ -6,6 +6,7 @@
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/restart.hpp"
 #include "benchmarks/verbs/table.hpp"
+#include "common/run/references.hpp"
 
 #include <memory>
 
@@ -24,7 +25,7 @@ int run_methods(const CaseArguments& arguments) {
   for (const std::string& directory : study.taken_over)
     print("taken over, not run again: " + directory + "\n");
   for (const auto& summary : study.runs)
-    print(harness::run_table(summary) + "\n");
+    print(harness::run_table(summary, run::reference_times(setup)) + "\n");
   print_later_references(setup, study);
   print_cut_short(study, false);
   print_breakdowns(study);

@@ -94,21 +94,39 @@ std::string changed_scene(const std::vector<std::string>& overrides) {
   return "";
 }
 
+std::vector<std::string> reference_names(const cases::Case& setup) {
+  std::vector<std::string> names;
+  std::map<std::string, int> n_seen;
+  for (const cases::ReferenceCase& reference : setup.references) {
+    const int n = ++n_seen[reference.probe];
+    names.push_back(n == 1 ? reference.probe : fmt::format("{} ({})", reference.probe, n));
+  }
+  return names;
+}
+
+std::map<std::string, std::vector<double>> reference_times(const cases::Case& setup) {
+  const std::vector<std::string> names = reference_names(setup);
+  std::map<std::string, std::vector<double>> times;
+  for (size_t i = 0; i < names.size(); ++i) {
+    for (const auto& point : setup.references[i].points)
+      times[names[i]].push_back(point[0]);
+  }
+  return times;
+}
+
 std::vector<io::ReferenceSummary> references_of(const cases::Case& setup,
                                                 const std::vector<io::HistoryRow>& history,
                                                 const std::vector<io::StepRow>& steps) {
   std::vector<io::ReferenceSummary> all;
   if (!changed_scene(setup.overrides).empty()) return all;
-  std::vector<std::string> seen;
-  for (const cases::ReferenceCase& reference : setup.references) {
+  const std::vector<std::string> names = reference_names(setup);
+  for (size_t i = 0; i < setup.references.size(); ++i) {
+    const cases::ReferenceCase& reference = setup.references[i];
     const auto probe = std::find_if(setup.probes.begin(), setup.probes.end(),
                                     [&](const auto& one) { return one.name == reference.probe; });
     const auto k = static_cast<size_t>(probe - setup.probes.begin());
     io::ReferenceSummary summary;
-    const auto before = std::count(seen.begin(), seen.end(), reference.probe);
-    seen.push_back(reference.probe);
-    summary.name =
-        before == 0 ? reference.probe : fmt::format("{} ({})", reference.probe, before + 1);
+    summary.name = names[i];
     summary.probe = reference.probe;
     summary.source = reference.source;
     summary.uncertainty = reference.uncertainty;

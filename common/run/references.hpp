@@ -6,6 +6,7 @@
 #include "common/cases/case.hpp"
 #include "common/io/run_record.hpp"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,13 @@ namespace diptych::run {
 /// An override by which the case is no longer the scene that its references are of (material,
 /// parameters, initial state, boundary, load, body), or an empty text.
 std::string changed_scene(const std::vector<std::string>& overrides);
+
+/// What references are called in summaries, in the order of the case: "tip (2)" where it is the
+/// second one of that probe.
+std::vector<std::string> reference_names(const cases::Case& setup);
+
+/// Name: times of its values  [s].
+std::map<std::string, std::vector<double>> reference_times(const cases::Case& setup);
 
 /// In the order of the case; without those of which the run has no time, and none at all where the
 /// scene was changed by an override. A probe of every step is taken from `steps`.

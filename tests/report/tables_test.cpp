@@ -135,6 +135,11 @@ TEST(ReferenceTable, SaysOfEachRunWhetherItIsWithinTheUncertainty) {
   EXPECT_THAT(text, ContainsRegex("  sph +0 +0.5 +0.25 +0 +0 +2  NOT met, 50 times\n"));
   EXPECT_THAT(text, ContainsRegex("  fvm-sbp +0 +0.01 .* met\n"));
   expect_fits_a_terminal(text);
+  const ReferenceTimes times{{"tip", {0.5, 1, 2, 3}}};
+  fvm.end_time = 0.7;
+  EXPECT_THAT(reference_table({sph, fvm}, times),
+              ContainsRegex("  fvm-sbp +0 +0.01 .* met at 1 of 4 times\n"));
+  EXPECT_EQ(uncertainty_verdict(one, 3, times), "met");
   one.uncertainty.reset();
   EXPECT_EQ(uncertainty_verdict(one), "none stated");
 }

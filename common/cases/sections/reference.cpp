@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <optional>
 #include <sstream>
 #include <string_view>
 
@@ -57,6 +58,39 @@ struct FileColumns {
   size_t n = 2, value = 1;
 };
 
+/// What stands in brackets at the end of a name, "mm" of "x [mm]"; nothing where none do.
+std::optional<std::string> unit_of(const std::string& name, char open_bracket, char close_bracket) {
+  const size_t open = name.rfind(open_bracket);
+  if (open == std::string::npos || name.back() != close_bracket) return std::nullopt;
+  return name.substr(open + 1, name.size() - open - 2);
+}
+
+/// @throws base::InputError where the first line holds no names, or other units than are asked
+void check_names(const std::string& heading,
+                 const FileColumns& columns,
+                 const std::string& unit,
+                 const std::string& path) {
+  const std::vector<std::string> names = cells_of(heading);
+  double number = 0;
+  if (read_number(names.front(), number)) {
+    throw base::InputError(
+        fmt::format("{}:1: '{}' is a line of numbers; write a line of names above it, as in \"time "
+                    "[s],value [{}]\"",
+                    path, shown(heading), unit));
+  }
+  const auto check = [&](size_t column, const std::string& asked) {
+    auto found = column < names.size() ? unit_of(names[column], '[', ']') : std::nullopt;
+    if (column == 0 && !found) found = unit_of(names[0], '(', ')');
+    if (!found || *found == asked || (asked == "-" && (found->empty() || *found == "1"))) return;
+    throw base::InputError(
+        fmt::format("{}:1: '{}' is in {}, asked is {}; write the values in that "
+                    "unit",
+                    path, shown(names[column]), shown(*found), asked));
+  };
+  check(0, "s");
+  check(columns.value, unit);
+}
+
 FileColumns columns_of(const std::string& heading, const SectionValues& section) {
   if (!section.has("column")) return {};
   const std::string wanted = section.text("column");
@@ -77,6 +111,7 @@ bool read_pair(std::string_view line, const FileColumns& columns, std::array<dou
 }
 
 std::vector<std::array<double, 2>> points_of_file(const fs::path& path,
+                                                  const std::string& unit,
                                                   const SectionValues& section) {
   std::error_code ignored;  // a file that cannot be seen is not there
   if (!fs::exists(path, ignored))
@@ -87,7 +122,10 @@ std::vector<std::array<double, 2>> points_of_file(const fs::path& path,
   std::string line;
   FileColumns columns;
   for (int number = 1; std::getline(file, line); ++number) {
-    if (number == 1) columns = columns_of(line, section);
+    if (number == 1) {
+      columns = columns_of(line, section);
+      check_names(line, columns, unit, path.string());
+    }
     if (number == 1 || line.find_first_not_of(" \t\r") == std::string::npos) continue;
     std::array<double, 2> pair{};
     if (!read_pair(line, columns, pair)) {
@@ -101,13 +139,18 @@ std::vector<std::array<double, 2>> points_of_file(const fs::path& path,
                             "numbers with a comma between them",
                             path.string(), number, shown(line)));
     }
+    if (!points.empty() && !(pair[0] > points.back()[0])) {
+      throw base::InputError(
+          fmt::format("{}:{}: the time {:g} s is not after that of the value before it, {:g} s; "
+                      "sort the lines by time, one for each",
+                      path.string(), number, pair[0], points.back()[0]));
+    }
     points.push_back(pair);
   }
   if (points.empty()) {
     section.fail("file", fmt::format("= '{}' has no values below its first line, which holds names",
                                      path.string()));
   }
-  std::sort(points.begin(), points.end());
   return points;
 }
 
@@ -133,8 +176,11 @@ ReferenceCase read_reference(const SectionValues& section,
   ReferenceCase reference;
   reference.probe = section.text("probe");
   std::vector<std::string> names;
-  for (const ProbeCase& probe : probes)
+  std::string unit;
+  for (const ProbeCase& probe : probes) {
     names.push_back(probe.name);
+    if (probe.name == reference.probe) unit = probe.unit;
+  }
   if (std::find(names.begin(), names.end(), reference.probe) == names.end()) {
     section.fail("probe", fmt::format("= '{}' is no probe of this case{}", shown(reference.probe),
                                       base::suggestion(reference.probe, names)));
@@ -143,7 +189,8 @@ ReferenceCase read_reference(const SectionValues& section,
   if (section.has("file")) {
     for (const char* name : {"value", "time"})
       section.refuse(name, "has no effect with reference.file; remove one of the two");
-    reference.points = points_of_file((folder / section.text("file")).lexically_normal(), section);
+    reference.points =
+        points_of_file((folder / section.text("file")).lexically_normal(), unit, section);
   } else {
     section.refuse("column", "has no effect without reference.file; remove it");
     reference.points = {{section.number("time"), section.number("value")}};
@@ -162,7 +209,7 @@ SectionKeys<ReferenceCase> reference_keys() {
       .key("file", KeyType::path,
            {"-", any,
             "CSV file beside the case file: a line of names, then lines of time (s) and value (in "
-            "the unit of the probe).",
+            "the unit of the probe), times increasing.",
             "\"reference.csv\"", "or reference.value"})
       .key("column", KeyType::text,
            optional({"-", any, "Of a file with further columns: the name above the values.",

@@ -81,15 +81,29 @@ std::string sources(const StudyReport& study, const std::string& probe) {
   return text.empty() ? "" : text + ".";
 }
 
-/// Whether a run is within the uncertainty of a reference.
-std::string inside(const io::ReferenceSummary& one) {
+/// Whether a run is within the uncertainty of a reference, and at how many of its times.
+std::string inside(const StudyReport& study,
+                   const io::RunSummary& run,
+                   const io::ReferenceSummary& one) {
   if (!one.uncertainty) return "no uncertainty stated";
-  if (one.is_inside()) return "met";
+  if (one.is_inside()) {
+    for (const ReferencePoints& all : study.references.points) {
+      if (all.probe != one.probe || all.source != one.source) continue;
+      const auto n = std::count_if(all.points.begin(), all.points.end(), [&](const auto& point) {
+        return point[0] <= run.end_time * (1 + 1e-9);
+      });
+      if (n < std::ssize(all.points))
+        return fmt::format("met at {} of {} times", n, all.points.size());
+    }
+    return "met";
+  }
   return "<strong>not met</strong>, " + number_html(one.greatest / *one.uncertainty) + " times";
 }
 
 /// How far each column is from the values beside the curves of a probe, on its finest level.
-std::string distances(const std::vector<io::RunSummary>& runs, const std::string& probe) {
+std::string distances(const StudyReport& study,
+                      const std::vector<io::RunSummary>& runs,
+                      const std::string& probe) {
   std::string rows;
   for (const io::RunSummary& run : runs) {
     for (const io::ReferenceSummary& one : run.references) {
@@ -97,8 +111,8 @@ std::string distances(const std::vector<io::RunSummary>& runs, const std::string
       rows += "<tr><th scope=\"row\">" + column_mark(run.column()) + "</th>" +
               cell(number_html(one.greatest)) + cell(number_html(one.greatest_at)) +
               cell(number_html(one.rms)) + cell(number_html(one.at_end)) +
-              cell(one.uncertainty ? number_html(*one.uncertainty) : "") + cell(inside(one)) +
-              "</tr>\n";
+              cell(one.uncertainty ? number_html(*one.uncertainty) : "") +
+              cell(inside(study, run, one)) + "</tr>\n";
     }
   }
   if (rows.empty()) return "";
@@ -144,7 +158,7 @@ std::string probes_section(const StudyReport& study) {
     html += fmt::format(
         "<div>\n<h3>{}</h3>\n{}{}</div>\n", title,
         chart(fmt::format("probe-{}", k), title + " over time", sources(study, quantity.name)),
-        numbers(runs, k) + distances(runs, quantity.name));
+        numbers(runs, k) + distances(study, runs, quantity.name));
   }
   return section("probes", runs.empty() ? "Against the exact solution" : "What the probes saw",
                  html + others + "</div>\n");

@@ -46,7 +46,7 @@ TEST_F(CaseReferences, AreOneValueOrAFileInTheOrderOfTime) {
   EXPECT_EQ(one.references[0].source, "Doe 1999");
   EXPECT_THAT(one.references[0].points, ElementsAre(Point{0.5, 0.5}));
   const Case file = read("probe = 'tip'\nfile = 'values.csv'\nsource = 's'\n",
-                         "time [s],tip [m]\r\n0.5, -1e-3\r\n\r\n0.25 ,2\r\n");
+                         "time [s],tip [m]\r\n0.25 ,2\r\n\r\n0.5, -1e-3\r\n");
   EXPECT_THAT(file.references[0].points, ElementsAre(Point{0.25, 2}, Point{0.5, -1e-3}));
 }
 
@@ -94,6 +94,19 @@ TEST_F(CaseReferences, AreRefusedWhereTheyMeanNothing) {
   EXPECT_THAT(refusal(file, "t,u\n0,0\n1;2\n"), HasSubstr("values.csv:3: '1;2' is not a time"));
   EXPECT_THAT(refusal(file, "t,u\n0,nan\n"), HasSubstr("values.csv:2"));
   EXPECT_THAT(refusal(file, "t,u\n0,1,2\n"), HasSubstr("values.csv:2"));
+  EXPECT_THAT(refusal(file, "0,1\n1,2\n"),
+              HasSubstr("values.csv:1: '0,1' is a line of numbers; write a line of names above it, "
+                        "as in \"time [s],value [m]\""));
+  EXPECT_THAT(refusal(file, "time [ms],u\n0,1\n"),
+              HasSubstr("values.csv:1: 'time [ms]' is in ms, asked is s"));
+  EXPECT_THAT(refusal(file, "time (ms),u\n0,1\n"), HasSubstr("is in ms"));
+  EXPECT_THAT(refusal(file, "time [s],u [mm]\n0,1\n"),
+              HasSubstr("values.csv:1: 'u [mm]' is in mm, asked is m"));
+  EXPECT_THAT(
+      refusal(file, "t,u\n0,1\n2,1\n1,1\n"),
+      HasSubstr("values.csv:4: the time 1 s is not after that of the value before it, 2 s"));
+  EXPECT_THAT(refusal(file, "t,u\n0,1\n0,2\n"), HasSubstr("values.csv:3"));
+  EXPECT_EQ(refusal(file, "time,u (of the tip)\n0,1\n2,1\n"), "accepted");
   EXPECT_THAT(refusal("probe = 'tip'\nfile = 'none.csv'\nsource = 's'\n"),
               HasSubstr("cannot be read"));
 }
