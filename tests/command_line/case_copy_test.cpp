@@ -16,7 +16,7 @@ using tests::summary_in;
 TEST(CopyOfTheCase, RunsToTheSameState) {
   const Folder folder;
   fs::create_directories(folder.path() / "mine" / "data");
-  folder.write("mine/data/tip.csv", "0,0\n1e-3,1e-3\n");
+  folder.write("mine/data/tip.csv", "time [s],u [m]\n0,0\n1e-3,1e-3\n");
   folder.write("mine/data/pair.msh",
                "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n"
                "4 0 0 1\n5 1 1 1\n$EndNodes\n$Elements\n2\n1 4 2 1 1 1 2 3 4\n"
