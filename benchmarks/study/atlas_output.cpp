@@ -15,6 +15,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <string_view>
 
 namespace diptych::harness {
 
@@ -169,12 +170,15 @@ size_t count(const AtlasMap& map, Outcome before, Outcome now) {
 
 std::string changes_text(const AtlasMap& map) {
   std::string text = fmt::format("\n{:<16}", "before \\ now");
+  const auto width_of = [](Outcome now) {
+    return std::max(9, 1 + static_cast<int>(std::string_view(word_of(now)).size()));
+  };
   for (const Outcome now : outcomes)
-    text += fmt::format("{:>11}", word_of(now));
+    text += fmt::format("{:>{}}", word_of(now), width_of(now));
   for (const Outcome before : outcomes) {
     text += fmt::format("\n{:<16}", word_of(before));
     for (const Outcome now : outcomes)
-      text += fmt::format("{:>11}", count(map, before, now));
+      text += fmt::format("{:>{}}", count(map, before, now), width_of(now));
   }
   text += "\n";
   for (const AtlasPoint& point : map.points) {

@@ -80,7 +80,8 @@ TEST_F(Map, IsComparedWithAnEarlierOnePointByPoint) {
       atlas_text(map),
       AllOf(HasSubstr("Of 2 that were not stable before, 1 are now; 1 that were"),
             HasSubstr("no longer stable: sph p 3, 0.3: wrong: least J"), HasSubstr(".>W"),
-            HasSubstr("S>."), HasSubstr("stopped                 1        0        0        0")));
+            HasSubstr("S>."),
+            HasSubstr("stopped                 1        0        0        0          0\n")));
   EXPECT_THAT(atlas_csv(map), HasSubstr("stable,stopped,"));
   EXPECT_THAT(atlas_html(map), HasSubstr("(before: stopped)"));
 }
