@@ -1,5 +1,7 @@
 #include "fvm/block_sides.hpp"
 
+#include "meshes/gmsh.hpp"
+
 #include <array>
 
 namespace diptych::fvm {
@@ -93,6 +95,7 @@ void BlockSides::finish(scheme::PairGraph& graph) {
   for (size_t g = 0; g < areas.size(); ++g) {
     scheme::BoundaryPatch& patch = graph.patches.emplace_back();
     patch.name = mesh_.boundary_groups[g].name;
+    patch.faces = meshes::corners_of(mesh_, mesh_.boundary_groups[g]);
     for (const auto& [node, area] : areas[g]) {
       patch.nodes.push_back(node);
       patch.area.push_back(area);

@@ -146,14 +146,20 @@ scheme::Operators chosen_on(const meshes::Mesh& mesh, const Options& options) {
   if (!options.strong_pressure_because.empty())
     return edge_because(mesh, options.strong_pressure_because);
   const std::vector<meshes::LatticeBlock> blocks = smooth_blocks(mesh);
-  if (!is_too_small(blocks) && !options.jumps_are_symmetric &&
+  const bool on_cells = !blocks.empty() && options.is_hardly_compressible;
+  if (!on_cells && !is_too_small(blocks) && !options.jumps_are_symmetric &&
       gives_energy(blocks, options.order)) {
     return edge_because(
         mesh,
         "curved lines of six nodes, on which D_ab of sbp gives energy; five or seven take it");
   }
   try {
-    return sbp_off_boxes(mesh, blocks, options);
+    if (!on_cells) return sbp_off_boxes(mesh, blocks, options);
+    scheme::Operators operators = sbp_on_cells(mesh);
+    operators.notices.emplace_back(
+        "operators over cells, not along the lines of curved blocks, which lock where lame >= 99 "
+        "shear_modulus (nu >= 0.495)");
+    return operators;
   } catch (const base::InputError& refusal) {
     return edge_because(
         mesh, "sbp does not go with this mesh",

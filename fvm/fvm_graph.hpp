@@ -25,6 +25,10 @@ struct Options {
   /// The dissipation is a sum of squares whatever the operators (notes 3.4), so that auto: sbp on
   /// curved lines of six nodes, too, on which it gives energy with linear jumps
   bool jumps_are_symmetric = false;
+  /// auto: on curved blocks sbp over cells, whose pressures lock less than those of lines: a ring
+  /// of 6, 8 and 12 nodes across, nu = 0.4995, swings within 5.0, 1.1 and 0.4 % (lines 43, 11, 2.6
+  /// %); at nu = 0.495 2.1, 0.8, 0.4 (6.4, 1.2, 0.3), at 0.33 1.8, 0.8, 0.3 (1.9, 0.4, 0.2)
+  bool is_hardly_compressible = false;
 };
 
 /// What Options::stencil may be.

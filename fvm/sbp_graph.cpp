@@ -108,7 +108,8 @@ scheme::PairGraph sbp_graph(const Mesh& mesh, int order) {
   });
   for (const meshes::BoundaryGroup& group : mesh.boundary_groups) {
     meshes::PatchArea patch = measure.patch(group);
-    graph.patches.push_back({std::move(patch.name), std::move(patch.nodes), std::move(patch.area)});
+    graph.patches.push_back({std::move(patch.name), std::move(patch.nodes), std::move(patch.area),
+                             std::move(patch.faces)});
   }
   link_reverse_pairs(graph);
   set_classes(graph);

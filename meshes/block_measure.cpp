@@ -1,6 +1,7 @@
 #include "meshes/block_measure.hpp"
 
 #include "common/base/error.hpp"
+#include "meshes/gmsh.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -68,13 +69,12 @@ BlockMeasure::SummedPatch BlockMeasure::summed_patch(const BoundaryGroup& group)
   SummedPatch summed;
   auto& [patch, sum, whole] = summed;
   patch.name = group.name;
+  patch.faces = corners_of(mesh_, group);
   std::vector<std::pair<std::int32_t, Vec3>> shares;
   for (const std::int32_t f : group.faces) {
     const BoundaryFace& face = mesh_.boundary_faces[f];
     const Side side = side_of(face);
     const double sign = side.is_far ? 1 : -1;
-    patch.faces.push_back({-1, -1, -1, -1});
-    std::copy_n(face.nodes.begin(), face.n_nodes, patch.faces.back().begin());
     whole += sign * this->face(side.direction);
     for (int i = 0; i < face.n_nodes; ++i) {
       const std::int32_t a = face.nodes[i];

@@ -196,4 +196,14 @@ void find_boundary_faces(Mesh& mesh) {
   if (mesh.dimension == 3) refuse_split_quadrilaterals(mesh);
 }
 
+std::vector<std::array<std::int32_t, 4>> corners_of(const Mesh& mesh, const BoundaryGroup& group) {
+  std::vector<std::array<std::int32_t, 4>> corners;
+  for (const std::int32_t f : group.faces) {
+    const BoundaryFace& face = mesh.boundary_faces[f];
+    corners.push_back({-1, -1, -1, -1});
+    std::copy_n(face.nodes.begin(), face.n_nodes, corners.back().begin());
+  }
+  return corners;
+}
+
 }  // namespace diptych::meshes

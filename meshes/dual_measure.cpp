@@ -1,6 +1,7 @@
 #include "meshes/dual_measure.hpp"
 
 #include "common/base/error.hpp"
+#include "meshes/gmsh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -120,11 +121,10 @@ void add_group(const Mesh& mesh,
                std::vector<char>& touched,
                PatchArea& patch) {
   patch.name = group.name;
+  patch.faces = corners_of(mesh, group);
   for (std::int32_t f : group.faces) {
     const BoundaryFace& face = mesh.boundary_faces[f];
     const auto shares = face_shares.of(face);
-    patch.faces.push_back({-1, -1, -1, -1});
-    std::copy_n(face.nodes.begin(), face.n_nodes, patch.faces.back().begin());
     for (int i = 0; i < face.n_nodes; ++i) {
       const std::int32_t a = face.nodes[i];
       if (!touched[a]) patch.nodes.push_back(a);

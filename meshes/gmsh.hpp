@@ -41,4 +41,7 @@ void check_cells(const Mesh& mesh, const std::string& name);
 /// @throws base::InputError on a face shared by more than two cells
 void find_boundary_faces(Mesh& mesh);
 
+/// Corners of the faces of a group, outward; -1 where a face has fewer than four.
+std::vector<std::array<std::int32_t, 4>> corners_of(const Mesh& mesh, const BoundaryGroup& group);
+
 }  // namespace diptych::meshes

@@ -36,12 +36,19 @@ scheme::Operators sph_operators(const meshes::Mesh& mesh,
   return operators;
 }
 
+/// From nu = 0.495 on curved blocks lock on their lines (fvm::Options).
+bool is_hardly_compressible(const cases::MaterialCase& material) {
+  constexpr double least_ratio = 99 * (1 - 1e-9);
+  return material.lame >= least_ratio * material.shear_modulus;
+}
+
 scheme::Operators fvm_operators(const meshes::Mesh& mesh,
                                 const cases::Case& setup,
                                 const std::string& strong_pressure) {
-  return fvm::operators_on(mesh,
-                           {setup.fvm.stencil, setup.fvm.order, second_order_because(setup, "fvm"),
-                            strong_pressure, takes_symmetric_jumps(setup.scheme)});
+  return fvm::operators_on(
+      mesh,
+      {setup.fvm.stencil, setup.fvm.order, second_order_because(setup, "fvm"), strong_pressure,
+       takes_symmetric_jumps(setup.scheme), is_hardly_compressible(setup.material)});
 }
 
 /// Of operators that do not commute and have no volumes of cells, in bodies under strong pressure

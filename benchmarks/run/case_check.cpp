@@ -1,5 +1,6 @@
 #include "benchmarks/run/case_check.hpp"
 
+#include "benchmarks/run/case_observers.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/memory.hpp"
 #include "benchmarks/run/memory_estimate.hpp"
@@ -64,12 +65,11 @@ CaseCheck check_case(const cases::Case& setup,
   check.nodes = scene.graph.n_nodes();
   check.cells = mesh.n_cells();
   check.bytes = solver.bytes();
+  (void)run::Probes(setup.probes, scene.graph, nodes_around(mesh));  // has their places
   scheme::release_volumes(scene.graph);
   mesh = {};
   check.running_bytes = settled_memory() - before;
   check.setup_seconds = seconds_since(start);
-  const auto nowhere = [](std::int32_t, std::vector<std::int32_t>&) {};
-  (void)run::Probes(setup.probes, scene.graph, nowhere);  // has their places
   const run::StepReport report = solver.step(setup.time.end);
   check.dt = report.dt;
   check.steps =

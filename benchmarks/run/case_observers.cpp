@@ -26,7 +26,8 @@ double largest_loss(const cases::Case& setup) {
   return scheme::limits_slopes(scheme::limiter_menu().at(setup.scheme.limiter)) ? all : 0.5;
 }
 
-/// Nothing is made before something asks.
+}  // namespace
+
 run::NodesAround nodes_around(const meshes::Mesh& mesh) {
   auto graph = std::make_shared<std::optional<meshes::NodalGraph>>();
   return [&mesh, graph](std::int32_t a, std::vector<std::int32_t>& nodes) {
@@ -35,8 +36,6 @@ run::NodesAround nodes_around(const meshes::Mesh& mesh) {
     nodes.insert(nodes.end(), around.begin(), around.end());
   };
 }
-
-}  // namespace
 
 CaseObservers::CaseObservers(const cases::Case& setup,
                              const RunOptions& options,

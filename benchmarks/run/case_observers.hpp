@@ -24,6 +24,9 @@
 
 namespace diptych::harness {
 
+/// Of a mesh that outlives this; nothing is made before something asks.
+run::NodesAround nodes_around(const meshes::Mesh& mesh);
+
 class CaseObservers {
  public:
   /// Writes nothing yet.

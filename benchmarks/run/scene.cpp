@@ -1,6 +1,7 @@
 #include "benchmarks/run/scene.hpp"
 
 #include "benchmarks/run/memory_estimate.hpp"
+#include "benchmarks/run/unseen_fields.hpp"
 #include "common/cases/reader.hpp"
 #include "common/run/step_ends.hpp"
 #include "common/scheme/boundary/boundary_condition.hpp"
@@ -148,6 +149,7 @@ CaseGraph graph_of(const cases::Case& setup,
     note_parts(scene.mesh.mesh, scene.notices);
   }
   note_curved_symmetries(setup, scene.mesh.mesh, scene.notices);
+  note_unseen_fields(setup, scene.mesh.mesh, scene.notices);
   note_single_cells(setup, level, scene.notices);
   note_idle_reactions(setup, scene.mesh.mesh, scene.notices);
   if (made) made(ScenePart::graph, scene);
@@ -163,8 +165,8 @@ Scene::Scene(const cases::Case& setup,
       solver(pairs == GraphPairs::released
                  ? run::make_solver_of_pairs(resolved(setup, reconstruction), graph)
                  : run::make_solver(resolved(setup, reconstruction), graph)) {
-  (void)run::step_ends(setup,
-                       solver->undeformed_step());  // refuses what is too fast, while none runs
+  // refuses what is too fast, while none runs
+  (void)run::step_ends(setup, solver->undeformed_step(), solver->telling_places());
   if (made) made(ScenePart::solver, *this);
 }
 

@@ -108,10 +108,13 @@ void refine(std::vector<double>& grid, const std::vector<double>& changes) {
 BreakTimes break_times(const std::vector<Expression>& expressions,
                        double begin,
                        double end,
-                       int n_samples) {
+                       int n_samples,
+                       const std::optional<Vec3>& place) {
   const auto program = std::make_shared<Program>();
-  for (const Expression& expression : expressions)
-    if (expression.depends_on_time()) program->append(expression);
+  for (const Expression& expression : expressions) {
+    if (!expression.depends_on_time()) continue;
+    place ? program->append(expression, *place) : program->append(expression);
+  }
   const std::vector<Switch> switches = switches_of(*program);
   if (switches.empty() || !(begin < end)) return {};
   std::vector<double> grid;

@@ -5,6 +5,7 @@
 
 #include "common/functions/expressions.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace diptych::functions {
@@ -20,9 +21,11 @@ struct BreakTimes {
 /// Missed is what changes and changes back between two neighbours of `n_samples` instants and of
 /// those at which arguments of comparisons, abs, min and max change their order: not pulses
 /// between two constants.
+/// @param place  where expressions are looked at; none: at what depends on time alone in them  [m]
 BreakTimes break_times(const std::vector<Expression>& expressions,
                        double begin,
                        double end,
-                       int n_samples = samples_of_break);
+                       int n_samples = samples_of_break,
+                       const std::optional<Vec3>& place = std::nullopt);
 
 }  // namespace diptych::functions

@@ -9,6 +9,7 @@
 #include "common/base/text.hpp"
 #include "common/functions/expression_function.hpp"
 #include "common/functions/placed_program.hpp"
+#include "common/functions/program.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -412,6 +413,12 @@ bool Expression::depends_on_time() const {
 
 bool Expression::depends_on_position() const {
   return compiled_ && compiled_->on_position;
+}
+
+bool Expression::joins_place_and_time() const {
+  if (!depends_on_time() || !depends_on_position()) return false;
+  Program program;
+  return program.joins_place_and_time(program.append(*this));
 }
 
 bool Expression::is_zero() const {

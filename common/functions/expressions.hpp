@@ -77,6 +77,8 @@ class Expression {
   double operator()(const Vec3& X, double t) const;
   bool depends_on_time() const;
   bool depends_on_position() const;
+  /// More than by a sum of products of what depends on place alone and on time alone.
+  bool joins_place_and_time() const;
   bool is_zero() const;  ///< the constant 0
   std::string text() const;
   /// The names of the vocabulary that the text uses.
@@ -98,6 +100,14 @@ struct VectorExpression {
   bool depends_on_time() const {
     return component[0].depends_on_time() || component[1].depends_on_time() ||
            component[2].depends_on_time();
+  }
+  bool depends_on_position() const {
+    return component[0].depends_on_position() || component[1].depends_on_position() ||
+           component[2].depends_on_position();
+  }
+  bool joins_place_and_time() const {
+    return component[0].joins_place_and_time() || component[1].joins_place_and_time() ||
+           component[2].joins_place_and_time();
   }
   bool is_zero() const {
     return component[0].is_zero() && component[1].is_zero() && component[2].is_zero();

@@ -97,6 +97,8 @@ class Program {
 
   /// Of an expression; a constant has the value that it has there.
   int append(const Expression& expression);
+  /// As it is at one place: of time alone.
+  int append(const Expression& expression, const Vec3& place);
 
   /// Appends an operation, or finds it, or an equal one of fewer or simpler parts.
   int add(Operator op, int first = -1, int second = -1, double constant = 0, int third = -1);
@@ -106,6 +108,9 @@ class Program {
   int derivative(int of, int variable);
   /// Whether what depends on the place has derivatives there.
   bool smooth_in_place(int result) const;
+
+  /// Whether it is more than a sum of products of what depends on place alone and on time alone.
+  bool joins_place_and_time(int result) const;
 
   /// @param function  of the vocabulary, not an expression
   int add_given(const std::shared_ptr<const TimeFunction>& function, int name);
@@ -121,6 +126,7 @@ class Program {
   int simplified(Operator op, int first, int second, double constant);
   int product(int first, int second);
   std::vector<char> made_of(int result) const;
+  int append_at(const Vec3& place, const Program& other, int result);
   int derivative_of(const Operation& operation, int place, int d_first, int d_second);
   int kept(const Operation& operation);
   int parsed(const Expression& expression, Accepts accepts);

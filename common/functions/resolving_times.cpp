@@ -14,8 +14,8 @@ namespace {
 /// Expressions, and of those that depend on the place, too, what enters them of time alone.
 class OfTime {
  public:
-  explicit OfTime(const std::vector<Expression>& expressions)
-      : program_(program_of(expressions, results_)),
+  OfTime(const std::vector<Expression>& expressions, const std::optional<Vec3>& place)
+      : program_(program_of(expressions, place, results_)),
         placed_(program_, results_, X_),
         space_(placed_.workspace()),
         scale_(results_.size()) {}
@@ -60,11 +60,14 @@ class OfTime {
     return std::abs(between[k] - ((1 - part) * first[k] + part * last[k]));
   }
   static std::shared_ptr<const Program> program_of(const std::vector<Expression>& expressions,
+                                                   const std::optional<Vec3>& place,
                                                    std::vector<int>& results) {
     const auto program = std::make_shared<Program>();
     std::vector<int> roots;
-    for (const Expression& expression : expressions)
-      if (expression.depends_on_time()) roots.push_back(program->append(expression));
+    for (const Expression& expression : expressions) {
+      if (!expression.depends_on_time()) continue;
+      roots.push_back(place ? program->append(expression, *place) : program->append(expression));
+    }
     const auto add = [&](int k) {
       if (k >= 0 && (*program)[k].is_of_time()) results.push_back(k);
     };
@@ -175,9 +178,10 @@ ResolvingTimes resolving_times(const std::vector<Expression>& expressions,
                                const BreakTimes& breaks,
                                double begin,
                                double end,
-                               double dt) {
+                               double dt,
+                               const std::optional<Vec3>& place) {
   ResolvingTimes result;
-  OfTime functions(expressions);
+  OfTime functions(expressions, place);
   if (functions.is_empty() || !(begin < end)) return result;
   const std::vector<Piece> pieces = pieces_of(breaks, begin, end, dt);
   for (const Piece& piece : pieces) {

@@ -21,11 +21,13 @@ struct ResolvingTimes {
   /// and more: steps follow it without aliases, and a run of so many of them has no times.
   bool are_too_many = false;
 };
+/// @param place  as of break_times
 ResolvingTimes resolving_times(const std::vector<Expression>& expressions,
                                const BreakTimes& breaks,
                                double begin,
                                double end,
-                               double dt);
+                               double dt,
+                               const std::optional<Vec3>& place = std::nullopt);
 
 inline constexpr double least_bend = 0.02, resolved_bend = 0.01;
 inline constexpr double most_steps = 1e5, most_per_step = 100, most_parts = 1e6;

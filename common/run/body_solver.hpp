@@ -47,6 +47,9 @@ class BodySolver : public Solver {
   std::string arrangement() const override { return moving_.body.in_runs() ? "runs" : "rows"; }
   double undeformed_speed() const override { return material().undeformed_speed(); }
   double undeformed_step() const override { return moving_.sweeps.undeformed_step(); }
+  const std::vector<algebra::Vec3>& telling_places() const override {
+    return moving_.boundary.telling_places();
+  }
   int evaluations_per_step() const override { return moving_.integrator.evaluations_per_step(); }
   Mat3 equilibrium_stress(const Mat3& F) const override;
   std::optional<Snapshot> exact_state(double t) const override;

@@ -8,10 +8,7 @@
 
 namespace diptych::run {
 
-namespace {
-
-/// Nodes up to so many rings around node a, ascending, without itself.
-std::vector<std::int32_t> neighbours(std::int32_t a, int rings, const NodesAround& around) {
+std::vector<std::int32_t> nodes_within(std::int32_t a, int rings, const NodesAround& around) {
   std::vector<std::int32_t> nodes{a};
   for (int ring = 0; ring < rings; ++ring) {
     std::vector<std::int32_t> wider = nodes;
@@ -21,11 +18,8 @@ std::vector<std::int32_t> neighbours(std::int32_t a, int rings, const NodesAroun
     wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
     nodes = std::move(wider);
   }
-  nodes.erase(std::find(nodes.begin(), nodes.end(), a));
   return nodes;
 }
-
-}  // namespace
 
 Checkerboard::Checkerboard(const std::vector<Vec3>& X,
                            const std::vector<double>& Omega,
@@ -35,7 +29,8 @@ Checkerboard::Checkerboard(const std::vector<Vec3>& X,
   for (std::int32_t a = 0; a < static_cast<std::int32_t>(X.size()); ++a) {
     constexpr int most_rings = 3;
     for (int rings = 1; rings <= most_rings; ++rings) {
-      const std::vector<std::int32_t> near = neighbours(a, rings, around);
+      std::vector<std::int32_t> near = nodes_within(a, rings, around);
+      near.erase(std::find(near.begin(), near.end(), a));
       const auto n = static_cast<Eigen::Index>(near.size());
       const double h = std::pow(Omega[a], 1.0 / dimension);
       Eigen::MatrixXd linear(n, dimension + 1);  // 1 and (X - X_a) / h

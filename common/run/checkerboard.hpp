@@ -17,6 +17,9 @@ using algebra::Vec3;
 /// Adds to `nodes` those that share a cell with node a, in any order, node a and repetitions too.
 using NodesAround = std::function<void(std::int32_t a, std::vector<std::int32_t>& nodes)>;
 
+/// Nodes up to so many rings of cells around node a, ascending, with itself.
+std::vector<std::int32_t> nodes_within(std::int32_t a, int rings, const NodesAround& around);
+
 class Checkerboard {
  public:
   /// @param X       [n_nodes] m

@@ -43,19 +43,55 @@ class PlacedLoad : public scheme::PlacedField<Value> {
   functions::PlacedExpressions placed_;
 };
 
-scheme::VectorFunction field_of(const functions::VectorExpression& vector) {
-  return {vector, [vector](std::span<const algebra::Vec3> X) {
+/// At which boundary conditions show what they are: the start, the end, instants that no symmetry
+/// picks out, and between jumps in time, of which the first ones.
+std::vector<double> telling_instants(const cases::Case& setup) {
+  constexpr size_t most = 24;
+  const double end = setup.time.end;
+  std::vector<functions::Expression> values;
+  for (const cases::BoundaryCase& boundary : setup.boundaries) {
+    values.insert(values.end(), boundary.value.component.begin(), boundary.value.component.end());
+    values.push_back(boundary.pressure);
+  }
+  std::vector<double> instants{0.0, 0.31 * end, 0.73 * end, end, 0.11 * end, 0.047 * end};
+  double before = 0;
+  for (const double jump : functions::break_times(values, 0, end).jumps) {
+    if (instants.size() >= most) break;
+    instants.push_back(before + 0.37 * (jump - before));
+    instants.push_back(jump);
+    before = jump;
+  }
+  return instants;
+}
+
+/// @tparam Value     of the field  @param instants  telling ones
+template <class Value, class Function>
+typename scheme::FieldFunction<Value>::InPlace in_place(const Function& function,
+                                                        const std::vector<double>& instants) {
+  if (!function.depends_on_position()) return {};
+  if (!function.depends_on_time()) return {{0.0}, false};
+  return {instants, function.joins_place_and_time()};
+}
+
+scheme::VectorFunction field_of(const functions::VectorExpression& vector,
+                                const std::vector<double>& instants) {
+  return {vector,
+          [vector](std::span<const algebra::Vec3> X) {
             const auto& c = vector.component;
             return std::make_unique<PlacedLoad<algebra::Vec3>>(
                 std::vector<functions::Expression>(c.begin(), c.end()), X);
-          }};
+          },
+          in_place<algebra::Vec3>(vector, instants)};
 }
 
-scheme::ScalarFunction field_of(const functions::Expression& scalar) {
-  return {scalar, [scalar](std::span<const algebra::Vec3> X) {
+scheme::ScalarFunction field_of(const functions::Expression& scalar,
+                                const std::vector<double>& instants) {
+  return {scalar,
+          [scalar](std::span<const algebra::Vec3> X) {
             return std::make_unique<PlacedLoad<double>>(std::vector<functions::Expression>{scalar},
                                                         X);
-          }};
+          },
+          in_place<double>(scalar, instants)};
 }
 
 /// Velocity of a motion at the nodes of a patch.
@@ -86,27 +122,9 @@ void follow_motion(const scheme::VectorFunction& velocity, scheme::BoundaryValue
   values.depends_on_time = true;
 }
 
-/// At which boundary conditions that say different things do so: the start, the end, two instants
-/// that no symmetry picks out, and between jumps in time, of which the first ones.
-std::vector<double> telling_instants(const cases::Case& setup) {
-  constexpr size_t most = 16;
-  const double end = setup.time.end;
-  std::vector<functions::Expression> values;
-  for (const cases::BoundaryCase& boundary : setup.boundaries)
-    values.insert(values.end(), boundary.value.component.begin(), boundary.value.component.end());
-  std::vector<double> instants{0.0, 0.31 * end, 0.73 * end, end};
-  double before = 0;
-  for (const double jump : functions::break_times(values, 0, end).jumps) {
-    if (instants.size() >= most) break;
-    instants.push_back(before + 0.37 * (jump - before));
-    instants.push_back(jump);
-    before = jump;
-  }
-  return instants;
-}
-
 scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::PairGraph& graph) {
   std::vector<scheme::PlacedCondition> conditions;
+  const std::vector<double> instants = telling_instants(setup);
   scheme::VectorFunction velocity;  // of the motion, one for all
   if (const auto motion = setup.motion) {
     velocity = {[motion](const algebra::Vec3& X, double t) { return motion->velocity(X, t); },
@@ -117,8 +135,8 @@ scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::Pair
   for (const cases::BoundaryCase& boundary : setup.boundaries) {
     const auto make = scheme::boundary_menu().at(boundary.type).make;
     scheme::BoundaryValues values;
-    values.vector = field_of(boundary.value);
-    values.scalar = field_of(boundary.pressure);
+    values.vector = field_of(boundary.value, instants);
+    values.scalar = field_of(boundary.pressure, instants);
     values.point = boundary.point;
     values.normal = boundary.normal;
     values.depends_on_time =
@@ -128,9 +146,9 @@ scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::Pair
       conditions.push_back({make(values), &boundary_group(graph, group, boundary.where)});
     }
   }
-  scheme::check_shared_nodes(graph, conditions, telling_instants(setup));
+  scheme::check_shared_nodes(graph, conditions, instants);
   scheme::VectorFunction body_force;
-  if (!setup.body_force.is_zero()) body_force = field_of(setup.body_force);
+  if (!setup.body_force.is_zero()) body_force = field_of(setup.body_force, instants);
   return {graph, std::move(conditions), body_force, setup.body_force.depends_on_time()};
 }
 

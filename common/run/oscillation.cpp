@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace diptych::run {
@@ -63,6 +64,43 @@ double extreme(Samples times, Samples values, size_t first, size_t last, double 
   return values[i] - 0.25 * slope * slope / curvature;
 }
 
+/// What the signal does in each of the whole periods.
+struct Periods {
+  int n = 0;
+  double period = 0;     ///< s
+  double amplitude = 0;  ///< of the first
+  std::optional<double> decrement;
+};
+
+Periods periods_of(Samples times, Samples values, const std::vector<Crossing>& crossings) {
+  Periods periods;
+  periods.n = static_cast<int>(crossings.size()) - 1;
+  periods.period = (crossings.back().time - crossings.front().time) / periods.n;
+  std::vector<double> amplitudes;
+  for (size_t k = 0; k + 1 < crossings.size(); ++k) {
+    const size_t first = crossings[k].i, last = crossings[k + 1].i;
+    amplitudes.push_back(
+        0.5 * (extreme(times, values, first, last, 1) - extreme(times, values, first, last, -1)));
+  }
+  periods.amplitude = amplitudes.front();
+  if (amplitudes.size() > 1 && amplitudes.front() > 0 && amplitudes.back() > 0) {
+    periods.decrement = std::log(amplitudes.front() / amplitudes.back()) /
+                        static_cast<double>(amplitudes.size() - 1);
+  }
+  return periods;
+}
+
+/// What B exp(-a t) sin(w t), of which the periods are, has for a mean over them: with damping the
+/// first halves outweigh the second ones.
+double mean_of_damped(const Periods& periods) {
+  if (!periods.decrement) return 0;
+  const double delta = *periods.decrement, a = delta / periods.period,
+               w = 2 * std::numbers::pi / periods.period, square = a * a + w * w;
+  const double crest = std::exp(-a / w * std::atan2(w, a)) * w / std::sqrt(square);
+  const double B = 2 * periods.amplitude / (crest * (1 + std::exp(-0.5 * delta)));
+  return -B * w * std::expm1(-delta * periods.n) / (square * periods.n * periods.period);
+}
+
 }  // namespace
 
 std::optional<Oscillation> oscillation_of(Samples times, Samples values) {
@@ -71,29 +109,17 @@ std::optional<Oscillation> oscillation_of(Samples times, Samples values) {
   const double band = 0.1 * (*greatest - *least);
   double level = 0.5 * (*least + *greatest);
   std::vector<Crossing> crossings;
+  Periods periods;
   for (int pass = 0; pass < 5; ++pass) {
     auto found = upward_crossings(times, values, level, band);
     if (found.size() < 2) break;
     crossings = std::move(found);
-    level = mean_between(times, values, crossings.front(), crossings.back(), level);
+    periods = periods_of(times, values, crossings);
+    level = mean_between(times, values, crossings.front(), crossings.back(), level) -
+            mean_of_damped(periods);
   }
   if (crossings.size() < 2) return std::nullopt;
-  Oscillation result;
-  result.n_periods = static_cast<int>(crossings.size()) - 1;
-  result.period = (crossings.back().time - crossings.front().time) / result.n_periods;
-  result.mean = level;
-  std::vector<double> amplitudes;
-  for (size_t k = 0; k + 1 < crossings.size(); ++k) {
-    const size_t first = crossings[k].i, last = crossings[k + 1].i;
-    amplitudes.push_back(
-        0.5 * (extreme(times, values, first, last, 1) - extreme(times, values, first, last, -1)));
-  }
-  result.amplitude = amplitudes.front();
-  if (amplitudes.size() > 1 && amplitudes.front() > 0 && amplitudes.back() > 0) {
-    result.decrement = std::log(amplitudes.front() / amplitudes.back()) /
-                       static_cast<double>(amplitudes.size() - 1);
-  }
-  return result;
+  return Oscillation{periods.n, periods.period, level, periods.amplitude, periods.decrement};
 }
 
 }  // namespace diptych::run

@@ -2,9 +2,11 @@
 
 #include "common/base/error.hpp"
 #include "common/run/boundary_group.hpp"
+#include "common/run/interpolation.hpp"
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 #include <map>
@@ -14,7 +16,16 @@ namespace diptych::run {
 
 namespace {
 
-std::int32_t nearest_node(const cases::ProbeCase& probe, const scheme::PairGraph& graph) {
+[[noreturn]] void refuse_point(const cases::ProbeCase& probe, double distance, const Vec3& X) {
+  throw base::InputError(fmt::format(
+      "{}probe '{}' is {:.3g} m away from the nearest node, at ({:g}, {:g}, {:g}); its point "
+      "must be in the body",
+      functions::prefix(probe.where), probe.name, distance, X[0], X[1], X[2]));
+}
+
+Interpolation interpolation_of(const cases::ProbeCase& probe,
+                               const scheme::PairGraph& graph,
+                               const NodesAround& around) {
   std::int64_t nearest = 0;
   for (std::int64_t a = 1; a < graph.n_nodes(); ++a) {
     if ((graph.X[a] - probe.at).norm() < (graph.X[nearest] - probe.at).norm()) nearest = a;
@@ -22,14 +33,13 @@ std::int32_t nearest_node(const cases::ProbeCase& probe, const scheme::PairGraph
   const double distance = (graph.X[nearest] - probe.at).norm();
   // Omega of a corner is a part of a cell: its edge is up to 2^d times as large
   const double spacing = 2 * std::pow(graph.Omega[nearest], 1.0 / graph.dimension);
-  if (distance > spacing) {
-    throw base::InputError(fmt::format(
-        "{}probe '{}' is {:.3g} m away from the nearest node, at ({:g}, {:g}, {:g}); its point "
-        "must be in the body",
-        functions::prefix(probe.where), probe.name, distance, graph.X[nearest][0],
-        graph.X[nearest][1], graph.X[nearest][2]));
-  }
-  return static_cast<std::int32_t>(nearest);
+  if (distance > spacing) refuse_point(probe, distance, graph.X[nearest]);
+  Interpolation between = interpolation_at(probe.at, graph.X, graph.dimension,
+                                           static_cast<std::int32_t>(nearest), spacing, around);
+  const double size = std::accumulate(between.weights.begin(), between.weights.end(), 0.0,
+                                      [](double sum, double w) { return sum + std::abs(w); });
+  if (size > most_size_of_weights) refuse_point(probe, distance, graph.X[nearest]);
+  return between;
 }
 
 /// Whether these fields hold all that the quantity of a probe reads.
@@ -68,11 +78,14 @@ std::vector<std::string> probe_columns(const std::vector<cases::ProbeCase>& prob
   return columns;
 }
 
-Probes::PlacedProbe Probes::placed(const cases::ProbeCase& probe, const scheme::PairGraph& graph) {
+Probes::PlacedProbe Probes::placed(const cases::ProbeCase& probe,
+                                   const scheme::PairGraph& graph,
+                                   const NodesAround& around) {
   PlacedProbe result{probe, {}, {}};
   if (probe.kind == "point") {
-    result.nodes = {nearest_node(probe, graph)};
-    result.weights = {1};
+    auto [nodes, weights] = interpolation_of(probe, graph, around);
+    result.nodes = std::move(nodes);
+    result.weights = std::move(weights);
     return result;
   }
   if (probe.groups.empty()) {
@@ -122,7 +135,7 @@ Probes::Probes(const std::vector<cases::ProbeCase>& probes,
   if (probes.empty()) return;
   X_ = graph.X;
   for (const cases::ProbeCase& probe : probes) {
-    const PlacedProbe where = placed(probe, graph);
+    const PlacedProbe where = placed(probe, graph, around);
     all_.add(where);
     if (probe.every_step) stepped_.add(where);
     if (probe.kind == "checkerboard" && !checkerboard_)

@@ -20,7 +20,7 @@ std::vector<std::string> probe_columns(const std::vector<cases::ProbeCase>& prob
 
 class Probes {
  public:
-  /// @param around  only called where a probe is of kind checkerboard, and not kept
+  /// @param around  only called for probes of kind checkerboard and points between nodes, not kept
   /// @throws base::InputError on a group that the graph lacks, a point outside
   Probes(const std::vector<cases::ProbeCase>& probes,
          const scheme::PairGraph& graph,
@@ -46,7 +46,8 @@ class Probes {
   struct PlacedProbe {
     cases::ProbeCase probe;
     std::vector<std::int32_t> nodes;  ///< ascending
-    std::vector<double> weights;      ///< [nodes] m^2 or m^3; 0 where only neighbours read it
+    std::vector<double>
+        weights;  ///< [nodes] m^2, m^3 or parts of one; 0 where only neighbours read it
   };
   struct Selection {
     std::vector<PlacedProbe> probes;
@@ -62,7 +63,9 @@ class Probes {
   double reduced(const std::string& kind,
                  const std::vector<double>& values,
                  const std::vector<double>& weights) const;
-  static PlacedProbe placed(const cases::ProbeCase& probe, const scheme::PairGraph& graph);
+  static PlacedProbe placed(const cases::ProbeCase& probe,
+                            const scheme::PairGraph& graph,
+                            const NodesAround& around);
   /// @throws base::InputError where no node is left
   static void keep_region(const scheme::PairGraph& graph, PlacedProbe& placed);
 };

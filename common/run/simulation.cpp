@@ -32,7 +32,7 @@ Simulation::Simulation(const cases::Case& setup,
       solver_(solver),
       observers_(std::move(observers)),
       interrupted_(std::move(interrupted)),
-      step_ends_(step_ends(setup, solver.undeformed_step())) {}
+      step_ends_(step_ends(setup, solver.undeformed_step(), solver.telling_places())) {}
 
 Ending Simulation::run() {
   Ending ending = Ending::breakdown;

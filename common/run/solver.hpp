@@ -124,6 +124,8 @@ class Solver {
   virtual double undeformed_speed() const = 0;
   /// The stable step of the undeformed, virgin body  [s]
   virtual double undeformed_step() const = 0;
+  /// Some of the nodes that loads and prescribed velocities act on, spread among them  [m]
+  virtual const std::vector<algebra::Vec3>& telling_places() const = 0;
   /// P(F) of the material without its branches  [Pa]
   virtual Mat3 equilibrium_stress(const Mat3& F) const = 0;
   /// The exact fields at time t where the case gives the motion (manufactured solution).

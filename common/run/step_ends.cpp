@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
+#include <optional>
+#include <utility>
 
 namespace diptych::run {
 
@@ -22,22 +25,125 @@ std::vector<functions::Expression> actions_of(const cases::Case& setup) {
   return actions;
 }
 
-functions::BreakTimes breaks_of(const std::vector<functions::Expression>& actions,
+using Actions = std::vector<functions::Expression>;
+using Place = std::optional<algebra::Vec3>;
+
+functions::BreakTimes breaks_of(const Actions& actions,
                                 double end,
-                                double dt) {
+                                double dt,
+                                const Place& place = std::nullopt) {
   constexpr double most_samples = 1 << 16;
   const double n = std::min(most_samples, 4 * end / dt);
   return functions::break_times(actions, 0, end,
-                                std::max(functions::samples_of_break, static_cast<int>(n)));
+                                std::max(functions::samples_of_break, static_cast<int>(n)), place);
 }
 
-[[noreturn]] void refuse_fastest(const std::vector<functions::Expression>& actions,
+/// Instants at which steps end, jumps apart.
+struct Instants {
+  std::vector<double> jumps, others;
+  bool are_too_many = false;
+};
+
+Instants seen_at(const Actions& actions, double end, double dt, const Place& place = std::nullopt) {
+  functions::BreakTimes breaks = breaks_of(actions, end, dt, place);
+  auto resolving = functions::resolving_times(actions, breaks, 0, end, dt, place);
+  return {std::move(breaks.jumps), std::move(resolving.times), resolving.are_too_many};
+}
+
+/// Parts of what lies between two jumps that steps are to be no longer than, where the jumps come
+/// at other times from node to node.
+constexpr double parts_between_jumps = 6;
+
+/// The shortest step that a place asks for  [s]
+double shortest_step(const Instants& seen, double near) {
+  double shortest = std::numeric_limits<double>::infinity();
+  const auto look = [&](const std::vector<double>& times, double parts) {
+    for (size_t k = 1; k < times.size(); ++k) {
+      const double part = times[k] - times[k - 1];
+      if (part > near) shortest = std::min(shortest, part / parts);
+    }
+  };
+  look(seen.others, 1);
+  look(seen.jumps, parts_between_jumps);
+  return shortest;
+}
+
+bool are_near(const std::vector<double>& a, const std::vector<double>& b, double near) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [near](double s, double t) { return std::abs(s - t) <= near; });
+}
+
+/// Adds what some places see of actions that join place and time. Where that happens at other times
+/// at other places, as of loads that travel, steps are as short throughout as the middle one of
+/// these places asks for: other nodes see it in between, and two jumps that have nothing to do with
+/// each other may come close somewhere. Nor do places count one by one where it is too fast to
+/// follow: an action may act on few of them.
+void add_seen_at(std::span<const algebra::Vec3> places,
+                 const Actions& actions,
+                 double end,
+                 double dt,
+                 Instants& instants) {
+  const double near = 1e-3 * dt;
+  Instants first;
+  bool travels = false;
+  double last = 0;
+  std::vector<double> arrivals, steps;
+  size_t n_too_fast = 0;
+  for (const algebra::Vec3& place : places) {
+    Instants seen = seen_at(actions, end, dt, place);
+    if (seen.are_too_many) ++n_too_fast;
+    if (seen.jumps.empty() && seen.others.empty()) continue;
+    double arrival = end;
+    for (const std::vector<double>* times : {&seen.jumps, &seen.others}) {
+      if (times->empty()) continue;
+      arrival = std::min(arrival, times->front());
+      last = std::max(last, times->back());
+    }
+    arrivals.push_back(arrival);
+    steps.push_back(shortest_step(seen, near));
+    instants.jumps.insert(instants.jumps.end(), seen.jumps.begin(), seen.jumps.end());
+    if (arrivals.size() == 1)
+      first = std::move(seen);
+    else if (!are_near(first.jumps, seen.jumps, near) || !are_near(first.others, seen.others, near))
+      travels = true;
+  }
+  instants.are_too_many = 2 * n_too_fast > places.size();
+  if (arrivals.empty() || instants.are_too_many) return;
+  std::sort(instants.jumps.begin(), instants.jumps.end());
+  const auto same = [near](double s, double t) { return t - s <= near; };
+  instants.jumps.erase(std::unique(instants.jumps.begin(), instants.jumps.end(), same),
+                       instants.jumps.end());
+  if (!travels) {
+    instants.others = std::move(first.others);
+    return;
+  }
+  std::sort(steps.begin(), steps.end());
+  const double step = steps[steps.size() / 2];
+  if (step >= dt) return;
+  // from the place before the first one that sees it to the one behind the last
+  std::sort(arrivals.begin(), arrivals.end());
+  double between = 0;
+  for (size_t k = 1; k < arrivals.size(); ++k)
+    between = std::max(between, arrivals[k] - arrivals[k - 1]);
+  const double begin = std::max(0.0, arrivals.front() - between);
+  last = std::min(end, last + between);
+  const double n = std::ceil((last - begin) / step);
+  instants.are_too_many = n > functions::most_per_step * (end / dt + 1);
+  for (double k = 0; k <= n && !instants.are_too_many; ++k)
+    instants.others.push_back(begin + (last - begin) * k / n);
+}
+
+[[noreturn]] void refuse_fastest(const Actions& actions,
+                                 std::span<const algebra::Vec3> places,
                                  double end,
                                  double dt) {
   const auto is_too_fast = [&](const functions::Expression& action) {
-    const std::vector one{action};
-    return action.depends_on_time() &&
-           functions::resolving_times(one, breaks_of(one, end, dt), 0, end, dt).are_too_many;
+    if (!action.depends_on_time()) return false;
+    const Instants instants = seen_at({action}, end, dt);
+    if (instants.are_too_many || !action.joins_place_and_time()) return instants.are_too_many;
+    Instants joined;
+    add_seen_at(places, {action}, end, dt, joined);
+    return joined.are_too_many;
   };
   const auto fastest = std::find_if(actions.begin(), actions.end(), is_too_fast);
   const bool is_one = fastest != actions.end();
@@ -51,17 +157,25 @@ functions::BreakTimes breaks_of(const std::vector<functions::Expression>& action
 
 }  // namespace
 
-std::vector<StepEnd> step_ends(const cases::Case& setup, double dt) {
+std::vector<StepEnd> step_ends(const cases::Case& setup,
+                               double dt,
+                               std::span<const algebra::Vec3> places) {
   const double end = setup.time.end, near = 1e-13 * end;
-  const auto actions = actions_of(setup);
-  const functions::BreakTimes breaks = breaks_of(actions, end, dt);
-  const auto resolving = functions::resolving_times(actions, breaks, 0, end, dt);
-  if (resolving.are_too_many) refuse_fastest(actions, end, dt);
+  const Actions actions = actions_of(setup);
+  Actions travelling;
+  for (const functions::Expression& action : actions)
+    if (action.joins_place_and_time()) travelling.push_back(action);
+  Instants instants;
+  if (!travelling.empty()) add_seen_at(places, travelling, end, dt, instants);
+  const Instants everywhere = seen_at(actions, end, dt);
+  if (instants.are_too_many || everywhere.are_too_many) refuse_fastest(actions, places, end, dt);
   std::vector<StepEnd> of_all;
-  for (const double after : breaks.jumps)
-    of_all.push_back({std::nextafter(after, 0), after});
-  for (const double t : resolving.times)
-    of_all.push_back({t, t});
+  for (const Instants* seen : {&everywhere, &std::as_const(instants)}) {
+    for (const double after : seen->jumps)
+      of_all.push_back({std::nextafter(after, 0), after});
+    for (const double t : seen->others)
+      of_all.push_back({t, t});
+  }
   std::sort(of_all.begin(), of_all.end(),
             [](const StepEnd& a, const StepEnd& b) { return a.before < b.before; });
   std::vector<StepEnd> ends;

@@ -5,6 +5,7 @@
 
 #include "common/cases/case.hpp"
 
+#include <span>
 #include <vector>
 
 namespace diptych::run {
@@ -14,9 +15,12 @@ struct StepEnd {
   double before = 0, after = 0;
 };
 
-/// @param dt  of steps that nothing hinders  [s]
+/// @param dt      of steps that nothing hinders  [s]
+/// @param places  at which actions that depend on place and time together are looked at  [m]
 /// @return ascending; instants that are as good as one, or as good as an instant of output, are one
 /// @throws base::InputError where something changes faster than steps can follow at a sensible cost
-std::vector<StepEnd> step_ends(const cases::Case& setup, double dt);
+std::vector<StepEnd> step_ends(const cases::Case& setup,
+                               double dt,
+                               std::span<const algebra::Vec3> places);
 
 }  // namespace diptych::run

@@ -121,8 +121,10 @@ SectionKeys<ProbeCase> probe_keys() {
             "of the reference position x, y, z, the time t and parameters.",
             "\"ux\"", "required but with reaction"})
       .key("at", KeyType::vector,
-           {"m", any, "Reference position in the body; the nearest node is taken.", "[0, 0, 6]",
-            "with point"})
+           {"m", any,
+            "Reference position in the body; between nodes the quantity is interpolated "
+            "(quadratics).",
+            "[0, 0, 6]", "with point"})
       .key("group", KeyType::groups,
            {"-", any, "Mesh group, or a list of them.", "\"x_max\"",
             "with reaction; optional with mean ... greatest"})

@@ -41,9 +41,9 @@ void EnergyGuard::refuse_residual(const Check& check, double residual, double bo
       "  {}; guards.energy_residual raises the bound",
       residual, bound, instant_of(check.step),
       residual < 0
-          ? "the step takes energy from short waves and fronts: try a smaller time.cfl, a finer "
-            "mesh, "
-            "or, with SSP-RK, time.integrator = \"leapfrog\""
+          ? "the step takes energy from short waves and fronts, or sets off with a jolt: try a "
+            "smaller "
+            "time.cfl, a finer mesh, or, with SSP-RK, time.integrator = \"leapfrog\""
           : "the step is too large, or the scheme is unstable here: try a smaller time.cfl "
             "or a finer mesh"));
 }

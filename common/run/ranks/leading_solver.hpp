@@ -70,6 +70,9 @@ class LeadingSolver : public Solver {
   std::int64_t bytes() const override { return solver_->bytes(); }
   double undeformed_speed() const override { return solver_->undeformed_speed(); }
   double undeformed_step() const override { return solver_->undeformed_step(); }
+  const std::vector<algebra::Vec3>& telling_places() const override {
+    return solver_->telling_places();
+  }
   Mat3 equilibrium_stress(const Mat3& F) const override { return solver_->equilibrium_stress(F); }
   std::optional<Snapshot> exact_state(double t) const override;
 

@@ -3,7 +3,9 @@
 #include "common/algebra/face_areas.hpp"
 #include "common/parallel/agreement.hpp"
 #include "common/scheme/boundary/node_vector.hpp"
+#include "common/scheme/boundary/resolved_load.hpp"
 #include "common/scheme/boundary/stage_begin.hpp"
+#include "common/scheme/boundary/telling_places.hpp"
 #include "common/scheme/graph/centroid.hpp"
 
 #include <algorithm>
@@ -86,7 +88,10 @@ AppliedBoundary::AppliedBoundary(const PairGraph& graph,
         {node, graph.Omega[node], graph.X[node], projector.keep(), projector.velocity()});
     has_velocities_ |= static_cast<bool>(projector.velocity());
   }
-  if (body_force) body_force_ = body_force.placed(X_user_);
+  if (body_force) {
+    body_force_ = body_force.placed(X_user_);
+    add_telling_places(X_user_, telling_places_);
+  }
   place_velocities();
   place_loads();
   std::vector<std::int64_t> chunks;
@@ -118,6 +123,7 @@ void AppliedBoundary::place_velocities() {
     std::vector<Vec3> X;
     for (const size_t k : prescribed.nodes)
       X.push_back(constrained_[k].X);
+    add_telling_places(X, telling_places_);
     prescribed.placed = prescribed.velocity.placed(X);
   }
 }
@@ -128,10 +134,15 @@ void AppliedBoundary::place_loads() {
     const BoundaryValues* const values = placed.condition->given();
     if (values == nullptr) continue;
     std::vector<Vec3> X;
-    for (const std::int32_t node : placed.patch->nodes)
-      X.push_back(X_user_[static_cast<size_t>(node)]);
-    if (values->vector) given.vector = values->vector.placed(X);
-    if (values->scalar) given.scalar = values->scalar.placed(X);
+    std::vector<double> share;
+    for (size_t k = 0; k < placed.patch->nodes.size(); ++k) {
+      X.push_back(X_user_[static_cast<size_t>(placed.patch->nodes[k])]);
+      share.push_back(placed.patch->area[k].norm());
+    }
+    add_telling_places(X, telling_places_);
+    const std::vector<LoadedFace> faces = faces_of(*placed.patch);
+    if (values->vector) given.vector = resolved_load(values->vector, X, share, faces);
+    if (values->scalar) given.scalar = resolved_load(values->scalar, X, share, faces);
   }
 }
 

@@ -48,6 +48,9 @@ class AppliedBoundary {
   }
   bool has_loads() const { return !loaded_nodes_.empty() || body_loads_.is_there(); }
 
+  /// Some of the nodes that loads and prescribed velocities act on  [m]
+  const std::vector<Vec3>& telling_places() const { return telling_places_; }
+
   /// Copies what the boundary knows into `state`, and back.
   void keep(BoundaryState& state) const;
   void restore(const BoundaryState& state);
@@ -170,6 +173,7 @@ class AppliedBoundary {
   std::vector<Vec3> forces_;  ///< [loaded_nodes_] N
   std::vector<Vec3> X_;       ///< [n_nodes] m, centred: moments are about the centroid
   std::vector<double> Omega_;
+  std::vector<Vec3> telling_places_;
   std::vector<Vec3> X_user_;                ///< [n_nodes] m, as functions see them
   std::vector<std::int32_t> slot_of_node_;  ///< [n_nodes] into loaded_nodes_, -1
 

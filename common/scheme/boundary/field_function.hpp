@@ -34,13 +34,20 @@ class FieldFunction {
   template <std::invocable<const Vec3&, double> Function>
   FieldFunction(Function at_place)  // NOLINT: any function of place and time is one
       : at_place_(std::make_shared<const AtPlace>(std::move(at_place))) {}
+  /// How it depends on the place.
+  struct InPlace {
+    std::vector<double> instants;  ///< s, at which that shows; none: it does not
+    bool travels = false;          ///< at other times in another way, more than by factors of time
+  };
   /// @param placing  the same at many places
-  FieldFunction(AtPlace at_place, Placing placing)
+  FieldFunction(AtPlace at_place, Placing placing, InPlace in_place = {})
       : at_place_(std::make_shared<const AtPlace>(std::move(at_place))),
-        placing_(std::move(placing)) {}
+        placing_(std::move(placing)),
+        in_place_(std::move(in_place)) {}
 
   explicit operator bool() const { return at_place_ != nullptr; }
   Value operator()(const Vec3& X, double t) const { return (*at_place_)(X, t); }
+  const InPlace& in_place() const { return in_place_; }
   bool is_same(const FieldFunction& other) const { return at_place_ == other.at_place_; }
 
   std::unique_ptr<PlacedField<Value>> placed(std::span<const Vec3> X) const {
@@ -68,6 +75,7 @@ class FieldFunction {
 
   std::shared_ptr<const AtPlace> at_place_;
   Placing placing_;
+  InPlace in_place_;
 };
 
 }  // namespace diptych::scheme

@@ -249,7 +249,9 @@ Vec3 WallContacts::force(const Body<Dim>& body, const std::vector<std::int32_t>&
       parallel::sum_over<VectorSum>(body.part(), chunks_, [&](std::int64_t k, VectorSum& force) {
         const WallNode& w = nodes_[k];
         if (!w.closed || !std::binary_search(nodes.begin(), nodes.end(), w.body.node)) return;
-        force.value -= vector_at<Dim>(body.T, w.body.node).dot(w.push) * w.wall.normal;
+        // with what other conditions answer along the directions that they hold
+        const double push = vector_at<Dim>(body.T, w.body.node).dot(w.push);
+        force.value -= push * (w.body.keep * w.wall.normal);
       });
   return sum.value;
 }

@@ -303,5 +303,42 @@ TEST(PlacedExpressions, AreTheExpressionsAtEachPlace) {
   }
 }
 
+TEST(Program, AtAPlaceHasTheValuesThere) {
+  const Vec3 place(0.3, 0.7, 0.2);
+  Vocabulary names = vocabulary;
+  names.time_functions.push_back(
+      std::make_shared<ExpressionFunction>("g", Expression("exp(-(t - x)^2)", vocabulary, {})));
+  std::vector<std::string> texts{"g*y + g^2"};
+  texts.insert(texts.end(), std::begin(smooth_texts), std::end(smooth_texts));
+  texts.insert(texts.end(), std::begin(other_texts), std::end(other_texts));
+  for (const std::string& text : texts) {
+    const Expression expression(text, names, {});
+    const auto program = std::make_shared<Program>();
+    const int result = program->append(expression, place);
+    EXPECT_FALSE((*program)[result].on_position) << text;
+    const std::vector<Vec3> elsewhere{Vec3::Zero()};
+    const PlacedValues placed(program, {result}, elsewhere);
+    for (const double t : {0.1, 0.4}) {
+      double value = 0;
+      placed.at(t, {&value, 1});
+      const double wanted = expression(place, t);
+      EXPECT_NEAR(value, wanted, 1e-13 * (1 + std::abs(wanted))) << text;
+    }
+  }
+}
+
+TEST(Program, TellsWhatJoinsPlaceAndTimeFromSumsOfProducts) {
+  const auto joins = [](const char* text) {
+    return Expression(text, vocabulary, {}).joins_place_and_time();
+  };
+  for (const char* text :
+       {"x*sin(3*t)", "t", "x*y", "1 + x*t - y^2*exp(-t)", "(x + t)*(y - t)/t",
+        "x > 0.4 ? sin(t) : 2*t", "t < 0.1 && x > 0.2 ? 3 : x", "t < 1 && x > 0 && y > 0 ? t : 0"})
+    EXPECT_FALSE(joins(text)) << text;
+  for (const char* text : {"sin(x - t)", "x < t ? 1 : 0", "abs(t - (x < 0.5 ? 1 : 2))",
+                           "(x + t)^0.5", "1/(x + t)", "max(x*t, y)", "x < t && y > 0 ? 1 : 0"})
+    EXPECT_TRUE(joins(text)) << text;
+}
+
 }  // namespace
 }  // namespace diptych::functions

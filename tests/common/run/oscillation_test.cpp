@@ -37,14 +37,16 @@ TEST(Oscillation, OfAShiftedCosineIsFoundToTheErrorOfTheSampling) {
   EXPECT_NEAR(*found->decrement, 0, 1e-3);
 }
 
-TEST(Oscillation, OfADampedSineHasItsDecrement) {
-  const double delta = 0.2;
-  const auto found = Signal(4, 1000, [&](double t) {
-                       return std::exp(-delta * t / period) * std::sin(omega * t);
-                     }).oscillation();
-  ASSERT_TRUE(found && found->decrement);
-  EXPECT_NEAR(*found->decrement, delta, 2e-3);
-  EXPECT_NEAR(found->period, period, 2e-3 * period);
+TEST(Oscillation, OfADampedSineHasItsDecrementAndItsRest) {
+  for (const double delta : {-0.2, 0.2, 0.5}) {
+    const auto found = Signal(4, 4000, [&](double t) {
+                         return 3 + std::exp(-delta * t / period) * std::sin(omega * t + 1);
+                       }).oscillation();
+    ASSERT_TRUE(found && found->decrement);
+    EXPECT_NEAR(*found->decrement, delta, 1e-3);
+    EXPECT_NEAR(found->period, period, 1e-4 * period) << delta << ": 7e-3 about the mean";
+    EXPECT_NEAR(found->mean, 3, 1e-3);
+  }
 }
 
 TEST(Oscillation, RipplesAreNoPeriods) {

@@ -5,6 +5,7 @@
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -25,7 +26,8 @@ cases::Case with(const std::string& boundary) {
 constexpr double dt = 1e-3;
 
 std::vector<StepEnd> ends_of(const std::string& boundary) {
-  return step_ends(with(boundary), dt);
+  const std::vector<algebra::Vec3> places{{0, 0, 1}, {1, 0, 1}, {0.4, 0.7, 1}};
+  return step_ends(with(boundary), dt, places);
 }
 
 TEST(StepEnds, AreBothSidesOfJumpsOfLoadsAndOfSupports) {
@@ -63,13 +65,50 @@ TEST(StepEnds, AreNoneWhereNothingHappensInAStep) {
 TEST(StepEnds, RefuseWhatNoStepsCouldFollow) {
   const auto setup = with("type = \"traction\"\nvalue = [0, 0, \"1e3*sin(2*pi*1e6*t)\"]\n");
   try {
-    step_ends(setup, dt);
+    step_ends(setup, dt, {});
     ADD_FAILURE() << "not refused";
   } catch (const base::InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("1e3*sin(2*pi*1e6*t)"));
     EXPECT_THAT(error.what(), HasSubstr("changes so fast"));
   }
   EXPECT_NO_THROW(ends_of("type = \"traction\"\nvalue = [0, 0, \"sin(2*pi*500*t)\"]\n"));
+}
+
+TEST(StepEnds, AreWhereEachPlaceSeesItsPulse) {
+  const auto ends = ends_of(
+      "type = \"traction\"\nvalue = [0, 0, \"abs(t - (x < 0.45 ? 0.0251 : 0.0651)) < 1e-4 ? 1 : "
+      "0\"]\n");
+  for (const double jump : {0.025, 0.0252, 0.065, 0.0652}) {
+    const bool is_there = std::any_of(ends.begin(), ends.end(), [jump](const StepEnd& end) {
+      return std::abs(end.after - jump) < 1e-9 && end.before < end.after;
+    });
+    EXPECT_TRUE(is_there) << jump;
+  }
+}
+
+TEST(StepEnds, OfWhatTravelsAreCloseEnoughForNodesInBetween) {
+  const auto ends =
+      ends_of("type = \"pressure\"\nvalue = \"abs(x - 20*t + 0.1) < 2e-3 ? 1 : 0\"\n");
+  // 0.2 ms at every place: six parts, from before the first place that is looked at to behind the
+  // last
+  double longest = 0;
+  for (size_t k = 1; k < ends.size(); ++k)
+    longest = std::max(longest, ends[k].before - ends[k - 1].after);
+  ASSERT_GE(ends.size(), 1000U);
+  EXPECT_LE(longest, 1.001 * 2e-4 / 6);
+  EXPECT_LE(ends.front().after, 4.9e-3);
+  EXPECT_GE(ends.back().after, 55.1e-3);
+}
+
+TEST(StepEnds, DoNotMindWhereAPulseActs) {
+  const auto everywhere =
+      ends_of("type = \"pressure\"\nvalue = \"abs(t - 0.0251) < 1e-4 ? 1 : 0\"\n");
+  const auto somewhere =
+      ends_of("type = \"pressure\"\nvalue = \"abs(t - 0.0251) < 1e-4 && x > 0.2 ? 1 : 0\"\n");
+  EXPECT_EQ(everywhere.size(), 3U) << "two jumps and a kink";
+  EXPECT_EQ(somewhere.size(), 3U);
+  // waves that steps see need no ends, wherever they are
+  EXPECT_TRUE(ends_of("type = \"pressure\"\nvalue = \"sin(300*(t - x/40))\"\n").empty());
 }
 
 }  // namespace

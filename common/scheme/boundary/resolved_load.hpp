@@ -1,0 +1,41 @@
+#pragma once
+/// Loads at nodes whose forces are right where the load changes within a face: a traction on a
+/// strip, a jump between two nodes, what travels. Nodes see a load at their own places, so a strip
+/// between two of them would give no force at all, another one twice its own. On faces that the
+/// nodes do not resolve the difference to what nodes can see goes to the corners by their shape
+/// functions:
+///   f_a = f(X_a) + 1/A_a sum over these faces of int (f - sum_b f(X_b) phi_b) phi_a dA,
+/// so that the force is that of the integral. Linear f changes nothing, and what is smooth is left
+/// to the nodes, whose areas are of higher order than such integrals. Source: notes 3.6. Test:
+/// tests/common/scheme/resolved_load_test.cpp
+
+#include "common/scheme/boundary/field_function.hpp"
+#include "common/scheme/graph/pair_graph.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace diptych::scheme {
+
+/// An edge of the plane, a triangle or a quadrilateral, by its corners one after the other.
+struct LoadedFace {
+  int n_corners = 0;
+  std::array<std::int32_t, 4> corner{};  ///< places among the nodes of the load
+};
+
+/// Of a patch, by places among its nodes.
+std::vector<LoadedFace> faces_of(const BoundaryPatch& patch);
+
+/// @param load   Pa; nodes alone see what does not depend on the place
+/// @param X      [nodes] m
+/// @param area   [nodes] their shares of it  [m^2]
+/// @param faces  of which the nodes are the corners
+/// @throws base::InputError where the load has no value
+template <class Value>
+std::unique_ptr<PlacedField<Value>> resolved_load(const FieldFunction<Value>& load,
+                                                  std::span<const Vec3> X,
+                                                  std::span<const double> area,
+                                                  std::span<const LoadedFace> faces);
+
+}  // namespace diptych::scheme
