@@ -73,64 +73,84 @@ bool are_near(const std::vector<double>& a, const std::vector<double>& b, double
                     [near](double s, double t) { return std::abs(s - t) <= near; });
 }
 
-/// Adds what some places see of actions that join place and time. Where that happens at other times
-/// at other places, as of loads that travel, steps are as short throughout as the middle one of
-/// these places asks for: other nodes see it in between, and two jumps that have nothing to do with
-/// each other may come close somewhere. Nor do places count one by one where it is too fast to
-/// follow: an action may act on few of them.
-void add_seen_at(std::span<const algebra::Vec3> places,
-                 const Actions& actions,
-                 double end,
-                 double dt,
-                 Instants& instants) {
-  const double near = 1e-3 * dt;
-  Instants first;
-  bool travels = false;
-  double last = 0;
-  std::vector<double> arrivals, steps;
+bool are_near(const Instants& a, const Instants& b, double near) {
+  return are_near(a.jumps, b.jumps, near) && are_near(a.others, b.others, near);
+}
+
+/// What the places see that see something.
+struct Seen {
+  std::vector<Instants> kinds;          ///< that differ
+  std::vector<double> arrivals, steps;  ///< [places] s, of the first instant; see shortest_step
+  bool is_too_fast = false;             ///< for most places: an action may act on few of them
+};
+
+Seen seen_at_each(std::span<const algebra::Vec3> places,
+                  const Actions& actions,
+                  double end,
+                  double dt,
+                  double near) {
+  Seen result;
   size_t n_too_fast = 0;
   for (const algebra::Vec3& place : places) {
     Instants seen = seen_at(actions, end, dt, place);
     if (seen.are_too_many) ++n_too_fast;
     if (seen.jumps.empty() && seen.others.empty()) continue;
     double arrival = end;
-    for (const std::vector<double>* times : {&seen.jumps, &seen.others}) {
-      if (times->empty()) continue;
-      arrival = std::min(arrival, times->front());
-      last = std::max(last, times->back());
-    }
-    arrivals.push_back(arrival);
-    steps.push_back(shortest_step(seen, near));
-    instants.jumps.insert(instants.jumps.end(), seen.jumps.begin(), seen.jumps.end());
-    if (arrivals.size() == 1)
-      first = std::move(seen);
-    else if (!are_near(first.jumps, seen.jumps, near) || !are_near(first.others, seen.others, near))
-      travels = true;
+    for (const std::vector<double>* times : {&seen.jumps, &seen.others})
+      if (!times->empty()) arrival = std::min(arrival, times->front());
+    result.arrivals.push_back(arrival);
+    result.steps.push_back(shortest_step(seen, near));
+    const auto is_known = [&](const Instants& kind) { return are_near(kind, seen, near); };
+    if (std::none_of(result.kinds.begin(), result.kinds.end(), is_known))
+      result.kinds.push_back(std::move(seen));
   }
-  instants.are_too_many = 2 * n_too_fast > places.size();
-  if (arrivals.empty() || instants.are_too_many) return;
-  std::sort(instants.jumps.begin(), instants.jumps.end());
-  const auto same = [near](double s, double t) { return t - s <= near; };
-  instants.jumps.erase(std::unique(instants.jumps.begin(), instants.jumps.end(), same),
-                       instants.jumps.end());
-  if (!travels) {
-    instants.others = std::move(first.others);
-    return;
+  result.is_too_fast = 2 * n_too_fast > places.size();
+  std::sort(result.arrivals.begin(), result.arrivals.end());
+  std::sort(result.steps.begin(), result.steps.end());
+  return result;
+}
+
+/// What some places see of actions that join place and time. Where places see the same in regions,
+/// that is all. Where most see something of their own, as of loads that travel, steps are as short
+/// throughout as the middle one of these places asks for: other nodes see it in between, and two
+/// jumps that have nothing to do with each other may come close somewhere.
+Instants seen_at(std::span<const algebra::Vec3> places,
+                 const Actions& actions,
+                 double end,
+                 double dt) {
+  constexpr size_t least_of_region = 3;  // places, in the mean
+  const double near = 1e-3 * dt;
+  const Seen seen = seen_at_each(places, actions, end, dt, near);
+  Instants instants;
+  instants.are_too_many = seen.is_too_fast;
+  double last = 0;
+  for (const Instants& kind : seen.kinds) {
+    instants.jumps.insert(instants.jumps.end(), kind.jumps.begin(), kind.jumps.end());
+    instants.others.insert(instants.others.end(), kind.others.begin(), kind.others.end());
+    for (const std::vector<double>* times : {&kind.jumps, &kind.others})
+      if (!times->empty()) last = std::max(last, times->back());
   }
-  std::sort(steps.begin(), steps.end());
-  const double step = steps[steps.size() / 2];
-  if (step >= dt) return;
+  for (std::vector<double>* times : {&instants.jumps, &instants.others}) {
+    std::sort(times->begin(), times->end());
+    const auto same = [near](double s, double t) { return t - s <= near; };
+    times->erase(std::unique(times->begin(), times->end(), same), times->end());
+  }
+  const bool travels = least_of_region * seen.kinds.size() > seen.arrivals.size();
+  if (seen.kinds.size() <= 1 || !travels) return instants;
+  instants.others.clear();
+  const double step = seen.steps[seen.steps.size() / 2];
+  if (step >= dt) return instants;
   // from the place before the first one that sees it to the one behind the last
-  std::sort(arrivals.begin(), arrivals.end());
   double between = 0;
-  for (size_t k = 1; k < arrivals.size(); ++k)
-    between = std::max(between, arrivals[k] - arrivals[k - 1]);
-  const double begin = std::max(0.0, arrivals.front() - between);
+  for (size_t k = 1; k < seen.arrivals.size(); ++k)
+    between = std::max(between, seen.arrivals[k] - seen.arrivals[k - 1]);
+  const double begin = std::max(0.0, seen.arrivals.front() - between);
   last = std::min(end, last + between);
   const double n = std::ceil((last - begin) / step);
-  instants.are_too_many = n > functions::most_per_step * (end / dt + 1);
+  instants.are_too_many |= n > functions::most_per_step * (end / dt + 1);
   for (double k = 0; k <= n && !instants.are_too_many; ++k)
     instants.others.push_back(begin + (last - begin) * k / n);
+  return instants;
 }
 
 [[noreturn]] void refuse_fastest(const Actions& actions,
@@ -141,9 +161,7 @@ void add_seen_at(std::span<const algebra::Vec3> places,
     if (!action.depends_on_time()) return false;
     const Instants instants = seen_at({action}, end, dt);
     if (instants.are_too_many || !action.joins_place_and_time()) return instants.are_too_many;
-    Instants joined;
-    add_seen_at(places, {action}, end, dt, joined);
-    return joined.are_too_many;
+    return seen_at(places, {action}, end, dt).are_too_many;
   };
   const auto fastest = std::find_if(actions.begin(), actions.end(), is_too_fast);
   const bool is_one = fastest != actions.end();
@@ -166,7 +184,7 @@ std::vector<StepEnd> step_ends(const cases::Case& setup,
   for (const functions::Expression& action : actions)
     if (action.joins_place_and_time()) travelling.push_back(action);
   Instants instants;
-  if (!travelling.empty()) add_seen_at(places, travelling, end, dt, instants);
+  if (!travelling.empty()) instants = seen_at(places, travelling, end, dt);
   const Instants everywhere = seen_at(actions, end, dt);
   if (instants.are_too_many || everywhere.are_too_many) refuse_fastest(actions, places, end, dt);
   std::vector<StepEnd> of_all;
