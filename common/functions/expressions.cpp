@@ -415,12 +415,6 @@ bool Expression::depends_on_position() const {
   return compiled_ && compiled_->on_position;
 }
 
-bool Expression::joins_place_and_time() const {
-  if (!depends_on_time() || !depends_on_position()) return false;
-  Program program;
-  return program.joins_place_and_time(program.append(*this));
-}
-
 bool Expression::is_zero() const {
   return !compiled_ || (!compiled_->on_time && !compiled_->on_position && compiled_->value == 0);
 }

@@ -80,6 +80,7 @@ bool are_near(const Instants& a, const Instants& b, double near) {
 /// What the places see that see something.
 struct Seen {
   std::vector<Instants> kinds;          ///< that differ
+  std::vector<double> jumps;            ///< of all of them
   std::vector<double> arrivals, steps;  ///< [places] s, of the first instant; see shortest_step
   bool is_too_fast = false;             ///< for most places: an action may act on few of them
 };
@@ -100,6 +101,7 @@ Seen seen_at_each(std::span<const algebra::Vec3> places,
       if (!times->empty()) arrival = std::min(arrival, times->front());
     result.arrivals.push_back(arrival);
     result.steps.push_back(shortest_step(seen, near));
+    result.jumps.insert(result.jumps.end(), seen.jumps.begin(), seen.jumps.end());
     const auto is_known = [&](const Instants& kind) { return are_near(kind, seen, near); };
     if (std::none_of(result.kinds.begin(), result.kinds.end(), is_known))
       result.kinds.push_back(std::move(seen));
@@ -123,21 +125,20 @@ Instants seen_at(std::span<const algebra::Vec3> places,
   const Seen seen = seen_at_each(places, actions, end, dt, near);
   Instants instants;
   instants.are_too_many = seen.is_too_fast;
+  instants.jumps = seen.jumps;
   double last = 0;
   for (const Instants& kind : seen.kinds) {
-    instants.jumps.insert(instants.jumps.end(), kind.jumps.begin(), kind.jumps.end());
     instants.others.insert(instants.others.end(), kind.others.begin(), kind.others.end());
     for (const std::vector<double>* times : {&kind.jumps, &kind.others})
       if (!times->empty()) last = std::max(last, times->back());
   }
-  for (std::vector<double>* times : {&instants.jumps, &instants.others}) {
-    std::sort(times->begin(), times->end());
-    const auto same = [near](double s, double t) { return t - s <= near; };
-    times->erase(std::unique(times->begin(), times->end(), same), times->end());
-  }
+  std::vector<double>& others = instants.others;
+  std::sort(others.begin(), others.end());
+  const auto same = [near](double s, double t) { return t - s <= near; };
+  others.erase(std::unique(others.begin(), others.end(), same), others.end());
   const bool travels = least_of_region * seen.kinds.size() > seen.arrivals.size();
   if (seen.kinds.size() <= 1 || !travels) return instants;
-  instants.others.clear();
+  others.clear();
   const double step = seen.steps[seen.steps.size() / 2];
   if (step >= dt) return instants;
   // from the place before the first one that sees it to the one behind the last
@@ -149,7 +150,7 @@ Instants seen_at(std::span<const algebra::Vec3> places,
   const double n = std::ceil((last - begin) / step);
   instants.are_too_many |= n > functions::most_per_step * (end / dt + 1);
   for (double k = 0; k <= n && !instants.are_too_many; ++k)
-    instants.others.push_back(begin + (last - begin) * k / n);
+    others.push_back(begin + (last - begin) * k / n);
   return instants;
 }
 
@@ -178,13 +179,17 @@ Instants seen_at(std::span<const algebra::Vec3> places,
 std::vector<StepEnd> step_ends(const cases::Case& setup,
                                double dt,
                                std::span<const algebra::Vec3> places) {
-  const double end = setup.time.end, near = 1e-13 * end;
+  const double end = setup.time.end;
   const Actions actions = actions_of(setup);
   Actions travelling;
   for (const functions::Expression& action : actions)
     if (action.joins_place_and_time()) travelling.push_back(action);
   Instants instants;
-  if (!travelling.empty()) instants = seen_at(places, travelling, end, dt);
+  double near = 1e-13 * end;
+  if (!travelling.empty()) {
+    instants = seen_at(places, travelling, end, dt);
+    near = std::max(near, 1e-5 * dt);  // one jump that places see one shortly after the other
+  }
   const Instants everywhere = seen_at(actions, end, dt);
   if (instants.are_too_many || everywhere.are_too_many) refuse_fastest(actions, places, end, dt);
   std::vector<StepEnd> of_all;

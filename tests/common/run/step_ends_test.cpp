@@ -109,6 +109,11 @@ TEST(StepEnds, DoNotMindWhereAPulseActs) {
       ends_of("type = \"pressure\"\nvalue = \"abs(t - 0.0251) < 1e-4 && x > 0.2 ? 1 : 0\"\n");
   EXPECT_EQ(everywhere.size(), 3U) << "two jumps and a kink";
   EXPECT_EQ(somewhere.size(), 3U);
+  // nor a delay of next to nothing: one jump from before the first place to behind the last
+  const auto delayed = ends_of("type = \"pressure\"\nvalue = \"t - 1e-9*x < 0.0251 ? 1 : 0\"\n");
+  ASSERT_EQ(delayed.size(), 1U);
+  EXPECT_EQ(delayed[0].before, std::nextafter(0.0251, 0));
+  EXPECT_NEAR(delayed[0].after - 0.0251, 1e-9, 1e-15);
   // waves that steps see need no ends, wherever they are
   EXPECT_TRUE(ends_of("type = \"pressure\"\nvalue = \"sin(300*(t - x/40))\"\n").empty());
 }
