@@ -105,12 +105,13 @@ struct Piece {
 };
 
 /// Between two breaks each.
-std::vector<Piece> pieces_of(const BreakTimes& breaks, double begin, double end, double dt) {
+std::vector<Piece> pieces_of(
+    const BreakTimes& breaks, double begin, double end, double dt, double most) {
   std::vector<double> times = breaks.jumps;
   times.insert(times.end(), breaks.kinks.begin(), breaks.kinks.end());
   times.push_back(end);
   std::sort(times.begin(), times.end());
-  const double step = std::max(dt, (end - begin) / most_steps), least = 1e-13 * (end - begin);
+  const double step = std::max(dt, (end - begin) / most), least = 1e-13 * (end - begin);
   std::vector<Piece> pieces;
   for (const double t : times) {
     // the value at a jump is that of behind it
@@ -183,7 +184,8 @@ ResolvingTimes resolving_times(const std::vector<Expression>& expressions,
   ResolvingTimes result;
   OfTime functions(expressions, place);
   if (functions.is_empty() || !(begin < end)) return result;
-  const std::vector<Piece> pieces = pieces_of(breaks, begin, end, dt);
+  const std::vector<Piece> pieces =
+      pieces_of(breaks, begin, end, dt, place ? most_steps / 10 : most_steps);
   for (const Piece& piece : pieces) {
     for (std::int64_t quarter = 0; quarter <= 4 * piece.n; ++quarter) {
       functions.add_to_scale(functions.at(piece.at(quarter)));

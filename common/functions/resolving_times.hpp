@@ -11,7 +11,7 @@ namespace diptych::functions {
 /// more than `least_bend` of its largest value, until it is off by no more than `resolved_bend`.
 /// The ends of what is shorter than a step are the result: none where steps of dt see all that
 /// happens, as they do of a wave of 15 steps a period. Looked at is what depends on time alone,
-/// four times a step, or of `most_steps` steps of a longer run.
+/// four times a step, or of `most_steps` steps of a longer run, a tenth as many at a place.
 struct ResolvingTimes {
   std::vector<double> times;  ///< ascending
   /// Expressions swing so fast that following them would take more than `most_per_step` times as

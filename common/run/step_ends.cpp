@@ -32,7 +32,7 @@ functions::BreakTimes breaks_of(const Actions& actions,
                                 double end,
                                 double dt,
                                 const Place& place = std::nullopt) {
-  constexpr double most_samples = 1 << 16;
+  const double most_samples = place ? 1 << 14 : 1 << 16;  // of one place among many
   const double n = std::min(most_samples, 4 * end / dt);
   return functions::break_times(actions, 0, end,
                                 std::max(functions::samples_of_break, static_cast<int>(n)), place);

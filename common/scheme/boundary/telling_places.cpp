@@ -6,14 +6,19 @@
 namespace diptych::scheme {
 
 void add_telling_places(std::span<const Vec3> X, std::vector<Vec3>& places) {
-  constexpr int n_places = 16;
+  constexpr int n_places = 10;
   if (X.empty()) return;
   std::vector<double> distance(X.size(), std::numeric_limits<double>::infinity());
-  const auto add = [&](const Vec3& place) {
-    places.push_back(place);
+  const auto measure = [&](const Vec3& place) {
     for (size_t a = 0; a < X.size(); ++a)
       distance[a] = std::min(distance[a], (X[a] - place).squaredNorm());
   };
+  const auto add = [&](const Vec3& place) {
+    places.push_back(place);
+    measure(place);
+  };
+  for (const Vec3& place : places)
+    measure(place);
   for (int d = 0; d < 3; ++d) {
     const auto [least, greatest] = std::minmax_element(
         X.begin(), X.end(), [d](const Vec3& a, const Vec3& b) { return a[d] < b[d]; });
