@@ -8,6 +8,7 @@
 #include "meshes/incidence.hpp"
 
 #include <filesystem>
+#include <fmt/format.h>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -111,6 +112,18 @@ std::vector<run::Observer*> CaseObservers::all() {
   all.push_back(&momentum_guard_);
   if (cell_guard_) all.push_back(&*cell_guard_);
   return all;
+}
+
+std::optional<std::string> CaseObservers::notice_of_exact() const {
+  constexpr double most = 0.5;  // a jump in the initial state may fall between two nodes
+  for (const auto& [field, error] : exact_.errors().relative_at_first()) {
+    if ((field != "displacement" && field != "velocity") || error <= most) continue;
+    return fmt::format(
+        "at the first output {} of the exact solution is not that of the run: they differ by "
+        "{:.0f} % of its largest norm, so that errors say how far two motions are apart",
+        field, 100 * error);
+  }
+  return std::nullopt;
 }
 
 void CaseObservers::give(RunResult& result) {

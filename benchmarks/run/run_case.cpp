@@ -12,6 +12,7 @@
 #include "benchmarks/run/resumption.hpp"
 #include "benchmarks/run/run_folder.hpp"
 #include "benchmarks/run/run_identity.hpp"
+#include "benchmarks/run/wall_watch.hpp"
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
 #include "common/io/checkpoint_file.hpp"
@@ -104,6 +105,7 @@ class CaseRun {
   void note_running_memory();
   void note_breakdown();
   void note_dissipation();
+  void note_contradictions();
   void measure();
   void finish();
   std::map<std::string, std::vector<double>> final_errors() const;
@@ -117,6 +119,7 @@ class CaseRun {
   RunResult result_;
   std::unique_ptr<Scene> scene_;
   std::optional<CaseObservers> observers_;
+  std::optional<WallWatch> wall_watch_;
   FirstStep first_step_{[this] { note_running_memory(); }};
   std::optional<run::Simulation> simulation_;
 };
@@ -135,6 +138,8 @@ CaseRun::CaseRun(const cases::Case& setup, const RunOptions& options)
   observers_.emplace(setup, options, *scene_);
   std::vector<run::Observer*> observers = observers_->all();
   observers.push_back(&first_step_);
+  wall_watch_.emplace(setup, scene_->mesh.mesh, result_.summary.spacing);
+  observers.push_back(&*wall_watch_);
   simulation_.emplace(setup_, *scene_->solver, std::move(observers), interrupt_requested);
   if (!options.checkpoint.empty()) go_on();
   folder_.check();
@@ -269,6 +274,14 @@ void CaseRun::note_dissipation() {
   tell(s.notices.back());
 }
 
+void CaseRun::note_contradictions() {
+  for (const auto& notice : {wall_watch_->notice(), observers_->notice_of_exact()}) {
+    if (!notice) continue;
+    result_.summary.notices.push_back(*notice);
+    tell(*notice);
+  }
+}
+
 /// What the run cost.
 void CaseRun::measure() {
   io::RunSummary& s = result_.summary;
@@ -307,6 +320,7 @@ void CaseRun::finish() {
     result_.final_state = simulation_->take_state();
   result_.order = std::move(scene_->mesh.order);
   result_.graph = std::move(scene_->graph);
+  note_contradictions();
   if (s.status == "done") {
     note_dissipation();
     s.unmet = unmet_of(setup_.expect, s, result_.history);

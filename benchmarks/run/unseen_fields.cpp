@@ -7,8 +7,9 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <optional>
 #include <random>
+#include <span>
+#include <string>
 
 namespace diptych::harness {
 
@@ -16,22 +17,23 @@ namespace {
 
 using algebra::Vec3;
 
-/// Places in cells, each with the weights of the cell's nodes there.
+/// Places in cells or faces, each with its corners and their weights there.
 struct Places {
   std::vector<Vec3> X;
-  std::vector<std::int64_t> cell;
+  std::vector<std::span<const std::int32_t>> corners;
   std::vector<std::array<double, 8>> weights;
 };
 
-/// In every cell of small meshes, in evenly spread ones of large meshes.
-Places places_in(const meshes::Mesh& mesh) {
+/// In every one of few, in evenly spread ones of many.
+/// @param corners_of  of one of them, spans that stay valid
+template <class Corners>
+Places places_in(const meshes::Mesh& mesh, std::int64_t n, const Corners& corners_of) {
   constexpr std::int64_t n_places = 100000;
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> part(0, 1);
   Places places;
-  for (std::int64_t k = 0; k < n_places; ++k) {
-    const std::int64_t c = k * mesh.n_cells() / n_places;
-    const auto nodes = mesh.cell(c);
+  for (std::int64_t k = 0; n > 0 && k < n_places; ++k) {
+    const std::span<const std::int32_t> nodes = corners_of(k * n / n_places);
     std::array<double, 8> weights{};
     double sum = 0;
     for (size_t i = 0; i < nodes.size(); ++i) {
@@ -45,13 +47,25 @@ Places places_in(const meshes::Mesh& mesh) {
       X += weights[i] * mesh.nodes[static_cast<size_t>(nodes[i])];
     }
     places.X.push_back(X);
-    places.cell.push_back(c);
+    places.corners.push_back(nodes);
     places.weights.push_back(weights);
   }
   return places;
 }
 
-/// By which part of themselves values within cells differ from those of nodes.
+Places places_in_cells(const meshes::Mesh& mesh) {
+  return places_in(mesh, mesh.n_cells(), [&](std::int64_t c) { return mesh.cell(c); });
+}
+
+Places places_on_faces(const meshes::Mesh& mesh, const meshes::BoundaryGroup& group) {
+  return places_in(mesh, std::ssize(group.faces), [&](std::int64_t k) {
+    const meshes::BoundaryFace& face =
+        mesh.boundary_faces[static_cast<size_t>(group.faces[static_cast<size_t>(k)])];
+    return std::span(face.nodes).first(static_cast<size_t>(face.n_nodes));
+  });
+}
+
+/// By which part of themselves values within cells or faces differ from those of nodes.
 double unseen_part(const functions::VectorExpression& field,
                    const meshes::Mesh& mesh,
                    const Places& places,
@@ -61,7 +75,7 @@ double unseen_part(const functions::VectorExpression& field,
   double all = 0, unseen = 0;
   for (size_t k = 0; k < within.size(); ++k) {
     Vec3 seen = Vec3::Zero();
-    const auto corners = mesh.cell(places.cell[k]);
+    const auto corners = places.corners[k];
     for (size_t i = 0; i < corners.size(); ++i)
       seen += places.weights[k][i] * nodes[static_cast<size_t>(corners[i])];
     all += std::max(within[k].norm(), seen.norm());
@@ -76,15 +90,13 @@ void note_unseen_fields(const cases::Case& setup,
                         const meshes::Mesh& mesh,
                         std::vector<std::string>& notices) {
   constexpr double most = 0.3;
-  std::optional<Places> places;
-  const auto look = [&](const functions::VectorExpression& field, const char* name) {
-    if (!field.depends_on_position()) return;
-    if (!places) places = places_in(mesh);
+  const auto look = [&](const functions::VectorExpression& field, const std::string& name,
+                        const auto& places) {
     double part = 0;
     for (const double instant : {0.0, 0.11, 0.31, 0.73, 1.0}) {
       if (instant > 0 && !field.depends_on_time()) break;
       try {
-        part = std::max(part, unseen_part(field, mesh, *places, instant * setup.time.end));
+        part = std::max(part, unseen_part(field, mesh, places, instant * setup.time.end));
       } catch (const base::InputError&) {
         return;  // no value between some nodes, which nothing asks for
       }
@@ -95,8 +107,22 @@ void note_unseen_fields(const cases::Case& setup,
         "gets more or less than is meant; refine the mesh, or spread it over some cells",
         name, 100 * part));
   };
-  look(setup.body_force, "load.body_force");
-  if (!setup.initial.motion) look(setup.initial.velocity, "initial.velocity");
+  const bool has_initial = !setup.initial.motion && setup.initial.velocity.depends_on_position();
+  if (setup.body_force.depends_on_position() || has_initial) {
+    const Places places = places_in_cells(mesh);
+    if (setup.body_force.depends_on_position()) look(setup.body_force, "load.body_force", places);
+    if (has_initial) look(setup.initial.velocity, "initial.velocity", places);
+  }
+  for (const cases::BoundaryCase& boundary : setup.boundaries) {
+    // tractions and pressures are integrated (scheme/boundary/resolved_load)
+    if (boundary.type != "velocity" || !boundary.value.depends_on_position()) continue;
+    for (const meshes::BoundaryGroup& group : mesh.boundary_groups) {
+      if (std::find(boundary.groups.begin(), boundary.groups.end(), group.name) !=
+          boundary.groups.end())
+        look(boundary.value, fmt::format("velocity of the group {}", group.name),
+             places_on_faces(mesh, group));
+    }
+  }
 }
 
 }  // namespace diptych::harness

@@ -1,5 +1,5 @@
 #pragma once
-/// Fields of a case that its mesh does not see: what changes between the nodes of a cell.
+/// Fields of a case that its mesh does not see: what changes between the nodes of a cell or a face.
 /// Test: tests/harness/unseen_fields_test.cpp
 
 #include "common/cases/case.hpp"
@@ -10,10 +10,10 @@
 
 namespace diptych::harness {
 
-/// Adds a notice where body force or initial velocity at places within cells, chosen at random but
-/// the same each time, are not those that the nodes of the cells give there: by a third of them and
-/// more, in the mean over all cells. A jump across one cell in ten is none, a spot between nodes
-/// is.
+/// Adds a notice where body force or initial velocity at places within cells, or the velocity of a
+/// support within the faces of its group, at places chosen at random but the same each time, are
+/// not those that the nodes around give there: by a third of them and more, in the mean over all
+/// cells or faces. A jump across one cell in ten is none, a spot between nodes is.
 void note_unseen_fields(const cases::Case& setup,
                         const meshes::Mesh& mesh,
                         std::vector<std::string>& notices);

@@ -143,11 +143,17 @@ void print_cut_short(const harness::Study& study, bool left_out) {
   if (!table.empty()) print((left_out ? "\n" : "") + table);
 }
 
-void print_later_references(const cases::Case& setup, const harness::Study& study) {
+void print_references_left_out(const cases::Case& setup, const harness::Study& study) {
+  if (study.runs.empty() || setup.references.empty()) return;
+  const std::string changed = run::changed_scene(setup.overrides);
+  if (!changed.empty()) {
+    print(fmt::format(
+        "\nvalues from elsewhere: not held against, --set {} makes it another scene\n", changed));
+    return;
+  }
   double end = 0;
   for (const io::RunSummary& run : study.runs)
     end = std::max(end, run.end_time);
-  if (study.runs.empty() || !run::changed_scene(setup.overrides).empty()) return;
   for (const cases::ReferenceCase& reference : setup.references) {
     const double from = reference.points.front()[0];
     if (from <= end * (1 + 1e-9)) continue;
@@ -160,13 +166,9 @@ void print_later_references(const cases::Case& setup, const harness::Study& stud
 }
 
 void print_references(const cases::Case& setup, const harness::Study& study) {
-  print_later_references(setup, study);
   const std::string table = harness::reference_table(study.runs, run::reference_times(setup));
   if (!table.empty()) print("\n" + table);
-  const std::string changed = run::changed_scene(setup.overrides);
-  if (setup.references.empty() || changed.empty()) return;
-  print(fmt::format("\nvalues from elsewhere: not held against, --set {} makes it another scene\n",
-                    changed));
+  print_references_left_out(setup, study);
 }
 
 std::string end_of(const harness::Study& study, const std::string& folder) {

@@ -71,8 +71,9 @@ void print_cut_short(const harness::Study& study, bool left_out);
 /// How far its runs are from the values from elsewhere that the case names, or why that is not
 /// judged; nothing where it names none.
 void print_references(const cases::Case& setup, const harness::Study& study);
-/// Values from elsewhere that begin after the end of the runs, which are held against nothing.
-void print_later_references(const cases::Case& setup, const harness::Study& study);
+/// Why values from elsewhere are held against nothing: those of another scene than the runs', and
+/// those that begin after their end.
+void print_references_left_out(const cases::Case& setup, const harness::Study& study);
 
 /// Of a command without levels that was interrupted: where what it has is, and how to go on.
 std::string end_of(const harness::Study& study, const std::string& folder);

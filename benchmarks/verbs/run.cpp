@@ -26,7 +26,7 @@ int run_methods(const CaseArguments& arguments) {
     print("taken over, not run again: " + directory + "\n");
   for (const auto& summary : study.runs)
     print(harness::run_table(summary, run::reference_times(setup)) + "\n");
-  print_later_references(setup, study);
+  print_references_left_out(setup, study);
   print_cut_short(study, false);
   print_breakdowns(study);
   if (!study.is_empty()) print("output: " + options.directory + "\n");

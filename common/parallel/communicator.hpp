@@ -2,7 +2,7 @@
 /// What ranks say to each other, as the program needs it: parcels between pairs of ranks, one value
 /// of each for all, one value of rank 0 for all. common/mpi makes it of MPI; with one rank there is
 /// none. Every rank makes the same calls in the same order, from one thread. What fails in here
-/// ends the job with a message that names the rank. Test: tests/common/parallel/ranks_test.cpp
+/// ends the job with a message that names the rank. Test: tests/ranks/ranks_test.cpp
 
 #include <cstddef>
 #include <cstdint>

@@ -37,13 +37,11 @@ std::vector<NodeRange> Halo::received() const {
   return all;
 }
 
-std::int64_t Halo::n_sent() const {
-  std::int64_t n = 0;
-  for (const Neighbour& other : neighbours_) {
-    for (const NodeRange& range : other.sends)
-      n += range.end - range.begin;
-  }
-  return n;
+std::vector<NodeRange> Halo::sent() const {
+  std::vector<NodeRange> all;
+  for (const Neighbour& other : neighbours_)
+    all.insert(all.end(), other.sends.begin(), other.sends.end());
+  return all;
 }
 
 }  // namespace diptych::parallel

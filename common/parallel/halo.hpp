@@ -2,7 +2,7 @@
 /// Which nodes a rank sends to which others and receives from them. What a field is made of in
 /// memory is told by for_pieces(begin, end, use): use(bytes, n) of every piece of nodes
 /// [begin, end), in an order of its own. Nodes keep their numbers in all ranks.
-/// Test: tests/common/parallel/ranks_test.cpp
+/// Test: tests/ranks/ranks_test.cpp
 
 #include "common/parallel/part.hpp"
 
@@ -87,9 +87,9 @@ class Halo {
     finish(for_pieces);
   }
 
-  /// Nodes of others that come here, and how many nodes go out, one that goes to two ranks twice.
+  /// Nodes of others that come here, and own ones that go out, those that go to two ranks twice.
   std::vector<NodeRange> received() const;
-  std::int64_t n_sent() const;
+  std::vector<NodeRange> sent() const;
 
  private:
   struct Neighbour {

@@ -3,7 +3,7 @@
 /// depend on the ranks. Sums over a body are made chunk by chunk by the ranks that own the chunks,
 /// brought to all ranks and added in the order of the chunks: so they have the same bits for every
 /// number of ranks, and whatever is decided by them is decided alike everywhere.
-/// Test: tests/common/parallel/ranks_test.cpp
+/// Test: tests/common/parallel/partition_test.cpp, tests/ranks
 
 #include "common/parallel/communicator.hpp"
 #include "common/parallel/for_chunks.hpp"

@@ -42,8 +42,8 @@ const RanksModule& module() {
     throw base::EnvironmentError(
         std::string("several ranks need ") + ranks_module_file + ": " + reason +
         "; build with -DDIPTYCH_WITH_MPI=ON where MPI and METIS " +
-        "are (apt-get install libopenmpi-dev libmetis-dev), or start the " +
-        "program without mpirun");
+        "are (apt-get install libopenmpi-dev libmetis-dev; an installed program takes it by " +
+        "cmake --install BUILD --component ranks), or start the program without mpirun");
   }();
   return *loaded;
 }

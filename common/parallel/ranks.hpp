@@ -1,7 +1,7 @@
 #pragma once
 /// The ranks of this process, as the program that started it (mpirun, srun) made them. MPI itself
 /// stands behind a module that is loaded only where there are ranks: a program that was started by
-/// itself needs no MPI library. Test: tests/common/parallel/ranks_test.cpp, tests/ranks
+/// itself needs no MPI library. Test: tests/ranks/ranks_test.cpp, tests/ranks
 
 #include "common/parallel/communicator.hpp"
 #include "common/parallel/partition.hpp"

@@ -18,6 +18,8 @@ class ExactErrors {
   void measure(const ExactSums& sums);
   /// Norms of the last sums by field name, relative to the scales seen so far.
   std::map<std::string, io::ErrorNorms> relative() const;
+  /// L2 norms of the first sums, relative to the scales seen so far.
+  std::map<std::string, double> relative_at_first() const;
   /// The largest L2 norm of each exact field so far.
   std::map<std::string, double> scales() const;
   /// Norms and scales so far.
@@ -26,6 +28,7 @@ class ExactErrors {
  private:
   struct Norms {
     io::ErrorNorms error, scale;
+    double first = -1;  ///< L2 norm of the first error; below zero where there is none
   };
   std::map<std::string, Norms> norms_;
 };

@@ -94,7 +94,7 @@ TEST(CommandLine, CheckRefusesFiguresThatNoRunHas) {
 }
 
 /// The run ends at 5e-4 s.
-TEST(CommandLine, ValuesFromElsewhereThatBeginAfterTheEndAreNamed) {
+TEST(CommandLine, ValuesFromElsewhereThatAreNotHeldAgainstAreNamed) {
   const std::string probe =
       "[[probe]]\nname = \"end\"\nunit = \"m\"\nkind = \"mean\"\ngroup = \"x_max\"\nquantity = "
       "\"ux\"\n[[reference]]\nprobe = \"end\"\nvalue = 0\nsource = \"nobody\"\ntime = ";
@@ -113,6 +113,14 @@ TEST(CommandLine, ValuesFromElsewhereThatBeginAfterTheEndAreNamed) {
         EXPECT_THAT(outcome.text, testing::Not(HasSubstr("not compared")));
       }
     }
+    const Folder folder;
+    folder.write("case.toml", tests::small_case("Bar") + probe + "1e-4\n");
+    const auto outcome = diptych(folder, std::string(verb) +
+                                             " case.toml --quiet --threads 1 --out out "
+                                             "--set parameters.E=1e6");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+    EXPECT_THAT(outcome.text,
+                HasSubstr("values from elsewhere: not held against, --set parameters.E=1e6"));
   }
 }
 

@@ -4,10 +4,9 @@
 #include "benchmarks/study/study.hpp"
 #include "common/cases/reader.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <gmock/gmock.h>
 #include <numbers>
 
 namespace diptych::harness {
@@ -71,6 +70,19 @@ const io::HistoryColumn* find(const std::vector<io::HistoryColumn>& columns, con
   const auto found = std::find_if(columns.begin(), columns.end(),
                                   [&](const auto& column) { return column.name == name; });
   return found == columns.end() ? nullptr : &*found;
+}
+
+TEST(ExactRecord, SaysWhereItBeginsWithAnotherMotion) {
+  RunOptions options;
+  options.threads = 1;
+  options.quiet = true;
+  const auto told =
+      testing::Contains(testing::HasSubstr("velocity of the exact solution is not that"));
+  EXPECT_THAT(run_case(case_until("0.1"), options).summary.notices, testing::Not(told));
+  std::string text = swinging;
+  text.replace(text.find("END"), 3, "0.1");
+  text.replace(text.find("U*cos(t)"), 8, "U*sin(t)");
+  EXPECT_THAT(run_case(cases::case_from_text(text, "scene"), options).summary.notices, told);
 }
 
 TEST(ExactRecord, HoldsProbesKineticEnergyAndMomentaThatAreNotZero) {

@@ -63,6 +63,14 @@ TEST_F(SourceTree, CitesSectionsThatThePhysicsNotesHave) {
   EXPECT_NE(complaints([](const auto& file) { return cited_notes(file, {}); }), "");
 }
 
+TEST_F(SourceTree, HeadersNameTestsThatAreThere) {
+  std::set<std::string> known;
+  for (const auto& file : files_)
+    known.insert(file.path);
+  known.insert("tests/bare");
+  EXPECT_EQ(complaints([&](const auto& file) { return cited_tests(file, known); }), "");
+}
+
 /// The table of CONTRIBUTING.md that says where the formulas stand: each is where it says, and no
 /// longer than a mechanician reads at once.
 TEST_F(SourceTree, FormulasStandWhereThePageSaysInSixtyLines) {
@@ -179,6 +187,16 @@ TEST(UnfinishedWork, IsFoundAsAWord) {
               ElementsAre(HasSubstr("sph/a.cpp:1")));
   EXPECT_EQ(unfinished_work({"sph/a.cpp", "\n// " + fix_me + "\n"}).size(), 1U);
   EXPECT_THAT(unfinished_work({"sph/a.cpp", "int " + to_do + "S_of_others;\n"}), IsEmpty());
+}
+
+TEST(CitedTests, AreFilesOrFolders) {
+  const auto citing = [](const std::string& text) {
+    return cited_tests({"sph/a.hpp", "#pragma once\n/// Test: " + text + ".\n\nint a;\n"},
+                       {"tests/sph/a_test.cpp", "tests/ranks/b_test.cpp"});
+  };
+  EXPECT_THAT(citing("tests/sph/a_test.cpp, tests/ranks"), IsEmpty());
+  EXPECT_THAT(citing("tests/sph/c_test.cpp"), ElementsAre(HasSubstr("tests/sph/c_test.cpp")));
+  EXPECT_THAT(citing("tests/rank"), ElementsAre(HasSubstr("tests/rank")));
 }
 
 TEST(CitedNotes, AreTheNumbersOfHeadings) {

@@ -298,4 +298,22 @@ inline Complaints cited_notes(const SourceFile& file, const std::set<std::string
   return complaints;
 }
 
+/// What the opening of a header names as its test is there: a file, or the folder of some.
+/// @param known  all source files
+inline Complaints cited_tests(const SourceFile& file, const std::set<std::string>& known) {
+  static const std::regex citation(R"(\btests/[\w./]*\w)");
+  const std::string opening = file.text.substr(0, file.text.find("\n\n"));
+  if (!file.path.ends_with(".hpp") || opening.find("Test") == std::string::npos) return {};
+  Complaints complaints;
+  for (std::sregex_iterator cited(opening.begin(), opening.end(), citation), end; cited != end;
+       ++cited) {
+    const std::string path = cited->str();
+    const auto inside = known.lower_bound(path + "/");
+    if (known.contains(path) || (inside != known.end() && inside->starts_with(path + "/")))
+      continue;
+    complaints.push_back(file.path + ": names a test that is not there: " + path);
+  }
+  return complaints;
+}
+
 }  // namespace diptych::tests

@@ -18,6 +18,8 @@
 
 #include <random>
 
+extern template class diptych::scheme::CompiledMaterial<diptych::physics::MooneyRivlin>;
+
 namespace diptych {
 namespace {
 

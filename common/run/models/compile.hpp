@@ -29,6 +29,7 @@ std::shared_ptr<exact::KnownState> known_state(const scheme::MaterialModel& mode
 }  // namespace diptych::run
 
 #define DIPTYCH_COMPILE_MATERIAL(name, Material)                 \
+  template class diptych::scheme::CompiledMaterial<Material>;    \
   namespace diptych::run {                                       \
   ModelMaker make_##name() {                                     \
     return {compiled_material<Material>, known_state<Material>}; \

@@ -30,16 +30,20 @@ std::int64_t segment_of(std::int64_t n_blocks, std::int64_t reach) {
   return unit * ((n_units + n_segments - 1) / n_segments);
 }
 
-/// Chunks that the forces of chunk c read and add to, ascending.
-void find_reached(const PairRuns& upward, std::int64_t c, std::vector<std::int64_t>& reached) {
-  const std::int64_t n_blocks = std::ssize(upward.row) - 1;
+}  // namespace
+
+void find_reached(std::span<const std::int64_t> row,
+                  std::span<const std::int32_t> offset,
+                  std::int64_t c,
+                  std::vector<std::int64_t>& reached) {
+  const std::int64_t n_blocks = std::ssize(row) - 1;
   const std::int64_t last = parallel::n_chunks_of(n_blocks) - 1;
   const std::int64_t begin = c * parallel::chunk_size,
                      end = std::min(n_blocks, begin + parallel::chunk_size);
   reached.assign(1, c);
   for (std::int64_t b = begin; b < end; ++b) {
-    for (std::int64_t k = upward.row[b]; k < upward.row[b + 1]; ++k) {
-      const std::int64_t node = b * n_lanes + upward.offset[k];
+    for (std::int64_t k = row[b]; k < row[b + 1]; ++k) {
+      const std::int64_t node = b * n_lanes + offset[k];
       for (const std::int64_t at : {node, node + n_lanes - 1}) {
         const std::int64_t chunk = std::min(at / nodes_of_chunk, last);
         if (chunk != reached.back()) reached.push_back(chunk);
@@ -49,8 +53,6 @@ void find_reached(const PairRuns& upward, std::int64_t c, std::vector<std::int64
   std::sort(reached.begin(), reached.end());
   reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
 }
-
-}  // namespace
 
 std::int64_t layer_of(const PairRuns& upward) {
   const std::int64_t n_blocks = std::ssize(upward.row) - 1;
@@ -111,7 +113,7 @@ WorkOrder work_order(const PairRuns& upward) {
   for (const std::int64_t parity : {0, 1}) {
     for (std::int64_t s = parity; s < order.n_segments(); s += 2) {
       for (const std::int32_t c : order.forces_of(s)) {
-        find_reached(upward, c, reached);
+        find_reached(upward.row, upward.offset, c, reached);
         for (const std::int64_t at : reached) {
           if (is_evaluated[at] == 0) stages[s].push_back(~static_cast<std::int32_t>(at));
           is_evaluated[at] = 1;

@@ -6,7 +6,8 @@
 ///   - Inside a segment forces are summed as chunks are numbered, or, where the layers of the
 ///     numbering (planes of a lattice) do not fit into a second cache, tile by tile through its
 ///     layers: records of a tile stay there for the pairs of all layers that read them.
-///   - A stage evaluates the records of a chunk just before the first forces that read them.
+///   - A stage evaluates the records of a chunk just before the first forces that read them. (Of a
+///     rank: ranks/run_work.hpp.)
 /// Test: tests/common/scheme/work_order_test.cpp
 
 #include "common/scheme/graph/pair_runs.hpp"
@@ -24,7 +25,7 @@ struct WorkOrder {
   /// of even segments come before those of odd ones; what segments of the same parity evaluate and
   /// add to has nothing in common.
   std::vector<std::int32_t> stage;
-  std::vector<std::int64_t> first;  ///< [n_segments + 1] into stage; neither where there are ranks
+  std::vector<std::int64_t> first;  ///< [n_segments + 1] into stage; neither on other ranks than 0
 
   /// Three smaller ones nearly fit a second cache of a megabyte (scheme/README.md).
   bool has_large_layers() const { return layer >= 2048; }
@@ -40,6 +41,13 @@ struct WorkOrder {
 
 /// @param upward  runs of positive offsets
 WorkOrder work_order(const PairRuns& upward);
+
+/// Chunks that the forces of chunk c read and add to, ascending, c among them.
+/// @param row, offset  of upward runs
+void find_reached(std::span<const std::int64_t> row,
+                  std::span<const std::int32_t> offset,
+                  std::int64_t c,
+                  std::vector<std::int64_t>& reached);
 
 /// Nodes of a layer of the numbering, as pairs with nodes above tell: of a plane of a lattice.
 /// @return 0 where pairs have no layers

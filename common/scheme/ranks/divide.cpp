@@ -124,53 +124,6 @@ std::vector<char> share_chunks(const Body<Dim>& body, Division& division) {
 }
 
 template <int Dim>
-RunWork run_work(const Body<Dim>& body, const Division& division) {
-  const parallel::Part& part = division.part;
-  const SweepGraph<Dim>& graph = body.graph;
-  const std::int64_t n_chunks = parallel::n_chunks_of(body.n_blocks);
-  // chunks that each writes to, from its pairs with nodes above
-  std::vector<char> works(static_cast<size_t>(n_chunks)), written(works.size());
-  const auto for_targets = [&](std::int64_t c, const auto& use) {
-    const std::int64_t begin = c * parallel::chunk_size,
-                       end = std::min(graph.n_blocks, begin + parallel::chunk_size);
-    for (std::int64_t b = begin; b < end; ++b) {
-      for (std::int64_t k = graph.mutual.row[b]; k < graph.mutual.row[b + 1]; ++k) {
-        const std::int64_t first = b * n_lanes + graph.mutual.offset[k];
-        for (const std::int64_t node : {first, first + n_lanes - 1})
-          use(std::min(chunk_of_node(node), n_chunks - 1));
-      }
-    }
-  };
-  for (std::int64_t c = 0; c < n_chunks; ++c) {
-    works[c] = part.owns(c) ? 1 : 0;
-    for_targets(c, [&](std::int64_t target) { works[c] |= part.owns(target) ? 1 : 0; });
-    if (works[c] == 0) continue;
-    written[c] = 1;
-    for_targets(c, [&](std::int64_t target) { written[target] = 1; });
-  }
-  RunWork work;
-  for (std::int64_t c = 0; c < n_chunks; ++c) {
-    if (written[c] != 0) work.written.push_back(c);
-  }
-  const WorkOrder& order = graph.mutual.order;
-  for (std::int64_t s = 0; s < order.n_segments(); ++s) {
-    std::vector<std::int64_t> chunks;
-    for (const std::int32_t c : order.forces_of(s)) {
-      if (works[c] != 0) chunks.push_back(c);
-    }
-    if (!chunks.empty()) work.segments[s % 2].push_back(std::move(chunks));
-  }
-  const auto is_inner = [&](std::vector<std::int64_t> segment) {
-    std::sort(segment.begin(), segment.end());
-    return std::includes(division.inner.begin(), division.inner.end(), segment.begin(),
-                         segment.end());
-  };
-  std::vector<std::vector<std::int64_t>>& even = work.segments[0];
-  work.n_inner = std::stable_partition(even.begin(), even.end(), is_inner) - even.begin();
-  return work;
-}
-
-template <int Dim>
 Untouched untouched_by(const Body<Dim>& body, const Division& division) {
   const auto n_chunks = static_cast<size_t>(parallel::n_chunks_of(body.n_blocks));
   std::vector<char> owned(n_chunks), read(n_chunks), written(n_chunks), worked(n_chunks);
@@ -182,9 +135,9 @@ Untouched untouched_by(const Body<Dim>& body, const Division& division) {
   }
   for (const std::int64_t chunk : division.runs.written)
     written[chunk] = 1;
-  for (const auto& segments : division.runs.segments) {
-    for (const auto& segment : segments) {
-      for (const std::int64_t chunk : segment)
+  for (const auto* segments : {&division.runs.even, &division.runs.odd}) {
+    for (const RankSegment& segment : *segments) {
+      for (const std::int32_t chunk : segment.forces)
         worked[chunk] = 1;
     }
   }
@@ -201,7 +154,17 @@ void divide(Body<Dim>& body, parallel::Communicator& ranks, const std::string& p
   const parallel::Part& part = division->part;
   const auto owner_of_node = [&](std::int64_t a) { return owner[chunk_of_node(a)]; };
   division->pairs = parallel::Halo(ranks, share_chunks(body, *division), owner_of_node);
-  if (body.in_runs()) division->runs = run_work(body, *division);
+  if (body.in_runs()) {
+    const MutualPairs<Dim>& mutual = body.graph.mutual;
+    std::vector<std::int64_t> sent;
+    for (const parallel::NodeRange& nodes : division->pairs.sent()) {
+      for (std::int64_t c = chunk_of_node(nodes.begin); c <= chunk_of_node(nodes.end - 1); ++c)
+        sent.push_back(c);
+    }
+    division->runs = run_work({mutual.row.data(), static_cast<size_t>(mutual.row.size())},
+                              {mutual.offset.data(), static_cast<size_t>(mutual.offset.size())},
+                              mutual.order, part, division->outer, sent);
+  }
   if (body.bulk) {
     std::vector<char> corners(static_cast<size_t>(body.n_owned));
     division->cells = body.bulk->work_of(part, corners);

@@ -14,21 +14,13 @@
 
 #include "common/parallel/halo.hpp"
 #include "common/scheme/body/body.hpp"
+#include "common/scheme/ranks/run_work.hpp"
 #include "common/scheme/ranks/share.hpp"
 #include "common/scheme/ranks/untouched.hpp"
 
 #include <string>
 
 namespace diptych::scheme {
-
-/// Momentum sweep of runs.
-struct RunWork {
-  /// Of even and of odd segments: the chunks of each that this rank works, as all ranks order
-  /// them.
-  std::vector<std::vector<std::int64_t>> segments[2];
-  std::int64_t n_inner = 0;           ///< of the even ones, the first, read no node of another rank
-  std::vector<std::int64_t> written;  ///< chunks that they write to, and the own ones
-};
 
 struct Division {
   parallel::Part part;

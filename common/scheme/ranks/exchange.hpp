@@ -22,6 +22,18 @@ void begin_exchange(Body<Dim>& body, Tables<Dim> tables);
 template <int Dim>
 void finish_exchange(Body<Dim>& body, Tables<Dim> tables);
 
+/// Works while what neighbours have in these tables comes.
+/// @pre body.division
+template <int Dim, class Work>
+void while_bringing(Body<Dim>& body,
+                    std::initializer_list<NodeTable Body<Dim>::*> tables,
+                    const Work& work) {
+  const Tables<Dim> read(tables.begin(), tables.size());
+  begin_exchange(body, read);
+  work();
+  finish_exchange(body, read);
+}
+
 /// Sweeps over pairs that read these tables of their neighbours, while those of other ranks come.
 /// @param sweep  of a Share: once whole, or inner and then outer
 template <int Dim, class Sweep>
@@ -32,10 +44,7 @@ void sweep_with(Body<Dim>& body,
     sweep(Share::whole);
     return;
   }
-  const Tables<Dim> read(tables.begin(), tables.size());
-  begin_exchange(body, read);
-  sweep(Share::inner);
-  finish_exchange(body, read);
+  while_bringing(body, tables, [&] { sweep(Share::inner); });
   sweep(Share::outer);
 }
 

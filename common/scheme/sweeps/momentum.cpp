@@ -151,34 +151,93 @@ void sum_runs(const MomentumSweep<Dim>& sweep,
   });
 }
 
+/// A stage of chunks: their records, which come where forces are to be added, and their forces.
+template <int Dim>
+struct StageWork {
+  const MomentumSweep<Dim>& sweep;
+  MomentumFunction<Dim> forces;
+  const RunSums<Dim>& sums;
+  const MakeRecords& make_records;
+
+  void records_of(std::int64_t chunk) const {
+    with_blocks(sweep.body, chunk, [&](auto begin, auto end) {
+      make_records(begin, end, chunk);
+      clear(sums, begin, end);
+    });
+  }
+  void forces_of(std::int64_t chunk) const {
+    with_blocks(sweep.body, chunk, [&](auto begin, auto end) { forces(sweep, begin, end, chunk); });
+  }
+  /// As WorkOrder::stage has them.
+  void turns(std::span<const std::int32_t> turns) const {
+    for (const std::int32_t turn : turns) {
+      if (turn < 0) {
+        records_of(~turn);
+      } else {
+        forces_of(turn);
+      }
+    }
+  }
+  /// Sums that have ended.
+  void use(std::span<const std::int32_t> chunks) const {
+    for (const std::int32_t chunk : chunks)
+      with_blocks(sweep.body, chunk, [&](auto begin, auto end) { sums.use(sweep, begin, end); });
+  }
+};
+
 /// The same in the order of a stage.
 template <int Dim>
-void sum_runs_of_stage(const MomentumSweep<Dim>& sweep,
-                       MomentumFunction<Dim> work,
-                       const RunSums<Dim>& sums,
-                       const MakeRecords& make_records) {
+void sum_runs_of_stage(const StageWork<Dim>& work) {
+  const auto& [sweep, forces, sums, make_records] = work;
+  const WorkOrder& order = sweep.body.graph.mutual.order;
   const Segments<Dim> segments(sweep.body);
-  const auto work_stage = [&](std::int64_t s) {
-    for (const std::int32_t turn : sweep.body.graph.mutual.order.stage_of(s)) {
-      const std::int64_t chunk = turn < 0 ? ~turn : turn;
-      with_blocks(sweep.body, chunk, [&](auto begin, auto end) {
-        if (turn < 0) {
-          make_records(begin, end, chunk);
-          clear(sums, begin, end);
-        } else {
-          work(sweep, begin, end, chunk);
-        }
-      });
-    }
-  };
   segments.for_even([&](std::int64_t s) {
-    work_stage(s);
+    work.turns(order.stage_of(s));
     if (s == 0) sums.use(sweep, segments.begin(0), segments.begin(1));
   });
   segments.for_odd([&](std::int64_t s) {
-    work_stage(s);
+    work.turns(order.stage_of(s));
     sums.use(sweep, segments.begin(s), segments.begin(s + 2));
   });
+}
+
+/// The same of a rank.
+template <int Dim>
+void sum_runs_of_stage(const StageWork<Dim>& work, StageShare share) {
+  const Body<Dim>& body = work.sweep.body;
+  const RunWork& runs = body.division->runs;
+  const auto for_segments = [&](std::span<const RankSegment> segments) {
+    parallel::for_shares(std::ssize(segments), [&](std::int64_t i) {
+      work.turns(segments[i].stage);
+      work.use(segments[i].finished);
+    });
+  };
+  const std::span even(runs.even);
+  const auto n_secluded = static_cast<size_t>(runs.n_secluded),
+             n_inner = static_cast<size_t>(runs.n_inner);
+  switch (share) {
+    case StageShare::secluded:
+      // what is added to nodes of others is read by none
+      parallel::for_shares(std::ssize(runs.written), [&](std::int64_t i) {
+        if (body.part().owns(runs.written[i])) return;
+        with_blocks(body, runs.written[i],
+                    [&](auto begin, auto end) { clear(work.sums, begin, end); });
+      });
+      for_segments(even.first(n_secluded));
+      return;
+    case StageShare::border:
+      parallel::for_shares(std::ssize(runs.border),
+                           [&](std::int64_t i) { work.records_of(runs.border[i]); });
+      return;
+    case StageShare::inner:
+      for_segments(even.subspan(n_secluded, n_inner - n_secluded));
+      return;
+    case StageShare::outer:
+      for_segments(even.subspan(n_inner));
+      work.use(runs.finished);
+      for_segments(runs.odd);
+      return;
+  }
 }
 
 /// The same of the chunks that write to nodes of this rank. An even segment is of one share, and
@@ -189,26 +248,26 @@ void sum_runs_of_part(const MomentumSweep<Dim>& sweep,
                       const RunSums<Dim>& sums,
                       Share share) {
   const RunWork& work = sweep.body.division->runs;
-  const auto end_of = [&](std::int64_t chunk) {
-    return std::min(sweep.body.n_blocks, (chunk + 1) * parallel::chunk_size);
-  };
-  const auto work_segments = [&](std::span<const std::vector<std::int64_t>> segments) {
+  const auto work_segments = [&](std::span<const RankSegment> segments) {
     parallel::for_shares(std::ssize(segments), [&](std::int64_t s) {
-      for (const std::int64_t chunk : segments[s])
-        work_chunk(sweep, chunk * parallel::chunk_size, end_of(chunk), chunk);
+      for (const std::int32_t chunk : segments[s].forces) {
+        with_blocks(sweep.body, chunk,
+                    [&](auto begin, auto end) { work_chunk(sweep, begin, end, chunk); });
+      }
     });
   };
-  const std::span even(work.segments[0]);
+  const std::span even(work.even);
+  const auto n_inner = static_cast<size_t>(work.n_inner);
   if (share != Share::outer) {
     parallel::for_shares(std::ssize(work.written), [&](std::int64_t i) {
-      const std::int64_t chunk = work.written[i];
-      clear(sums, chunk * parallel::chunk_size, end_of(chunk));
+      with_blocks(sweep.body, work.written[i],
+                  [&](auto begin, auto end) { clear(sums, begin, end); });
     });
-    work_segments(even.first(work.n_inner));
+    work_segments(even.first(n_inner));
   }
   if (share == Share::inner) return;
-  work_segments(even.subspan(work.n_inner));
-  work_segments(work.segments[1]);
+  work_segments(even.subspan(n_inner));
+  work_segments(work.odd);
   for_chunks_of(sweep.body, Share::whole,
                 [&](auto begin, auto end, auto) { sums.use(sweep, begin, end); });
 }
@@ -242,7 +301,17 @@ template <int Dim>
 void sum_forces_of_stage(const MomentumSweep<Dim>& sweep,
                          MomentumFunction<Dim> momentum,
                          const MakeRecords& make_records) {
-  sum_runs_of_stage<Dim>(sweep, momentum, {sweep.body.T, Dim + 1, put_forces<Dim>}, make_records);
+  const RunSums<Dim> sums{sweep.body.T, Dim + 1, put_forces<Dim>};
+  sum_runs_of_stage<Dim>({sweep, momentum, sums, make_records});
+}
+
+template <int Dim>
+void sum_forces_of_stage(const MomentumSweep<Dim>& sweep,
+                         MomentumFunction<Dim> momentum,
+                         const MakeRecords& make_records,
+                         StageShare share) {
+  const RunSums<Dim> sums{sweep.body.T, Dim + 1, put_forces<Dim>};
+  sum_runs_of_stage<Dim>({sweep, momentum, sums, make_records}, share);
 }
 
 template <int Dim>
@@ -269,6 +338,14 @@ template void sum_forces(const MomentumSweep<2>&, MomentumFunction<2>, Share);
 template void sum_forces(const MomentumSweep<3>&, MomentumFunction<3>, Share);
 template void sum_forces_of_stage(const MomentumSweep<2>&, MomentumFunction<2>, const MakeRecords&);
 template void sum_forces_of_stage(const MomentumSweep<3>&, MomentumFunction<3>, const MakeRecords&);
+template void sum_forces_of_stage(const MomentumSweep<2>&,
+                                  MomentumFunction<2>,
+                                  const MakeRecords&,
+                                  StageShare);
+template void sum_forces_of_stage(const MomentumSweep<3>&,
+                                  MomentumFunction<3>,
+                                  const MakeRecords&,
+                                  StageShare);
 template void sum_moments(const MomentumSweep<2>&, MomentumFunction<2>, Share);
 template void sum_moments(const MomentumSweep<3>&, MomentumFunction<3>, Share);
 template void take_moments(Body<2>&);

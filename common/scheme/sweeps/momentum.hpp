@@ -19,6 +19,7 @@
 
 #include "common/scheme/body/body.hpp"
 #include "common/scheme/dissipation/dissipation.hpp"
+#include "common/scheme/ranks/run_work.hpp"
 #include "common/scheme/ranks/share.hpp"
 
 #include <functional>
@@ -67,14 +68,21 @@ void sum_forces(const MomentumSweep<Dim>& sweep,
 /// Makes the records of the blocks [begin, end) of a chunk.
 using MakeRecords = std::function<void(std::int64_t begin, std::int64_t end, std::int64_t chunk)>;
 
-/// Runs of one rank: makes the records of all blocks and sums the forces in the same pass, those of
-/// a chunk while the records that they read are in the caches (graph/work_order.hpp). The same bits
-/// as one after the other.
+/// Runs: makes the records of all blocks and sums the forces in the same pass, those of a chunk
+/// while the records that they read are in the caches (graph/work_order.hpp). The same bits as one
+/// after the other. Not among ranks.
 /// @pre the records of a chunk need T of its own nodes at most, which sums replace
 template <int Dim>
 void sum_forces_of_stage(const MomentumSweep<Dim>& sweep,
                          MomentumFunction<Dim> momentum,
                          const MakeRecords& make_records);
+
+/// The same of a rank, a share after the other (ranks/run_work.hpp).
+template <int Dim>
+void sum_forces_of_stage(const MomentumSweep<Dim>& sweep,
+                         MomentumFunction<Dim> momentum,
+                         const MakeRecords& make_records,
+                         StageShare share);
 
 /// The compiled sweep of jump_adjoint.hpp.
 template <int Dim>

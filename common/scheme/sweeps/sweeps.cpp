@@ -63,6 +63,8 @@ void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
     const auto sweep = momentum_sweep(body, wants_bound(with_step));
     sweep_with(body, {&Body<Dim>::records, &Body<Dim>::frames},
                [&](Share share) { scheme::sum_forces(sweep, momentum_, share); });
+    complete(body, {&numerical_power_, &limited_pairs_},
+             options_.dissipation.limiter == PairLimiter::none ? 1 : 2);
   }
   made_ = Following::nothing;
   if (body.bulk) {
@@ -75,11 +77,7 @@ void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
       largest_rate_[chunk] = geometric_rate_ * largest_speed(body, begin, end);
     });
   }
-  if (options_.dissipation.limiter == PairLimiter::none) {
-    complete(body, {&numerical_power_, &largest_rate_}, with_step ? 2 : 1);
-  } else {
-    complete(body, {&numerical_power_, &limited_pairs_, &largest_rate_}, with_step ? 3 : 2);
-  }
+  if (with_step && speeds != Speeds::linearised) complete(body, {&largest_rate_}, 1);
   if (with_step) stable_dt_ = options_.time_step.limit() / rate();
 }
 
@@ -99,12 +97,27 @@ double Sweeps<Dim>::rate() const {
   return rate;
 }
 
-/// Whether forces can follow strain rates chunk by chunk: where no other pass changes the records,
-/// and no other rank has some of them.
+/// Whether forces can follow strain rates chunk by chunk: where no other pass changes the records.
 template <int Dim>
 bool Sweeps<Dim>::is_one_pass(const Body<Dim>& body) const {
-  return body.in_runs() && !body.division && options_.face_correction == 0 &&
-         !body.options.has_frames && moments_ == nullptr;
+  return body.in_runs() && options_.face_correction == 0 && !body.options.has_frames &&
+         moments_ == nullptr;
+}
+
+template <int Dim>
+void Sweeps<Dim>::sum_stage(Body<Dim>& body, bool with_bound, const MakeRecords& make_records) {
+  const MomentumSweep<Dim> forces = momentum_sweep(body, with_bound);
+  if (!body.division) {
+    sum_forces_of_stage(forces, momentum_, make_records);
+    return;
+  }
+  const auto work = [&](StageShare share) {
+    sum_forces_of_stage(forces, momentum_, make_records, share);
+  };
+  while_bringing(body, {&Body<Dim>::v}, [&] { work(StageShare::secluded); });
+  work(StageShare::border);
+  while_bringing(body, {&Body<Dim>::records}, [&] { work(StageShare::inner); });
+  work(StageShare::outer);
 }
 
 template <int Dim>
@@ -125,10 +138,13 @@ void Sweeps<Dim>::strain_rates(Body<Dim>& body,
                                    drift != 0 ? old_power_.data() : nullptr};
   made_ = is_one_pass(body) ? following : Following::nothing;
   if (made_ != Following::nothing) {
-    const auto forces = momentum_sweep(body, wants_bound(following == Following::forces_and_step));
-    scheme::sum_forces_of_stage(forces, momentum_, [&](auto begin, auto end, auto chunk) {
-      strain_rates_(sweep, begin, end, chunk);
-    });
+    sum_stage(body, wants_bound(following == Following::forces_and_step),
+              [&](auto begin, auto end, auto chunk) { strain_rates_(sweep, begin, end, chunk); });
+    complete(body,
+             {&least_J_, &viscous_dissipation_, &numerical_power_, &old_power_, &limited_pairs_},
+             options_.dissipation.limiter != PairLimiter::none ? 5
+             : drift != 0                                      ? 4
+                                                               : 3);
     return;
   }
   if (kappa_f != 0) {

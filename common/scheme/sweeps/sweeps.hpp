@@ -92,6 +92,7 @@ class Sweeps {
     return with_step && options_.time_step.speeds == Speeds::exact;
   }
   MomentumSweep<Dim> momentum_sweep(Body<Dim>& body, bool with_bound);
+  void sum_stage(Body<Dim>& body, bool with_bound, const MakeRecords& make_records);
 
   std::shared_ptr<const MaterialModel> material_;
   SweepOptions options_;

@@ -15,6 +15,8 @@
 #include <cmath>
 #include <random>
 
+extern template class diptych::scheme::CompiledMaterial<diptych::physics::MooneyRivlin>;
+
 namespace diptych::tests {
 
 using algebra::Vec3;
