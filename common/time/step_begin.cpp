@@ -50,8 +50,8 @@ void StepBegin<Dim>::list_places(const MovingBody<Dim>& moving) {
   int offset = 0;
   for (const scheme::Field<Dim>& field : body.fields()) {
     // of the last evaluation: what the next step begins with, and what its budget is made of
-    const bool is_force =
-        is_leapfrog_ && (field.name == "T" || field.name == "P" || field.name == "moments");
+    const bool is_force = is_leapfrog_ && (field.name == "T" || field.name == "P" ||
+                                           field.name == "plain P" || field.name == "moments");
     if (field.role != scheme::Role::unknown && !is_force) continue;
     offset = field.name == last ? offset : 0;  // H_33 stands behind H in plane
     Place place{field.table, field.block, field.first, field.n_components, nullptr, -1, offset};
