@@ -1,7 +1,10 @@
 #include "common/scheme/boundary/resolved_load.hpp"
 
+#include "common/base/error.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 
 namespace diptych::scheme {
@@ -83,6 +86,29 @@ Value zero() {
   } else {
     return Value::Zero();
   }
+}
+
+/// Refuses a load that nodes see but no point of any face, so that nothing tells how much it is.
+/// Where all corners of a face see it, as of what is said of a curved surface, faces are only flat.
+template <class Value>
+void require_seen_in_faces(const std::vector<Value>& nodes,
+                           std::span<const Vec3> X,
+                           std::span<const LoadedFace> faces) {
+  const auto acts_at = [&](std::int32_t a) { return size_of(nodes[static_cast<size_t>(a)]) > 0; };
+  const LoadedFace* found = nullptr;
+  for (const LoadedFace& face : faces) {
+    const auto corners = std::span(face.corner).first(static_cast<size_t>(face.n_corners));
+    if (std::all_of(corners.begin(), corners.end(), acts_at)) return;
+    if (found == nullptr && std::any_of(corners.begin(), corners.end(), acts_at)) found = &face;
+  }
+  if (found == nullptr) return;
+  const Vec3& at =
+      X[static_cast<size_t>(*std::find_if(found->corner.begin(), found->corner.end(), acts_at))];
+  throw base::InputError(fmt::format(
+      "a load acts at the node at ({:.6g}, {:.6g}, {:.6g}) m, but at none of {} places in each "
+      "face "
+      "around it: it has hardly an area; give it one that is a hundredth of a face or more",
+      at.x(), at.y(), at.z(), 2 * n_points));
 }
 
 /// Faces with points in them.
@@ -190,7 +216,10 @@ Survey survey(const FieldFunction<Value>& load,
   std::vector<char> wanted;
   size_t n_seen = 0;
   for (size_t i = 0; i < instants.size(); ++i) {
-    if (largest[i] == 0) continue;
+    if (largest[i] == 0) {
+      require_seen_in_faces(nodes[i], X, faces);
+      continue;
+    }
     ++n_seen;
     std::vector<char> now(faces.size());
     for (size_t p = 0; p < faces.size(); ++p)

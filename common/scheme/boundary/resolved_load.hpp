@@ -31,7 +31,7 @@ std::vector<LoadedFace> faces_of(const BoundaryPatch& patch);
 /// @param X      [nodes] m
 /// @param area   [nodes] their shares of it  [m^2]
 /// @param faces  of which the nodes are the corners
-/// @throws base::InputError where the load has no value
+/// @throws base::InputError where the load has no value, or acts at nodes but on hardly any area
 template <class Value>
 std::unique_ptr<PlacedField<Value>> resolved_load(const FieldFunction<Value>& load,
                                                   std::span<const Vec3> X,

@@ -2,6 +2,7 @@
 
 #include "common/scheme/boundary/resolved_load.hpp"
 
+#include "common/base/error.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -112,6 +113,16 @@ TEST_P(ResolvedLoad, HasTheForceOfItsIntegral) {
        std::numbers::pi / 2500, 5e-3}};
   for (const auto& [name, load, force, most] : loads)
     EXPECT_NEAR(side_.force(load, {0}, 0), force, most * force) << name;
+}
+
+TEST_P(ResolvedLoad, IsRefusedWhereItActsOnNodesAlone) {
+  EXPECT_THROW(side_.force([](const Vec3& X, double) { return X[0] > 0.9999; }, {0}, 0),
+               base::InputError);
+  // the nodes of a curved side lie on it, its faces do not
+  const Load curved = [](const Vec3& X, double) {
+    return std::abs(std::remainder(X[0], 0.1)) + std::abs(std::remainder(X[1], 0.1)) < 1e-9 ? 1 : 0;
+  };
+  EXPECT_NEAR(side_.force(curved, {0}, 0), 1, 0.01);
 }
 
 TEST_P(ResolvedLoad, GoesWithALoadThatTravels) {
