@@ -41,6 +41,8 @@ class CaseObservers {
   void open();
   /// In the order in which they are to be told.
   std::vector<run::Observer*> all();
+  /// J, what rounding makes of the energies of the body (run::EnergyUnits).
+  double energy_rounding() const { return units_.rounding; }
   /// What is to be told of the exact solution: nothing unless the run begins with another motion.
   std::optional<std::string> notice_of_exact() const;
   /// Path and time [s] of the last frame of fields; an empty path where there is none.

@@ -105,6 +105,7 @@ class CaseRun {
   void note_running_memory();
   void note_breakdown();
   void note_dissipation();
+  std::optional<std::string> notice_of_rounding() const;
   void note_contradictions();
   void measure();
   void finish();
@@ -274,8 +275,24 @@ void CaseRun::note_dissipation() {
   tell(s.notices.back());
 }
 
+/// Where a body moves, but so little that nothing can be said of its energies.
+std::optional<std::string> CaseRun::notice_of_rounding() const {
+  const double rounding = observers_->energy_rounding();
+  double kinetic = 0, strain = 0;
+  for (const io::HistoryRow& row : result_.history) {
+    kinetic = std::max(kinetic, row.energy.kinetic);
+    strain = std::max(strain, std::abs(row.energy.strain));
+  }
+  if (kinetic <= 1e-12 * rounding || std::max(kinetic, strain) > rounding) return std::nullopt;
+  return fmt::format(
+      "strains are below 1e-8: strain energy is what rounding leaves of it (up to {:.1g} J), and "
+      "neither the energy budget nor its guards say anything; scale loads or velocities up",
+      rounding);
+}
+
 void CaseRun::note_contradictions() {
-  for (const auto& notice : {wall_watch_->notice(), observers_->notice_of_exact()}) {
+  for (const auto& notice :
+       {wall_watch_->notice(), observers_->notice_of_exact(), notice_of_rounding()}) {
     if (!notice) continue;
     result_.summary.notices.push_back(*notice);
     tell(*notice);

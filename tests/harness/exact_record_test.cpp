@@ -85,6 +85,17 @@ TEST(ExactRecord, SaysWhereItBeginsWithAnotherMotion) {
   EXPECT_THAT(run_case(cases::case_from_text(text, "scene"), options).summary.notices, told);
 }
 
+TEST(Notices, TellOfEnergiesThatAreRounding) {
+  RunOptions options;
+  options.threads = 1;
+  options.quiet = true;
+  std::string text = swinging.substr(0, swinging.find("[exact]"));
+  text.replace(text.find("END"), 3, "0.1");
+  text.replace(text.find("U = 1e-3"), 8, "U = 1e-9");
+  EXPECT_THAT(run_case(cases::case_from_text(text, "scene"), options).summary.notices,
+              testing::Contains(testing::HasSubstr("strains are below 1e-8")));
+}
+
 TEST(ExactRecord, HoldsProbesKineticEnergyAndMomentaThatAreNotZero) {
   RunOptions options;
   options.threads = 1;
