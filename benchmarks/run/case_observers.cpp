@@ -40,7 +40,8 @@ run::NodesAround nodes_around(const meshes::Mesh& mesh) {
 
 CaseObservers::CaseObservers(const cases::Case& setup,
                              const RunOptions& options,
-                             const Scene& scene)
+                             const Scene& scene,
+                             double spacing)
     : setup_(setup),
       options_(options),
       scene_(scene),
@@ -56,6 +57,7 @@ CaseObservers::CaseObservers(const cases::Case& setup,
       exact_(setup, *scene.solver, survey_of_exact, probes_),
       fields_(scene.mesh.order, run::probe_columns(setup.probes, false), history_),
       progress_(setup, options, history_),
+      walls_(setup, scene.mesh.mesh, spacing),
       energy_guard_(
           scene.solver->balance(), setup.guards.energy_residual, largest_loss(setup), units_),
       involution_guard_(*scene.solver, setup.guards.involution),
@@ -106,6 +108,7 @@ std::vector<run::Observer*> CaseObservers::all() {
   if (shapes_) all.push_back(&*shapes_);
   all.push_back(&steps_);
   all.push_back(&progress_);
+  all.push_back(&walls_);
   // last: what they stop at has been written
   all.push_back(&energy_guard_);
   all.push_back(&involution_guard_);
@@ -117,7 +120,7 @@ std::vector<run::Observer*> CaseObservers::all() {
 std::optional<std::string> CaseObservers::notice_of_exact() const {
   constexpr double most = 0.5;  // a jump in the initial state may fall between two nodes
   for (const auto& [field, error] : exact_.errors().relative_at_first()) {
-    if ((field != "displacement" && field != "velocity") || error <= most) continue;
+    if ((field != "displacement" && field != "velocity") || !(error > most)) continue;
     return fmt::format(
         "at the first output {} of the exact solution is not that of the run: they differ by "
         "{:.0f} % of its largest norm, so that errors say how far two motions are apart",

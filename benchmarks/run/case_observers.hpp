@@ -6,6 +6,7 @@
 #include "benchmarks/run/run_case.hpp"
 #include "benchmarks/run/scene.hpp"
 #include "benchmarks/run/shape_recorder.hpp"
+#include "benchmarks/run/wall_watch.hpp"
 #include "common/run/observers/cell_guard.hpp"
 #include "common/run/observers/cell_watch.hpp"
 #include "common/run/observers/cells.hpp"
@@ -31,8 +32,12 @@ class CaseObservers {
  public:
   /// Writes nothing yet.
   /// @param setup, options, scene  kept by reference
+  /// @param spacing  of the nodes  [m]
   /// @throws base::InputError on a probe that has no place in the body
-  CaseObservers(const cases::Case& setup, const RunOptions& options, const Scene& scene);
+  CaseObservers(const cases::Case& setup,
+                const RunOptions& options,
+                const Scene& scene,
+                double spacing);
 
   /// Where it goes on from a checkpoint, which has been loaded: what it needs of the files that it
   /// has written before is there. @throws base::InputError where it is not
@@ -43,6 +48,8 @@ class CaseObservers {
   std::vector<run::Observer*> all();
   /// J, what rounding makes of the energies of the body (run::EnergyUnits).
   double energy_rounding() const { return units_.rounding; }
+  /// What is to be told of walls that the body went through.
+  std::optional<std::string> notice_of_walls() const { return walls_.notice(); }
   /// What is to be told of the exact solution: nothing unless the run begins with another motion.
   std::optional<std::string> notice_of_exact() const;
   /// Path and time [s] of the last frame of fields; an empty path where there is none.
@@ -65,6 +72,7 @@ class CaseObservers {
   run::ExactComparison exact_;
   run::Fields fields_;
   ProgressObserver progress_;
+  WallWatch walls_;
   std::optional<run::FieldScales> scales_;
   std::optional<ShapeRecorder> shapes_;
   std::optional<run::CellWatch> cell_watch_;

@@ -12,7 +12,6 @@
 #include "benchmarks/run/resumption.hpp"
 #include "benchmarks/run/run_folder.hpp"
 #include "benchmarks/run/run_identity.hpp"
-#include "benchmarks/run/wall_watch.hpp"
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
 #include "common/io/checkpoint_file.hpp"
@@ -120,7 +119,6 @@ class CaseRun {
   RunResult result_;
   std::unique_ptr<Scene> scene_;
   std::optional<CaseObservers> observers_;
-  std::optional<WallWatch> wall_watch_;
   FirstStep first_step_{[this] { note_running_memory(); }};
   std::optional<run::Simulation> simulation_;
 };
@@ -136,11 +134,9 @@ CaseRun::CaseRun(const cases::Case& setup, const RunOptions& options)
   result_.summary.notices = scene_->notices;
   for (const std::string& notice : scene_->notices)
     tell(notice);
-  observers_.emplace(setup, options, *scene_);
+  observers_.emplace(setup, options, *scene_, result_.summary.spacing);
   std::vector<run::Observer*> observers = observers_->all();
   observers.push_back(&first_step_);
-  wall_watch_.emplace(setup, scene_->mesh.mesh, result_.summary.spacing);
-  observers.push_back(&*wall_watch_);
   simulation_.emplace(setup_, *scene_->solver, std::move(observers), interrupt_requested);
   if (!options.checkpoint.empty()) go_on();
   folder_.check();
@@ -292,7 +288,7 @@ std::optional<std::string> CaseRun::notice_of_rounding() const {
 
 void CaseRun::note_contradictions() {
   for (const auto& notice :
-       {wall_watch_->notice(), observers_->notice_of_exact(), notice_of_rounding()}) {
+       {observers_->notice_of_walls(), observers_->notice_of_exact(), notice_of_rounding()}) {
     if (!notice) continue;
     result_.summary.notices.push_back(*notice);
     tell(*notice);

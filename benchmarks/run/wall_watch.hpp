@@ -19,6 +19,7 @@ class WallWatch : public run::Observer {
 
   /// Looks at boundary nodes that no wall knows, at most at 2000 evenly chosen ones per wall.
   void at_output(const run::Output& output) override;
+  void at_breakdown(const run::Output& output) override { at_output(output); }
   void archive(algebra::Archive& archive) override;
 
   /// What is to be told: nothing unless a node that was in front of a wall came behind it by more

@@ -35,23 +35,16 @@ void ExactErrors::archive(algebra::Archive& archive) {
   }
 }
 
-namespace {
-
-double ratio(double error, double scale) {
-  return scale > 0 ? error / scale : error;
-}
-
-}  // namespace
-
 std::map<std::string, double> ExactErrors::relative_at_first() const {
   std::map<std::string, double> result;
   for (const auto& [name, norms] : norms_)
-    result[name] = ratio(norms.first, norms.scale.l2);
+    result[name] = norms.scale.l2 > 0 ? norms.first / norms.scale.l2 : 0;
   return result;
 }
 
 std::map<std::string, io::ErrorNorms> ExactErrors::relative() const {
   std::map<std::string, io::ErrorNorms> result;
+  const auto ratio = [](double error, double scale) { return scale > 0 ? error / scale : error; };
   for (const auto& [name, norms] : norms_) {
     result[name] = {ratio(norms.error.l1, norms.scale.l1), ratio(norms.error.l2, norms.scale.l2),
                     ratio(norms.error.linf, norms.scale.linf)};

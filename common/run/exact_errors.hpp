@@ -18,7 +18,7 @@ class ExactErrors {
   void measure(const ExactSums& sums);
   /// Norms of the last sums by field name, relative to the scales seen so far.
   std::map<std::string, io::ErrorNorms> relative() const;
-  /// L2 norms of the first sums, relative to the scales seen so far.
+  /// L2 norms of the first sums, relative to the scales seen so far; 0 where these are.
   std::map<std::string, double> relative_at_first() const;
   /// The largest L2 norm of each exact field so far.
   std::map<std::string, double> scales() const;

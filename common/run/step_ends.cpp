@@ -174,35 +174,79 @@ Instants seen_at(std::span<const algebra::Vec3> places,
       functions::most_per_step, dt));
 }
 
-/// Leapfrog's energy is off by dt^2/8 sum m |a|^2 while a load acts, and for good by what that
-/// differs by when the load sets in and stops (notes 5.6). A traction p brings p^2 t/(rho c) in a
-/// time t, and that term is dt^2 p^2/(4 rho h): they are as 1 to 200 where steps are no longer than
-/// sqrt(t dt/50), with the stable step dt for h/c.
-/// @param sets_in  sets_in(begin, end): whether anything does so or stops at once there
-template <class SetsIn>
-void add_ends_between_jumps(std::vector<StepEnd>& ends, double dt, const SetsIn& sets_in) {
-  constexpr double steps_of_long_load = 50;
-  std::vector<StepEnd> all;
-  std::vector<double> since;  // ends since the last jump, the first at it
-  since.push_back(0);
-  for (const StepEnd& next : ends) {
-    since.push_back(next.before);
-    if (next.before == next.after) continue;
-    const double longest = sets_in(since.front(), next.before)
-                               ? std::sqrt((next.before - since.front()) * dt / steps_of_long_load)
-                               : std::numeric_limits<double>::infinity();
-    for (size_t k = 1; k < since.size(); ++k) {
-      const double part = since[k] - since[k - 1];
-      const double n = longest < dt ? std::ceil(part / longest * (1 - 1e-9)) : 1;
-      for (double i = 1; i < n; ++i)
-        all.push_back({since[k - 1] + part * i / n, since[k - 1] + part * i / n});
-      if (k + 1 < since.size()) all.push_back({since[k], since[k]});
-    }
-    all.push_back(next);
-    since.assign(1, next.after);
+/// How much an action changes between two instants, and the most that it is at them: at the place
+/// where that is most.
+struct Change {
+  double jump = 0, size = 0;
+};
+
+Change change_of(const functions::Expression& action,
+                 std::span<const algebra::Vec3> places,
+                 double before,
+                 double after) {
+  const algebra::Vec3 origin = algebra::Vec3::Zero();
+  const auto at = action.depends_on_position() ? places : std::span(&origin, 1);
+  Change most;
+  for (const algebra::Vec3& X : at) {
+    const double a = action(X, before), b = action(X, after);
+    most.jump = std::max(most.jump, std::abs(b - a));
+    most.size = std::max({most.size, std::abs(a), std::abs(b)});
   }
-  for (size_t k = 1; k < since.size(); ++k)
-    all.push_back({since[k], since[k]});
+  return most;
+}
+
+/// Where an action sets in, stops or changes at once: indices of these ends, -1 for t = 0.
+std::vector<std::ptrdiff_t> jumps_of(const functions::Expression& action,
+                                     std::span<const algebra::Vec3> places,
+                                     const std::vector<StepEnd>& ends) {
+  constexpr double worth_following = 1e-3;
+  double largest = 0;
+  std::vector<std::pair<std::ptrdiff_t, double>> all;
+  all.emplace_back(-1, change_of(action, places, 0, 0).size);
+  for (size_t k = 0; k < ends.size(); ++k) {
+    const Change change = change_of(action, places, ends[k].before, ends[k].after);
+    largest = std::max(largest, change.size);
+    if (ends[k].is_jump) all.emplace_back(static_cast<std::ptrdiff_t>(k), change.jump);
+  }
+  largest = std::max(largest, all.front().second);
+  std::vector<std::ptrdiff_t> jumps;
+  for (const auto& [k, jump] : all)
+    if (jump > worth_following * largest) jumps.push_back(k);
+  return jumps;
+}
+
+/// Leapfrog's energy is off by dt^2/8 sum m |a|^2 while a load acts, and for good by what that
+/// differs by where the load sets in and stops (notes 5.6). A traction p brings p^2 t/(rho c) in a
+/// time t, and that term is dt^2 p^2/(4 rho h): they are as 1 to 200 where steps are no longer than
+/// sqrt(t dt/50), with the stable step dt for h/c. What joins place and time has steps of its own.
+void add_ends_between_jumps(std::vector<StepEnd>& ends,
+                            double dt,
+                            const Actions& actions,
+                            std::span<const algebra::Vec3> places) {
+  constexpr double steps_of_long_load = 50;
+  std::vector<double> longest(ends.size(), std::numeric_limits<double>::infinity());
+  for (const functions::Expression& action : actions) {
+    if (!action.depends_on_time() || action.joins_place_and_time()) continue;
+    const std::vector<std::ptrdiff_t> jumps = jumps_of(action, places, ends);
+    for (size_t j = 1; j < jumps.size(); ++j) {
+      const double begin = jumps[j - 1] < 0 ? 0 : ends[static_cast<size_t>(jumps[j - 1])].after;
+      const double end = ends[static_cast<size_t>(jumps[j])].before;
+      if (change_of(action, places, begin, end).size == 0) continue;
+      const double step = std::sqrt((end - begin) * dt / steps_of_long_load);
+      for (std::ptrdiff_t k = jumps[j - 1] + 1; k <= jumps[j] && step < dt; ++k)
+        longest[static_cast<size_t>(k)] = std::min(longest[static_cast<size_t>(k)], step);
+    }
+  }
+  std::vector<StepEnd> all;
+  double begin = 0;
+  for (size_t k = 0; k < ends.size(); ++k) {
+    const double part = ends[k].before - begin;
+    const double n = std::ceil(part / longest[k] * (1 - 1e-9));
+    for (double i = 1; i < n; ++i)
+      all.push_back({begin + part * i / n, begin + part * i / n});
+    all.push_back(ends[k]);
+    begin = ends[k].after;
+  }
   ends = std::move(all);
 }
 
@@ -227,7 +271,7 @@ std::vector<StepEnd> step_ends(const cases::Case& setup,
   std::vector<StepEnd> of_all;
   for (const Instants* seen : {&everywhere, &std::as_const(instants)}) {
     for (const double after : seen->jumps)
-      of_all.push_back({std::nextafter(after, 0), after});
+      of_all.push_back({std::nextafter(after, 0), after, true});
     for (const double t : seen->others)
       of_all.push_back({t, t});
   }
@@ -245,20 +289,10 @@ std::vector<StepEnd> step_ends(const cases::Case& setup,
       ends.push_back(next);
     } else {
       ends.back().after = std::max(ends.back().after, next.after);
+      ends.back().is_jump |= next.is_jump;
     }
   }
-  if (setup.time.integrator != "leapfrog") return ends;
-  add_ends_between_jumps(ends, dt, [&](double t_0, double t_1) {
-    return std::any_of(actions.begin(), actions.end(), [&](const functions::Expression& action) {
-      const auto sets_in_at = [&](const algebra::Vec3& X) {
-        const double at_ends = std::max(std::abs(action(X, t_0)), std::abs(action(X, t_1)));
-        return at_ends > 1e-3 * std::abs(action(X, (t_0 + t_1) / 2));
-      };
-      return action.depends_on_time() &&
-             (action.depends_on_position() ? std::any_of(places.begin(), places.end(), sets_in_at)
-                                           : sets_in_at(algebra::Vec3::Zero()));
-    });
-  });
+  if (setup.time.integrator == "leapfrog") add_ends_between_jumps(ends, dt, actions, places);
   return ends;
 }
 

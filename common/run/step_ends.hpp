@@ -1,7 +1,8 @@
 #pragma once
 /// Instants at which steps end because of what a case prescribes in time (notes 5.7): where
-/// tractions, pressures, body forces and velocities of supports jump, and wherever steps could not
-/// follow them otherwise. Test: tests/common/run/step_ends_test.cpp
+/// tractions, pressures, body forces and velocities of supports jump, wherever steps could not
+/// follow them otherwise and, of leapfrog, where what sets in or stops at once acts for few steps.
+/// Test: tests/common/run/step_ends_test.cpp
 
 #include "common/cases/case.hpp"
 
@@ -10,9 +11,11 @@
 
 namespace diptych::run {
 
-/// A step ends at `before` and the next one begins at `after`: the same but at a jump  [s].
+/// A step ends at `before` and the next one begins at `after`: the same but at a jump, or where
+/// that is as good as an instant of output  [s].
 struct StepEnd {
   double before = 0, after = 0;
+  bool is_jump = false;
 };
 
 /// @param dt      of steps that nothing hinders  [s]

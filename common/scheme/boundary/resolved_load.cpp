@@ -88,27 +88,16 @@ Value zero() {
   }
 }
 
-/// Refuses a load that nodes see but no point of any face, so that nothing tells how much it is.
-/// Where all corners of a face see it, as of what is said of a curved surface, faces are only flat.
+/// Refuses a load that nodes see but no point of any face.
 template <class Value>
-void require_seen_in_faces(const std::vector<Value>& nodes,
-                           std::span<const Vec3> X,
-                           std::span<const LoadedFace> faces) {
-  const auto acts_at = [&](std::int32_t a) { return size_of(nodes[static_cast<size_t>(a)]) > 0; };
-  const LoadedFace* found = nullptr;
-  for (const LoadedFace& face : faces) {
-    const auto corners = std::span(face.corner).first(static_cast<size_t>(face.n_corners));
-    if (std::all_of(corners.begin(), corners.end(), acts_at)) return;
-    if (found == nullptr && std::any_of(corners.begin(), corners.end(), acts_at)) found = &face;
-  }
-  if (found == nullptr) return;
-  const Vec3& at =
-      X[static_cast<size_t>(*std::find_if(found->corner.begin(), found->corner.end(), acts_at))];
+[[noreturn]] void refuse_unseen(const std::vector<Value>& nodes, std::span<const Vec3> X) {
+  size_t a = 0;
+  while (size_of(nodes[a]) == 0)
+    ++a;
   throw base::InputError(fmt::format(
       "a load acts at the node at ({:.6g}, {:.6g}, {:.6g}) m, but at none of {} places in each "
-      "face "
-      "around it: it has hardly an area; give it one that is a hundredth of a face or more",
-      at.x(), at.y(), at.z(), 2 * n_points));
+      "face around it: it has hardly an area; give it one that is a hundredth of a face or more",
+      X[a].x(), X[a].y(), X[a].z(), 2 * n_points));
 }
 
 /// Faces with points in them.
@@ -188,6 +177,18 @@ struct Survey {
   std::vector<Vec3> areas;  ///< [nodes] int N phi_a dA over all faces  [m^2]
 };
 
+/// Whether a load acts at nodes, but not at all corners of any face. Else, where no place within
+/// faces sees it, it is said of a curved side, and faces are only flat.
+template <class Value>
+bool is_of_nodes_alone(const std::vector<Value>& nodes, std::span<const LoadedFace> faces) {
+  const auto acts_at = [&](std::int32_t a) { return size_of(nodes[static_cast<size_t>(a)]) > 0; };
+  return std::any_of(nodes.begin(), nodes.end(), [](const Value& v) { return size_of(v) > 0; }) &&
+         std::none_of(faces.begin(), faces.end(), [&](const LoadedFace& face) {
+           const auto corners = std::span(face.corner).first(static_cast<size_t>(face.n_corners));
+           return std::all_of(corners.begin(), corners.end(), acts_at);
+         });
+}
+
 template <class Value>
 Survey survey(const FieldFunction<Value>& load,
               std::span<const Vec3> X,
@@ -202,7 +203,7 @@ Survey survey(const FieldFunction<Value>& load,
   for (const double t : instants)
     nodes.push_back(at_nodes.at(t));
   std::vector<std::vector<double>> rest(instants.size(), std::vector<double>(faces.size()));
-  std::vector<double> largest(instants.size(), 0);
+  std::vector<double> largest(instants.size(), 0), missed_most = largest;
   for (size_t first = 0; first < faces.size(); first += at_a_time) {
     const auto some = faces.subspan(first, std::min(at_a_time, faces.size() - first));
     const Integrals<Value> integrals(load, X, {some.begin(), some.end()}, found.areas);
@@ -210,16 +211,16 @@ Survey survey(const FieldFunction<Value>& load,
       integrals.at(instants[i], nodes[i], [&](size_t p, const auto&, double missed, double all) {
         rest[i][first + p] = missed;
         largest[i] = std::max(largest[i], all);
+        missed_most[i] = std::max(missed_most[i], missed);
       });
     }
   }
   std::vector<char> wanted;
   size_t n_seen = 0;
   for (size_t i = 0; i < instants.size(); ++i) {
-    if (largest[i] == 0) {
-      require_seen_in_faces(nodes[i], X, faces);
-      continue;
-    }
+    if (largest[i] == 0 && !is_of_nodes_alone(nodes[i], faces)) continue;
+    if (largest[i] == 0 && instants.size() == 1) refuse_unseen(nodes[i], X);
+    if (largest[i] == 0) largest[i] = missed_most[i];
     ++n_seen;
     std::vector<char> now(faces.size());
     for (size_t p = 0; p < faces.size(); ++p)

@@ -234,7 +234,9 @@ void sum_runs_of_stage(const StageWork<Dim>& work, StageShare share) {
       return;
     case StageShare::outer:
       for_segments(even.subspan(n_inner));
-      work.use(runs.finished);
+      parallel::for_shares(std::ssize(runs.finished), [&](std::int64_t i) {
+        work.use(std::span(runs.finished).subspan(i, 1));
+      });
       for_segments(runs.odd);
       return;
   }

@@ -118,6 +118,10 @@ TEST_P(ResolvedLoad, HasTheForceOfItsIntegral) {
 TEST_P(ResolvedLoad, IsRefusedWhereItActsOnNodesAlone) {
   EXPECT_THROW(side_.force([](const Vec3& X, double) { return X[0] > 0.9999; }, {0}, 0),
                base::InputError);
+  // fronts and spots that begin at a node have no area then, but later
+  const Load front = [](const Vec3& X, double t) { return X[0] <= t; };
+  EXPECT_NEAR(side_.force(front, {0, 0.31, 0.73}, 0.45, true), 0.45, 5e-3);
+  EXPECT_NEAR(side_.force(front, {0, 0.31, 0.73}, 0, true), 0, 1e-9);
   // the nodes of a curved side lie on it, its faces do not
   const Load curved = [](const Vec3& X, double) {
     return std::abs(std::remainder(X[0], 0.1)) + std::abs(std::remainder(X[1], 0.1)) < 1e-9 ? 1 : 0;

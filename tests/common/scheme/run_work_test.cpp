@@ -123,21 +123,23 @@ TEST_P(RunWorkOf, HasRecordsFirstAndKeepsTheOrderOfSums) {
     OneOf ranks(rank, 3);
     const parallel::Part part(ranks, owner);
     Follower follower(upward, part, n_chunks);
-    std::set<std::int64_t> outer;  // and sent: they read what reads them
+    std::set<std::int64_t> outer, sent;
     for (std::int64_t c = 0; c < n_chunks; ++c) {
       for (const std::int64_t at : follower.reached(c)) {
         if (part.owns(c) && !part.owns(at)) outer.insert(c);
-        if (!part.owns(c) && part.owns(at)) outer.insert(at);
+        if (!part.owns(c) && part.owns(at)) sent.insert(at);
       }
     }
     const scheme::RunWork work =
-        scheme::run_work(upward.row, upward.offset, order, part, {outer.begin(), outer.end()}, {});
+        scheme::run_work(upward.row, upward.offset, order, part, {outer.begin(), outer.end()},
+                         {sent.begin(), sent.end()});
     const std::span even(work.even);
     const auto secluded = even.first(static_cast<size_t>(work.n_secluded));
     for (const RankSegment& segment : secluded) {
       for (const std::int32_t c : segment.forces) {
         for (const std::int64_t at : follower.reached(c))
-          EXPECT_TRUE(part.owns(at) && !outer.contains(at)) << "needs velocities of others";
+          EXPECT_TRUE(part.owns(at) && !outer.contains(at) && !sent.contains(at))
+              << "needs velocities of others";
       }
     }
     follower.work(secluded);
@@ -150,6 +152,14 @@ TEST_P(RunWorkOf, HasRecordsFirstAndKeepsTheOrderOfSums) {
     follower.finish(work.finished);
     follower.work(work.odd);
     follower.expect_all_done();
+    std::set<std::int64_t> written(part.own_chunks().begin(), part.own_chunks().end());
+    for (const auto* segments : {&work.even, &work.odd}) {
+      for (const RankSegment& segment : *segments) {
+        for (const std::int32_t c : segment.forces)
+          written.insert(follower.reached(c).begin(), follower.reached(c).end());
+      }
+    }
+    EXPECT_EQ(work.written, std::vector<std::int64_t>(written.begin(), written.end()));
     if (owners == Owners::slabs && cells[2] == 60) {
       EXPECT_GT(work.n_secluded, 0);
     }
