@@ -11,7 +11,6 @@
 namespace diptych::meshes {
 
 double largest_bend(const Mesh& mesh, const BoundaryGroup& group) {
-  constexpr double edge_of_planes = 50;  // degrees
   std::map<std::int32_t, std::vector<Vec3>> normals_at;
   double largest = 0;
   for (const std::int32_t f : group.faces) {

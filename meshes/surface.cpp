@@ -40,7 +40,13 @@ Vec3 tangent(const Vec3& before, const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-Surface::Surface(const Mesh& mesh)
+std::vector<std::int32_t> smooth_sides(const Mesh& mesh) {
+  return Surface(mesh, Surface::Bent::no).side_;
+}
+
+Surface::Surface(const Mesh& mesh) : Surface(mesh, Bent::yes) {}
+
+Surface::Surface(const Mesh& mesh, Bent bent)
     : mesh_(mesh),
       around_(mesh.nodes.size()),
       bulge_(mesh.boundary_faces.size(), {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}),
@@ -58,6 +64,7 @@ Surface::Surface(const Mesh& mesh)
   find_joints();
   find_kinks();
   join_sides();
+  if (bent == Bent::no) return;
   if (mesh.dimension == 2) {
     bend_in_the_plane();
   } else {

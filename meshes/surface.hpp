@@ -32,6 +32,10 @@ struct SurfacePoint {
 inline constexpr std::array<std::array<double, 2>, 3> unit_line{
     {{0.5 - 0.3872983346207417, 5. / 18}, {0.5, 8. / 18}, {0.5 + 0.3872983346207417, 5. / 18}}};
 
+/// Smooth sides of boundary faces: for each a number that those of its side have in common.
+/// @pre as of Surface, of which only nodes, boundary faces and the dimension are read
+std::vector<std::int32_t> smooth_sides(const Mesh& mesh);
+
 class Surface {
  public:
   /// @pre mesh.boundary_faces are filled and outward, and the mesh outlives the surface
@@ -58,6 +62,10 @@ class Surface {
   std::vector<SurfacePoint> points(std::int32_t f, double height) const;
 
  private:
+  friend std::vector<std::int32_t> smooth_sides(const Mesh& mesh);
+  enum class Bent { no, yes };
+  Surface(const Mesh& mesh, Bent bent);
+
   /// Where faces meet: an edge, in the plane a node (nodes[1] = -1).
   struct Joint {
     std::array<std::int32_t, 2> nodes{-1, -1};

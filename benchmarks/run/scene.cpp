@@ -8,6 +8,7 @@
 #include "meshes/cavities.hpp"
 #include "meshes/curved_groups.hpp"
 #include "meshes/parts.hpp"
+#include "meshes/united_groups.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -58,6 +59,14 @@ void note_curved_symmetries(const cases::Case& setup,
           group.name, bend));
     }
   }
+}
+
+/// What loads and areas of probes take each face of once.
+void unite_overlapping_groups(const cases::Case& setup, meshes::Mesh& mesh) {
+  for (const cases::BoundaryCase& boundary : setup.boundaries)
+    meshes::unite_overlapping(boundary.groups, mesh);
+  for (const cases::ProbeCase& probe : setup.probes)
+    meshes::unite_overlapping(probe.groups, mesh);
 }
 
 /// A probe of a force that nothing exerts.
@@ -135,6 +144,7 @@ CaseGraph graph_of(const cases::Case& setup,
   CaseGraph scene;
   require_memory(setup, {method}, {level});
   scene.mesh = mesh_of(setup, level);
+  unite_overlapping_groups(setup, scene.mesh.mesh);
   require_memory(setup, method, level, scene.mesh.mesh);
   if (made) made(ScenePart::mesh, scene);
   scheme::Operators operators = method_menu().at(method)(scene.mesh.mesh, setup);

@@ -2,6 +2,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
+#include "meshes/united_groups.hpp"
 
 #include <vector>
 
@@ -19,6 +20,19 @@ const scheme::BoundaryPatch& boundary_group(const scheme::PairGraph& graph,
                          "'" +
                          (names.empty() ? std::string("; it has none: name its physical groups")
                                         : base::suggestion(name, names)));
+}
+
+std::vector<const scheme::BoundaryPatch*> patches_with_each_face_once(
+    const scheme::PairGraph& graph,
+    const std::vector<std::string>& names,
+    const functions::SourcePlace& where) {
+  std::vector<const scheme::BoundaryPatch*> patches;
+  for (const std::string& name : names)
+    patches.push_back(&boundary_group(graph, name, where));
+  const std::string united = meshes::united_name(names);
+  for (const scheme::BoundaryPatch& patch : graph.patches)
+    if (patch.name == united) patches = {&patch};
+  return patches;
 }
 
 }  // namespace diptych::run

@@ -122,6 +122,17 @@ void follow_motion(const scheme::VectorFunction& velocity, scheme::BoundaryValue
   values.depends_on_time = true;
 }
 
+/// Loads act on a face once. What holds the normals of two groups holds both where they meet.
+std::vector<const scheme::BoundaryPatch*> patches_of(const cases::BoundaryCase& boundary,
+                                                     const scheme::PairGraph& graph) {
+  if (scheme::boundary_menu().at(boundary.type).acts == scheme::BoundaryKind::Acts::load)
+    return patches_with_each_face_once(graph, boundary.groups, boundary.where);
+  std::vector<const scheme::BoundaryPatch*> patches;
+  for (const std::string& group : boundary.groups)
+    patches.push_back(&boundary_group(graph, group, boundary.where));
+  return patches;
+}
+
 scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::PairGraph& graph) {
   std::vector<scheme::PlacedCondition> conditions;
   const std::vector<double> instants = telling_instants(setup);
@@ -142,9 +153,8 @@ scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::Pair
     values.depends_on_time =
         boundary.value.depends_on_time() || boundary.pressure.depends_on_time();
     if (boundary.manufactured) follow_motion(velocity, values);
-    for (const std::string& group : boundary.groups) {
-      conditions.push_back({make(values), &boundary_group(graph, group, boundary.where)});
-    }
+    for (const scheme::BoundaryPatch* patch : patches_of(boundary, graph))
+      conditions.push_back({make(values), patch});
   }
   scheme::check_shared_nodes(graph, conditions, instants);
   scheme::VectorFunction body_force;

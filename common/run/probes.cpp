@@ -3,6 +3,7 @@
 #include "common/base/error.hpp"
 #include "common/run/boundary_group.hpp"
 #include "common/run/interpolation.hpp"
+#include "common/scheme/boundary/patch_faces.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -94,10 +95,10 @@ Probes::PlacedProbe Probes::placed(const cases::ProbeCase& probe,
     result.weights = graph.Omega;
   } else {
     std::map<std::int32_t, double> area;
-    for (const std::string& group : probe.groups) {
-      const scheme::BoundaryPatch& patch = boundary_group(graph, group, probe.where);
-      for (size_t k = 0; k < patch.nodes.size(); ++k)
-        area[patch.nodes[k]] += patch.area[k].norm();
+    for (const auto* patch : patches_with_each_face_once(graph, probe.groups, probe.where)) {
+      const std::vector<double> of_patch = scheme::areas_as_numbers(graph, *patch);
+      for (size_t k = 0; k < of_patch.size(); ++k)
+        area[patch->nodes[k]] += of_patch[k];
     }
     for (const auto& [node, weight] : area) {
       result.nodes.push_back(node);

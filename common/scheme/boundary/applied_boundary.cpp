@@ -3,6 +3,7 @@
 #include "common/algebra/face_areas.hpp"
 #include "common/parallel/agreement.hpp"
 #include "common/scheme/boundary/node_vector.hpp"
+#include "common/scheme/boundary/patch_faces.hpp"
 #include "common/scheme/boundary/resolved_load.hpp"
 #include "common/scheme/boundary/stage_begin.hpp"
 #include "common/scheme/boundary/telling_places.hpp"
@@ -93,7 +94,7 @@ AppliedBoundary::AppliedBoundary(const PairGraph& graph,
     add_telling_places(X_user_, telling_places_);
   }
   place_velocities();
-  place_loads();
+  place_loads(graph);
   std::vector<std::int64_t> chunks;
   for (const ConstrainedNode& c : constrained_)
     chunks.push_back(chunk_of_node(c.node));
@@ -128,21 +129,19 @@ void AppliedBoundary::place_velocities() {
   }
 }
 
-void AppliedBoundary::place_loads() {
+void AppliedBoundary::place_loads(const PairGraph& graph) {
   for (const PlacedCondition& placed : conditions_) {
     GivenLoads& given = given_.emplace_back();
     const BoundaryValues* const values = placed.condition->given();
     if (values == nullptr) continue;
     std::vector<Vec3> X;
-    std::vector<double> share;
-    for (size_t k = 0; k < placed.patch->nodes.size(); ++k) {
-      X.push_back(X_user_[static_cast<size_t>(placed.patch->nodes[k])]);
-      share.push_back(placed.patch->area[k].norm());
-    }
+    for (const std::int32_t node : placed.patch->nodes)
+      X.push_back(X_user_[static_cast<size_t>(node)]);
     add_telling_places(X, telling_places_);
-    const std::vector<LoadedFace> faces = faces_of(*placed.patch);
-    if (values->vector) given.vector = resolved_load(values->vector, X, share, faces);
-    if (values->scalar) given.scalar = resolved_load(values->scalar, X, share, faces);
+    given.sizes = areas_as_numbers(graph, *placed.patch);
+    const std::vector<PatchFace> faces = faces_of(*placed.patch);
+    if (values->vector) given.vector = resolved_load(values->vector, X, given.sizes, faces);
+    if (values->scalar) given.scalar = resolved_load(values->scalar, X, given.sizes, faces);
   }
 }
 
@@ -377,7 +376,8 @@ void AppliedBoundary::evaluate_own_loads(const parallel::Part& part,
     for (size_t k = 0; k < placed.patch->nodes.size(); ++k) {
       const std::int32_t a = placed.patch->nodes[k];
       if (!part.owns(chunk_of_node(a))) continue;
-      LoadedNode node{X_user_[a], placed.patch->area[k], Vec3::Zero(), Mat3::Zero()};
+      LoadedNode node{X_user_[a], placed.patch->area[k], 0, Vec3::Zero(), Mat3::Zero()};
+      if (!given_[c].sizes.empty()) node.size = given_[c].sizes[k];
       if (placed.condition->needs_P()) node.P = body_loads_.known().stress(a);
       if (!areas[c].empty()) node.deformed_area = areas[c][k];
       if (!vector.empty()) node.vector = vector[k];

@@ -150,10 +150,11 @@ class AppliedBoundary {
     std::vector<size_t> nodes;  ///< into constrained_
     std::unique_ptr<PlacedField<Vec3>> placed;
   };
-  /// What a condition gives at the nodes of its patch; null: nothing.
+  /// What a condition gives at the nodes of its patch; null or empty: nothing.
   struct GivenLoads {
     std::unique_ptr<PlacedField<Vec3>> vector;
     std::unique_ptr<PlacedField<double>> scalar;
+    std::vector<double> sizes;  ///< of the nodes' areas, areas_as_numbers  [m^2]
   };
   std::vector<ConstrainedNode> constrained_;
   std::vector<PrescribedVelocities> velocities_;
@@ -178,7 +179,7 @@ class AppliedBoundary {
   std::vector<std::int32_t> slot_of_node_;  ///< [n_nodes] into loaded_nodes_, -1
 
   void place_velocities();
-  void place_loads();
+  void place_loads(const PairGraph& graph);
   void place_walls(const PairGraph& graph);
   void mark_loaded(const std::vector<char>& loaded);
   std::vector<Vec3> prescribed(double t) const;

@@ -42,8 +42,9 @@ struct RigidWall {
 
 /// A loaded node at one instant.
 struct LoadedNode {
-  Vec3 X;     ///< m, reference position
-  Vec3 area;  ///< m^2, its share of the patch, A_a N_a
+  Vec3 X;           ///< m, reference position
+  Vec3 area;        ///< m^2, its share of the patch, A_a N_a
+  double size = 0;  ///< m^2, the same as a number (areas_as_numbers)
   /// m^2, where the deformed body has it: H A_a N_a, or, where volumes of cells carry the pressure,
   /// its share of the deformed faces. Follower loads only.
   Vec3 deformed_area;

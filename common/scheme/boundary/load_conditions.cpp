@@ -14,9 +14,7 @@ class Traction : public BoundaryCondition {
   bool loads() const override { return true; }
   bool depends_on_time() const override { return values_.depends_on_time; }
   const BoundaryValues* given() const override { return &values_; }
-  Vec3 force(const LoadedNode& node, double) const override {
-    return node.area.norm() * node.vector;
-  }
+  Vec3 force(const LoadedNode& node, double) const override { return node.size * node.vector; }
 
  private:
   BoundaryValues values_;

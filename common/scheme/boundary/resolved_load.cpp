@@ -104,14 +104,14 @@ template <class Value>
 template <class Value>
 class Integrals {
  public:
-  /// @param areas  [nodes] m^2, to which int N phi_a dA of the faces is added
+  /// @param areas  [nodes] m^2, to which int phi_a dA of the faces is added
   Integrals(const FieldFunction<Value>& load,
             std::span<const Vec3> X,
-            std::vector<LoadedFace> faces,
-            std::vector<Vec3>& areas)
+            std::vector<PatchFace> faces,
+            std::vector<double>& areas)
       : faces_(std::move(faces)) {
     std::vector<Vec3> places;
-    for (const LoadedFace& face : faces_) {
+    for (const PatchFace& face : faces_) {
       if (points_.count(face.n_corners) == 0)
         points_.emplace(face.n_corners, points_of(face.n_corners));
       const Points& points = points_.at(face.n_corners);
@@ -129,7 +129,7 @@ class Integrals {
         places.push_back(place);
         weights_.push_back(N.norm());
         for (int k = 0; k < face.n_corners; ++k)
-          areas[static_cast<size_t>(face.corner[k])] += shape.phi[k] * N;
+          areas[static_cast<size_t>(face.corner[k])] += shape.phi[k] * N.norm();
       }
     }
     placed_ = load.placed(places);
@@ -143,7 +143,7 @@ class Integrals {
     const std::vector<Value> values = placed_->at(t);
     size_t point = 0;
     for (size_t p = 0; p < faces_.size(); ++p) {
-      const LoadedFace& face = faces_[p];
+      const PatchFace& face = faces_[p];
       std::array<Value, 4> missed;
       missed.fill(zero<Value>());
       double all = 0, rest = 0;
@@ -161,10 +161,10 @@ class Integrals {
     }
   }
 
-  const LoadedFace& face(size_t p) const { return faces_[p]; }
+  const PatchFace& face(size_t p) const { return faces_[p]; }
 
  private:
-  std::vector<LoadedFace> faces_;
+  std::vector<PatchFace> faces_;
   std::map<int, Points> points_;  ///< by the number of corners
   std::vector<double> weights_;   ///< [points of all faces] m^2
   std::unique_ptr<PlacedField<Value>> placed_;
@@ -173,8 +173,8 @@ class Integrals {
 /// How nodes see a load on the faces of a patch.
 struct Survey {
   /// The faces that nodes do not resolve; all of them where these are others at other times.
-  std::vector<LoadedFace> unresolved_faces;
-  std::vector<Vec3> areas;  ///< [nodes] int N phi_a dA over all faces  [m^2]
+  std::vector<PatchFace> unresolved_faces;
+  std::vector<double> areas;  ///< [nodes] int phi_a dA over all faces  [m^2]
 };
 
 /// Whether a load acts at nodes, but not at all corners of any face. Else, where no place within
@@ -192,13 +192,13 @@ bool is_of_nodes_alone(const std::vector<Value>& nodes, std::span<const LoadedFa
 template <class Value>
 Survey survey(const FieldFunction<Value>& load,
               std::span<const Vec3> X,
-              std::span<const LoadedFace> faces,
+              std::span<const PatchFace> faces,
               const PlacedField<Value>& at_nodes) {
   constexpr size_t at_a_time = 256;  // their points take room
   const std::span<const double> instants = load.in_place().instants;
   Survey found;
   if (instants.empty()) return found;
-  found.areas.assign(X.size(), Vec3::Zero());
+  found.areas.assign(X.size(), 0);
   std::vector<std::vector<Value>> nodes;
   for (const double t : instants)
     nodes.push_back(at_nodes.at(t));
@@ -247,13 +247,11 @@ class ResolvedLoad : public PlacedField<Value> {
   ResolvedLoad(std::unique_ptr<PlacedField<Value>> at_nodes,
                Integrals<Value> missed,
                std::span<const double> area,
-               const std::vector<Vec3>& areas)
+               const std::vector<double>& areas)
       : at_nodes_(std::move(at_nodes)), missed_(std::move(missed)) {
     constexpr double rounding = 1e-6;
     for (size_t a = 0; a < areas.size(); ++a) {
-      const double shape = areas[a].norm();
-      excess_.push_back(area[a] - shape);
-      // on both faces of a knife's edge areas are opposite
+      excess_.push_back(area[a] - areas[a]);
       per_area_.push_back(
           area[a] > rounding * *std::max_element(area.begin(), area.end()) ? 1 / area[a] : 0);
     }
@@ -272,7 +270,7 @@ class ResolvedLoad : public PlacedField<Value> {
     std::vector<Value> forces(nodes.size(), zero<Value>());
     std::vector<double> missed_at(nodes.size(), 0);
     missed_.at(t, nodes, [&](size_t p, const auto& missed, double size, double) {
-      const LoadedFace& face = missed_.face(p);
+      const PatchFace& face = missed_.face(p);
       all_missed += size;
       for (int k = 0; k < face.n_corners; ++k) {
         const auto a = static_cast<size_t>(face.corner[k]);
@@ -295,28 +293,15 @@ class ResolvedLoad : public PlacedField<Value> {
 
 }  // namespace
 
-std::vector<LoadedFace> faces_of(const BoundaryPatch& patch) {
-  std::vector<LoadedFace> faces;
-  for (const auto& nodes : patch.faces) {
-    LoadedFace& face = faces.emplace_back();
-    for (const std::int32_t node : nodes) {
-      if (node < 0) continue;
-      const auto at = std::lower_bound(patch.nodes.begin(), patch.nodes.end(), node);
-      face.corner[face.n_corners++] = static_cast<std::int32_t>(at - patch.nodes.begin());
-    }
-  }
-  return faces;
-}
-
 template <class Value>
 std::unique_ptr<PlacedField<Value>> resolved_load(const FieldFunction<Value>& load,
                                                   std::span<const Vec3> X,
                                                   std::span<const double> area,
-                                                  std::span<const LoadedFace> faces) {
+                                                  std::span<const PatchFace> faces) {
   std::unique_ptr<PlacedField<Value>> at_nodes = load.placed(X);
   const Survey found = survey(load, X, faces, *at_nodes);
   if (found.unresolved_faces.empty()) return at_nodes;
-  std::vector<Vec3> of_them(X.size(), Vec3::Zero());
+  std::vector<double> of_them(X.size(), 0);
   Integrals<Value> missed(load, X, found.unresolved_faces, of_them);
   return std::make_unique<ResolvedLoad<Value>>(std::move(at_nodes), std::move(missed), area,
                                                found.areas);
@@ -325,10 +310,10 @@ std::unique_ptr<PlacedField<Value>> resolved_load(const FieldFunction<Value>& lo
 template std::unique_ptr<PlacedField<Vec3>> resolved_load(const FieldFunction<Vec3>&,
                                                           std::span<const Vec3>,
                                                           std::span<const double>,
-                                                          std::span<const LoadedFace>);
+                                                          std::span<const PatchFace>);
 template std::unique_ptr<PlacedField<double>> resolved_load(const FieldFunction<double>&,
                                                             std::span<const Vec3>,
                                                             std::span<const double>,
-                                                            std::span<const LoadedFace>);
+                                                            std::span<const PatchFace>);
 
 }  // namespace diptych::scheme

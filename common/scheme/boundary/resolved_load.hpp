@@ -10,32 +10,19 @@
 /// tests/common/scheme/resolved_load_test.cpp
 
 #include "common/scheme/boundary/field_function.hpp"
-#include "common/scheme/graph/pair_graph.hpp"
-
-#include <array>
-#include <cstdint>
-#include <vector>
+#include "common/scheme/boundary/patch_faces.hpp"
 
 namespace diptych::scheme {
 
-/// An edge of the plane, a triangle or a quadrilateral, by its corners one after the other.
-struct LoadedFace {
-  int n_corners = 0;
-  std::array<std::int32_t, 4> corner{};  ///< places among the nodes of the load
-};
-
-/// Of a patch, by places among its nodes.
-std::vector<LoadedFace> faces_of(const BoundaryPatch& patch);
-
 /// @param load   Pa; nodes alone see what does not depend on the place
 /// @param X      [nodes] m
-/// @param area   [nodes] their shares of it  [m^2]
+/// @param area   [nodes] areas_as_numbers  [m^2]
 /// @param faces  of which the nodes are the corners
 /// @throws base::InputError where the load has no value, or acts at nodes but on hardly any area
 template <class Value>
 std::unique_ptr<PlacedField<Value>> resolved_load(const FieldFunction<Value>& load,
                                                   std::span<const Vec3> X,
                                                   std::span<const double> area,
-                                                  std::span<const LoadedFace> faces);
+                                                  std::span<const PatchFace> faces);
 
 }  // namespace diptych::scheme

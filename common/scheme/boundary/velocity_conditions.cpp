@@ -1,6 +1,7 @@
 /// Conditions on the velocity: fixed, velocity, symmetry, skew-symmetry.
 
 #include "common/scheme/boundary/boundary_condition.hpp"
+#include "common/scheme/boundary/patch_faces.hpp"
 
 namespace diptych::scheme {
 
@@ -22,35 +23,43 @@ class PrescribedVelocity : public BoundaryCondition {
   VectorFunction velocity_;  ///< empty: fixed
 };
 
+/// One for each plane around a node, as of groups that meet there.
+/// @param directions  that are held, of the normal of a plane
+template <class Directions>
+std::vector<NodeConstraint> of_planes(const PairGraph& graph,
+                                      const BoundaryPatch& patch,
+                                      const Directions& directions) {
+  const std::vector<std::vector<Vec3>> normals = normals_of_planes(graph, patch);
+  std::vector<NodeConstraint> list;
+  for (size_t k = 0; k < normals.size(); ++k) {
+    for (const Vec3& n : normals[k])
+      list.push_back({patch.nodes[k], directions(n), {}});
+  }
+  return list;
+}
+
 /// No normal velocity, free tangentially (also a frictionless roller).
 class Symmetry : public BoundaryCondition {
  public:
-  std::vector<NodeConstraint> constraints(const PairGraph&,
+  std::vector<NodeConstraint> constraints(const PairGraph& graph,
                                           const BoundaryPatch& patch) const override {
-    std::vector<NodeConstraint> list;
-    for (size_t k = 0; k < patch.nodes.size(); ++k) {
-      list.push_back({patch.nodes[k], {unit_normal(patch.area[k])}, {}});
-    }
-    return list;
+    return of_planes(graph, patch, [](const Vec3& n) { return std::vector<Vec3>{n}; });
   }
 };
 
 /// No tangential velocity, no normal traction.
 class SkewSymmetry : public BoundaryCondition {
  public:
-  std::vector<NodeConstraint> constraints(const PairGraph&,
+  std::vector<NodeConstraint> constraints(const PairGraph& graph,
                                           const BoundaryPatch& patch) const override {
-    std::vector<NodeConstraint> list;
-    for (size_t k = 0; k < patch.nodes.size(); ++k) {
-      const Vec3 n = unit_normal(patch.area[k]);
+    return of_planes(graph, patch, [](const Vec3& n) {
       int least = 0;
       for (int i = 1; i < 3; ++i) {
         if (std::abs(n[i]) < std::abs(n[least])) least = i;
       }
       const Vec3 t = n.cross(Vec3::Unit(least)).normalized();
-      list.push_back({patch.nodes[k], {t, n.cross(t)}, {}});
-    }
-    return list;
+      return std::vector<Vec3>{t, n.cross(t)};
+    });
   }
 };
 

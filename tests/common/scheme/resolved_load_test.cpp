@@ -47,9 +47,10 @@ class Side {
     }
     for (const auto& [node, share] : area) {
       patch_.nodes.push_back(node);
+      patch_.area.push_back(share);
       X_.push_back(scene_.graph.X[node]);
-      area_.push_back(share.norm());
     }
+    area_ = areas_as_numbers(scene_.graph, patch_);
   }
   const std::vector<Vec3>& X() const { return X_; }
   std::vector<double> values(const Load& load,
@@ -146,7 +147,7 @@ TEST_P(ResolvedLoad, LeavesWavesThatTravelToNodesThatResolveThem) {
 }
 
 TEST_P(ResolvedLoad, KeepsItsForceToItsPlaceOnAGroupOfTwoSides) {
-  // an edge between two sides is the node's area as a vector: nothing of it is excess
+  // what nodes on the edge have of both sides is no excess over what shape functions give them
   const Side both(std::get<0>(GetParam()), {"mesh.element=" + std::get<1>(GetParam())},
                   {"z_max", "x_max"});
   const auto part = [](const Vec3& X, double) { return X[1] < 0.37 ? 1.0 : 0.0; };
