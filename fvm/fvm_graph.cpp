@@ -136,6 +136,62 @@ scheme::Operators edge_because(const meshes::Mesh& mesh,
   return edge_on(mesh, fmt::format("edge stencil: {}", because), std::move(notices));
 }
 
+/// Why "auto" takes operators over cells where lines of curved blocks are there to derive along;
+/// empty: it does not.
+std::string cells_because(const meshes::Mesh& mesh,
+                          const std::vector<meshes::LatticeBlock>& blocks,
+                          const Options& options) {
+  if (blocks.empty()) return "";
+  if (options.is_hardly_compressible) return "lock where lame >= 99 shear_modulus (nu >= 0.495)";
+  const double ratio = unevenness_of_short_lines(mesh, blocks);
+  if (ratio <= most_uneven) return "";
+  return fmt::format(
+      "bend too little where lines of fewer than eight nodes have uneven cells (here {:.2g} times "
+      "as long as the next ones)",
+      ratio);
+}
+
+scheme::Operators edge_as_refused(const meshes::Mesh& mesh, const base::InputError& refusal) {
+  return edge_because(mesh, "sbp does not go with this mesh",
+                      {fmt::format("edge stencil, since {}. Where few cells are across bodies then "
+                                   "bend tens of percent too little or too far; compare levels",
+                                   refusal.what())});
+}
+
+/// What stencil = "auto" comes to where nothing presses hard.
+scheme::Operators chosen_off_boxes(const meshes::Mesh& mesh, const Options& options) {
+  const std::vector<meshes::LatticeBlock> blocks = smooth_blocks(mesh);
+  std::vector<std::string> notices;
+  if (const std::string because = cells_because(mesh, blocks, options); !because.empty()) {
+    try {
+      scheme::Operators operators = sbp_on_cells(mesh);
+      operators.notices.push_back(fmt::format(
+          "operators over cells, not along the lines of curved blocks, which {}", because));
+      return operators;
+    } catch (const base::InputError& refusal) {
+      if (options.is_hardly_compressible) return edge_as_refused(mesh, refusal);
+      notices.push_back(
+          fmt::format("operators along the lines of curved blocks, which {}: tens of percent; "
+                      "those over cells do not go with this mesh ({}). Make the cells of these "
+                      "lines even, or give lines eight nodes",
+                      because, refusal.what()));
+    }
+  }
+  if (!is_too_small(blocks) && !options.jumps_are_symmetric &&
+      gives_energy(blocks, options.order)) {
+    return edge_because(
+        mesh,
+        "curved lines of six nodes, on which D_ab of sbp gives energy; five or seven take it");
+  }
+  try {
+    scheme::Operators operators = sbp_off_boxes(mesh, blocks, options);
+    operators.notices.insert(operators.notices.begin(), notices.begin(), notices.end());
+    return operators;
+  } catch (const base::InputError& refusal) {
+    return edge_as_refused(mesh, refusal);
+  }
+}
+
 /// What stencil = "auto" comes to.
 scheme::Operators chosen_on(const meshes::Mesh& mesh, const Options& options) {
   if (!options.second_order_because.empty())
@@ -145,28 +201,7 @@ scheme::Operators chosen_on(const meshes::Mesh& mesh, const Options& options) {
   if (meshes::is_undistorted_block(mesh)) return sbp_on_box(mesh, options.order);
   if (!options.strong_pressure_because.empty())
     return edge_because(mesh, options.strong_pressure_because);
-  const std::vector<meshes::LatticeBlock> blocks = smooth_blocks(mesh);
-  const bool on_cells = !blocks.empty() && options.is_hardly_compressible;
-  if (!on_cells && !is_too_small(blocks) && !options.jumps_are_symmetric &&
-      gives_energy(blocks, options.order)) {
-    return edge_because(
-        mesh,
-        "curved lines of six nodes, on which D_ab of sbp gives energy; five or seven take it");
-  }
-  try {
-    if (!on_cells) return sbp_off_boxes(mesh, blocks, options);
-    scheme::Operators operators = sbp_on_cells(mesh);
-    operators.notices.emplace_back(
-        "operators over cells, not along the lines of curved blocks, which lock where lame >= 99 "
-        "shear_modulus (nu >= 0.495)");
-    return operators;
-  } catch (const base::InputError& refusal) {
-    return edge_because(
-        mesh, "sbp does not go with this mesh",
-        {fmt::format("edge stencil, since {}. Where few cells are across bodies then "
-                     "bend tens of percent too little or too far; compare levels",
-                     refusal.what())});
-  }
+  return chosen_off_boxes(mesh, options);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "fvm/block_sides.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 
@@ -148,6 +149,34 @@ bool is_too_small(const std::vector<LatticeBlock>& blocks) {
       n_short += block.n_nodes[d] <= 3 ? 1 : 0;
     return n_short > 1;
   });
+}
+
+double unevenness_of_short_lines(const meshes::Mesh& mesh,
+                                 const std::vector<LatticeBlock>& blocks) {
+  const int enough = closure::sbp_table(highest_order).least_nodes();
+  double most = 0;  // mean square of logarithms
+  for (const LatticeBlock& block : blocks) {
+    for (int d = 0; d < block.dimension; ++d) {
+      const int n = block.n_nodes[d];
+      if (block.is_closed[d] || n < 3 || n >= enough) continue;
+      double sum = 0;
+      std::int64_t n_summed = 0;
+      for (std::int64_t p = 0; p < block.n_places(); ++p) {
+        auto at = block.place(p);
+        if (at[d] == 0 || at[d] == n - 1) continue;
+        const auto X = [&](int step) -> const Vec3& {
+          auto there = at;
+          there[d] += step;
+          return mesh.nodes[block.node[static_cast<size_t>(block.index(there))]];
+        };
+        const double ratio = std::log((X(1) - X(0)).norm() / (X(0) - X(-1)).norm());
+        sum += ratio * ratio;
+        ++n_summed;
+      }
+      most = std::max(most, sum / static_cast<double>(n_summed));
+    }
+  }
+  return std::exp(std::sqrt(most));
 }
 
 bool gives_energy(const std::vector<LatticeBlock>& blocks, int order) {

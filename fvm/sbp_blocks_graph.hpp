@@ -38,6 +38,16 @@ std::string blocks_text(const std::vector<meshes::LatticeBlock>& blocks, int ord
 /// to there breaks bodies, or is not braked (notes 4.6). They sum by parts as any nodes do.
 bool is_too_small(const std::vector<meshes::LatticeBlock>& blocks);
 
+/// How many times as long as its neighbour a cell is on lines of three to seven nodes, on which the
+/// operator is of second order: the root mean square, in the logarithm, over the lines of one
+/// direction of a block, of the block and direction with the most; 1 where there are none. The
+/// maps of such lines err: strips and plates of two to four cells across bend too little (notes
+/// 4.6).
+double unevenness_of_short_lines(const meshes::Mesh& mesh,
+                                 const std::vector<meshes::LatticeBlock>& blocks);
+/// Up to here tips of cantilevers lose less than a hundredth by it, if two cells are across.
+constexpr double most_uneven = 1.1;
+
 /// Whether D_ab of unlimited reconstructions feeds some motions faster than others of its pairs
 /// brake them: on lines of six nodes, whose Q_14 > 0 (notes 4.6).
 bool gives_energy(const std::vector<meshes::LatticeBlock>& blocks, int order);

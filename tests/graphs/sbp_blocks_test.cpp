@@ -212,6 +212,31 @@ TEST(SbpBlocks, AreTakenWhereLinesAreSmooth) {
   EXPECT_TRUE(fvm::operators_on(curved_block(8, 0), {"sbp", 4}).loses_sign);
 }
 
+// On which strips and plates bend too little.
+TEST(SbpBlocks, AreLeftForCellsByDefaultWhereShortLinesAreUneven) {
+  const auto strip = [](int across, double ratio) {  // of neighbouring cells
+    return mapped_box({0, 0, 0}, {2, 1, 0}, {20, across, 0}, [=](const Vec3& X) {
+      const double all = std::pow(ratio, across) - 1;
+      return Vec3(X[0], 0.2 * (std::pow(ratio, across * X[1]) - 1) / all * (1 + 1e-3 * X[0]), 0);
+    });
+  };
+  const auto chosen = [](const meshes::Mesh& mesh, const char* stencil = "auto") {
+    return fvm::operators_on(mesh, {stencil, 4, "", "", true});
+  };
+  EXPECT_NEAR(fvm::unevenness_of_short_lines(strip(2, 1.3), fvm::smooth_blocks(strip(2, 1.3))), 1.3,
+              1e-3);
+  for (const int across : {2, 3, 6}) {
+    EXPECT_THAT(chosen(strip(across, 1.2)).text, HasSubstr("on the cells around"));
+    EXPECT_THAT(chosen(strip(across, 1.2)).notices, ElementsAre(HasSubstr("uneven")));
+    EXPECT_THAT(chosen(strip(across, 1.05)).text, HasSubstr("one curved block"));
+    EXPECT_THAT(chosen(strip(across, 1.2), "sbp").text, HasSubstr("one curved block"));
+  }
+  EXPECT_THAT(chosen(strip(8, 1.2)).text, HasSubstr("one curved block"));
+  const scheme::Operators refused = chosen(strip(2, 2));  // by those over cells
+  EXPECT_THAT(refused.text, HasSubstr("one curved block"));
+  EXPECT_THAT(refused.notices, testing::Contains(HasSubstr("do not go with this mesh")));
+}
+
 TEST(SbpBlocks, RefuseLinesThatBendTooMuch) {
   const meshes::Mesh mesh = mapped_box({0, 0, 0}, {1, 1, 0}, {9, 9, 0}, [](const Vec3& X) {
     const double in = X[0] > 0.99 && X[1] > 0.99 ? 0.16 : 0;

@@ -2,7 +2,7 @@
 
 #include "meshes/parts.hpp"
 
-#include "meshes/generators.hpp"
+#include "tests/meshes/box_without.hpp"
 
 #include <gtest/gtest.h>
 
@@ -31,6 +31,16 @@ TEST(Parts, AreThoseThatShareNoNode) {
     EXPECT_EQ(n_parts(together(one, other)), 2);
     EXPECT_EQ(n_parts(together(together(other, one), other)), 3);
   }
+}
+
+TEST(Parts, AreThoseThatShareNoFace) {
+  const Mesh whole = box(CellType::tetrahedron, {0, 0, 0}, {1, 1, 1}, {3, 2, 2});
+  EXPECT_EQ(n_parts_by_faces(whole), 1);
+  EXPECT_EQ(n_parts_by_faces(together(whole, whole)), 2);
+  const Mesh hinged = box_without(CellType::quadrilateral, {0, 2, 3, 5, 6, 7, 8});  // 1 and 4
+  EXPECT_EQ(n_parts_by_faces(hinged), 1);
+  const Mesh corners = box_without(CellType::quadrilateral, {1, 3, 5, 7});
+  EXPECT_EQ(n_parts_by_faces(corners), 5);
 }
 
 }  // namespace
