@@ -65,7 +65,7 @@ CaseCheck check_case(const cases::Case& setup,
   check.nodes = scene.graph.n_nodes();
   check.cells = mesh.n_cells();
   check.bytes = solver.bytes();
-  (void)run::Probes(setup.probes, scene.graph, nodes_around(mesh));  // has their places
+  (void)run::Probes(setup.probes, scene.graph, mesh_around(mesh));  // has their places
   scheme::release_volumes(scene.graph);
   mesh = {};
   check.running_bytes = settled_memory() - before;

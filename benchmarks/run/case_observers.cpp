@@ -5,6 +5,7 @@
 #include "common/run/quantities.hpp"
 #include "common/run/references.hpp"
 #include "common/scheme/dissipation/limiters/limiter_menu.hpp"
+#include "meshes/cell_at.hpp"
 #include "meshes/incidence.hpp"
 
 #include <filesystem>
@@ -29,13 +30,14 @@ double largest_loss(const cases::Case& setup) {
 
 }  // namespace
 
-run::NodesAround nodes_around(const meshes::Mesh& mesh) {
+run::MeshAround mesh_around(const meshes::Mesh& mesh) {
   auto graph = std::make_shared<std::optional<meshes::NodalGraph>>();
-  return [&mesh, graph](std::int32_t a, std::vector<std::int32_t>& nodes) {
-    if (!*graph) *graph = meshes::nodal_graph(mesh);
-    const auto around = (*graph)->around(a);
-    nodes.insert(nodes.end(), around.begin(), around.end());
-  };
+  return {[&mesh, graph](std::int32_t a, std::vector<std::int32_t>& nodes) {
+            if (!*graph) *graph = meshes::nodal_graph(mesh);
+            const auto around = (*graph)->around(a);
+            nodes.insert(nodes.end(), around.begin(), around.end());
+          },
+          [&mesh](const meshes::Vec3& place) { return meshes::nodes_of_cells_at(mesh, place); }};
 }
 
 CaseObservers::CaseObservers(const cases::Case& setup,
@@ -45,7 +47,7 @@ CaseObservers::CaseObservers(const cases::Case& setup,
     : setup_(setup),
       options_(options),
       scene_(scene),
-      probes_(setup.probes, scene.graph, nodes_around(scene.mesh.mesh)),
+      probes_(setup.probes, scene.graph, mesh_around(scene.mesh.mesh)),
       n_cells_(scene.mesh.mesh.n_cells()),
       cells_([this] { return look(0).now; },
              [this](std::int64_t step) { return cell_watch_ ? cell_watch_->seen(step) : nullptr; }),

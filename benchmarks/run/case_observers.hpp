@@ -26,7 +26,7 @@
 namespace diptych::harness {
 
 /// Of a mesh that outlives this; nothing is made before something asks.
-run::NodesAround nodes_around(const meshes::Mesh& mesh);
+run::MeshAround mesh_around(const meshes::Mesh& mesh);
 
 class CaseObservers {
  public:

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -51,38 +52,68 @@ std::vector<double> exact_weights(const std::vector<Vec3>& x, int dimension, int
 
 /// Makes the nodes of the first ring lie around a place at a distance of about one along every
 /// direction, whatever the shape of the cells.
-Mat3 measure_of(const std::vector<std::int32_t>& ring,
+Mat3 measure_of(const std::vector<std::int32_t>& nearest,
                 const std::vector<Vec3>& X,
                 int dimension,
-                std::int32_t nearest,
-                double spacing) {
+                double spacing,
+                const NodesAround& around) {
   Mat3 spread = Mat3::Identity() * 1e-12 * spacing * spacing;
-  for (const std::int32_t b : ring) {
-    const Vec3 r = X[static_cast<size_t>(b)] - X[static_cast<size_t>(nearest)];
-    spread += r * r.transpose() / static_cast<double>(ring.size());
+  for (const std::int32_t a : nearest) {
+    const std::vector<std::int32_t> ring = nodes_within(a, 1, around);
+    for (const std::int32_t b : ring) {
+      const Vec3 r = X[static_cast<size_t>(b)] - X[static_cast<size_t>(a)];
+      spread += r * r.transpose() / static_cast<double>(ring.size() * nearest.size());
+    }
   }
   if (dimension == 2) spread(2, 2) = 1;
   return spread.llt().matrixL().solve(Mat3::Identity());
 }
 
+/// Ascending.
+std::vector<std::int32_t> nodes_within_of_all(const std::vector<std::int32_t>& nearest,
+                                              int rings,
+                                              const NodesAround& around) {
+  std::vector<std::int32_t> all;
+  for (const std::int32_t a : nearest) {
+    const std::vector<std::int32_t> nodes = nodes_within(a, rings, around);
+    all.insert(all.end(), nodes.begin(), nodes.end());
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
 }  // namespace
+
+std::vector<std::int32_t> nearest_nodes(const Vec3& place,
+                                        const std::vector<Vec3>& X,
+                                        const std::vector<std::int32_t>& corners,
+                                        const NodesAround& around) {
+  constexpr double rounding = 1e-9;
+  const auto distance = [&](std::int32_t a) { return (X[static_cast<size_t>(a)] - place).norm(); };
+  std::vector<std::int32_t> near = nodes_within_of_all(corners, 1, around);
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::int32_t a : near)
+    least = std::min(least, distance(a));
+  std::erase_if(near, [&](std::int32_t a) { return distance(a) > (1 + rounding) * least; });
+  return near;
+}
 
 Interpolation interpolation_at(const Vec3& place,
                                const std::vector<Vec3>& X,
                                int dimension,
-                               std::int32_t nearest,
+                               const std::vector<std::int32_t>& nearest,
                                double spacing,
                                const NodesAround& around) {
   constexpr double at_node = 1e-6;
   constexpr int most_rings = 3;
-  if ((X[static_cast<size_t>(nearest)] - place).norm() <= at_node * spacing)
-    return {{nearest}, {1}};
-  const Mat3 measure = measure_of(nodes_within(nearest, 1, around), X, dimension, nearest, spacing);
-  Interpolation best{{nearest}, {1}};
+  Interpolation best{{nearest.front()}, {1}};
+  if ((X[static_cast<size_t>(nearest.front())] - place).norm() <= at_node * spacing) return best;
+  const Mat3 measure = measure_of(nearest, X, dimension, spacing, around);
   double least = std::numeric_limits<double>::infinity();
   for (const int degree : {2, 1}) {
     for (int rings = 1; rings <= most_rings; ++rings) {
-      std::vector<std::int32_t> nodes = nodes_within(nearest, rings, around);
+      std::vector<std::int32_t> nodes = nodes_within_of_all(nearest, rings, around);
       std::vector<Vec3> x;
       for (const std::int32_t a : nodes)
         x.emplace_back(measure * (X[static_cast<size_t>(a)] - place));

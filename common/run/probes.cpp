@@ -2,7 +2,6 @@
 
 #include "common/base/error.hpp"
 #include "common/run/boundary_group.hpp"
-#include "common/run/interpolation.hpp"
 #include "common/scheme/boundary/patch_faces.hpp"
 
 #include <algorithm>
@@ -17,30 +16,27 @@ namespace diptych::run {
 
 namespace {
 
-[[noreturn]] void refuse_point(const cases::ProbeCase& probe, double distance, const Vec3& X) {
-  throw base::InputError(fmt::format(
-      "{}probe '{}' is {:.3g} m away from the nearest node, at ({:g}, {:g}, {:g}); its point "
-      "must be in the body",
-      functions::prefix(probe.where), probe.name, distance, X[0], X[1], X[2]));
+[[noreturn]] void refuse_point(const cases::ProbeCase& probe, const std::vector<Vec3>& X) {
+  const Vec3 nearest = *std::min_element(X.begin(), X.end(), [&](const Vec3& a, const Vec3& b) {
+    return (a - probe.at).norm() < (b - probe.at).norm();
+  });
+  throw base::InputError(
+      fmt::format("{}probe '{}' is in no cell of the mesh, {:.3g} m away from the nearest node, at "
+                  "({:g}, {:g}, "
+                  "{:g}); its point must be in the body",
+                  functions::prefix(probe.where), probe.name, (nearest - probe.at).norm(),
+                  nearest[0], nearest[1], nearest[2]));
 }
 
 Interpolation interpolation_of(const cases::ProbeCase& probe,
                                const scheme::PairGraph& graph,
-                               const NodesAround& around) {
-  std::int64_t nearest = 0;
-  for (std::int64_t a = 1; a < graph.n_nodes(); ++a) {
-    if ((graph.X[a] - probe.at).norm() < (graph.X[nearest] - probe.at).norm()) nearest = a;
-  }
-  const double distance = (graph.X[nearest] - probe.at).norm();
+                               const MeshAround& mesh) {
+  const std::vector<std::int32_t> corners = mesh.cells_at(probe.at);
+  if (corners.empty()) refuse_point(probe, graph.X);
+  const std::vector<std::int32_t> nearest = nearest_nodes(probe.at, graph.X, corners, mesh.nodes);
   // Omega of a corner is a part of a cell: its edge is up to 2^d times as large
-  const double spacing = 2 * std::pow(graph.Omega[nearest], 1.0 / graph.dimension);
-  if (distance > spacing) refuse_point(probe, distance, graph.X[nearest]);
-  Interpolation between = interpolation_at(probe.at, graph.X, graph.dimension,
-                                           static_cast<std::int32_t>(nearest), spacing, around);
-  const double size = std::accumulate(between.weights.begin(), between.weights.end(), 0.0,
-                                      [](double sum, double w) { return sum + std::abs(w); });
-  if (size > most_size_of_weights) refuse_point(probe, distance, graph.X[nearest]);
-  return between;
+  const double spacing = 2 * std::pow(graph.Omega[nearest.front()], 1.0 / graph.dimension);
+  return interpolation_at(probe.at, graph.X, graph.dimension, nearest, spacing, mesh.nodes);
 }
 
 /// Whether these fields hold all that the quantity of a probe reads.
@@ -81,10 +77,10 @@ std::vector<std::string> probe_columns(const std::vector<cases::ProbeCase>& prob
 
 Probes::PlacedProbe Probes::placed(const cases::ProbeCase& probe,
                                    const scheme::PairGraph& graph,
-                                   const NodesAround& around) {
+                                   const MeshAround& mesh) {
   PlacedProbe result{probe, {}, {}};
   if (probe.kind == "point") {
-    auto [nodes, weights] = interpolation_of(probe, graph, around);
+    auto [nodes, weights] = interpolation_of(probe, graph, mesh);
     result.nodes = std::move(nodes);
     result.weights = std::move(weights);
     return result;
@@ -132,15 +128,15 @@ void Probes::keep_region(const scheme::PairGraph& graph, PlacedProbe& placed) {
 
 Probes::Probes(const std::vector<cases::ProbeCase>& probes,
                const scheme::PairGraph& graph,
-               const NodesAround& around) {
+               const MeshAround& mesh) {
   if (probes.empty()) return;
   X_ = graph.X;
   for (const cases::ProbeCase& probe : probes) {
-    const PlacedProbe where = placed(probe, graph, around);
+    const PlacedProbe where = placed(probe, graph, mesh);
     all_.add(where);
     if (probe.every_step) stepped_.add(where);
     if (probe.kind == "checkerboard" && !checkerboard_)
-      checkerboard_.emplace(graph.X, graph.Omega, graph.dimension, around);
+      checkerboard_.emplace(graph.X, graph.Omega, graph.dimension, mesh.nodes);
   }
 }
 

@@ -4,7 +4,7 @@
 /// Test: tests/common/run/probes_test.cpp
 
 #include "common/cases/case.hpp"
-#include "common/run/checkerboard.hpp"
+#include "common/run/interpolation.hpp"
 #include "common/run/solver.hpp"
 
 #include <optional>
@@ -20,11 +20,11 @@ std::vector<std::string> probe_columns(const std::vector<cases::ProbeCase>& prob
 
 class Probes {
  public:
-  /// @param around  only called for probes of kind checkerboard and points between nodes, not kept
+  /// @param mesh  only asked for points and probes of kind checkerboard, not kept
   /// @throws base::InputError on a group that the graph lacks, a point outside
   Probes(const std::vector<cases::ProbeCase>& probes,
          const scheme::PairGraph& graph,
-         const NodesAround& around);
+         const MeshAround& mesh);
 
   bool empty() const { return all_.probes.empty(); }
   size_t size() const { return all_.probes.size(); }
@@ -65,7 +65,7 @@ class Probes {
                  const std::vector<double>& weights) const;
   static PlacedProbe placed(const cases::ProbeCase& probe,
                             const scheme::PairGraph& graph,
-                            const NodesAround& around);
+                            const MeshAround& mesh);
   /// @throws base::InputError where no node is left
   static void keep_region(const scheme::PairGraph& graph, PlacedProbe& placed);
 };

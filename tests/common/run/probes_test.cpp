@@ -3,6 +3,7 @@
 #include "common/run/probes.hpp"
 
 #include "common/base/error.hpp"
+#include "meshes/cell_at.hpp"
 #include "meshes/incidence.hpp"
 #include "tests/common/scheme/scenes.hpp"
 
@@ -13,6 +14,7 @@
 namespace diptych {
 namespace {
 
+using algebra::Vec3;
 using testing::HasSubstr;
 using tests::Scene;
 using tests::scene_of;
@@ -43,10 +45,13 @@ std::string probe(const std::string& lines) {
 
 run::Probes probes_of(const Scene& s) {
   const meshes::NodalGraph graph = meshes::nodal_graph(s.mesh.mesh);
-  return {s.setup.probes, s.graph, [&](std::int32_t a, std::vector<std::int32_t>& nodes) {
-            const auto around = graph.around(a);
-            nodes.insert(nodes.end(), around.begin(), around.end());
-          }};
+  return {s.setup.probes,
+          s.graph,
+          {[&](std::int32_t a, std::vector<std::int32_t>& nodes) {
+             const auto around = graph.around(a);
+             nodes.insert(nodes.end(), around.begin(), around.end());
+           },
+           [&](const Vec3& place) { return meshes::nodes_of_cells_at(s.mesh.mesh, place); }}};
 }
 
 double value(const std::string& lines, const std::string& more = "") {
@@ -57,6 +62,7 @@ double value(const std::string& lines, const std::string& more = "") {
 TEST(Probes, ReadEachKindFromKnownFields) {
   EXPECT_DOUBLE_EQ(value("at = [2, 1, 1]\nquantity = \"ux\""), 0.2);
   EXPECT_NEAR(value("at = [1.1, 0.4, 0.6]\nquantity = \"x + ux\""), 1.21, 1e-13);  // between nodes
+  EXPECT_NEAR(value("at = [0.25, 0.25, 0.75]\nquantity = \"x + ux\""), 0.275, 1e-13);
   EXPECT_NEAR(value("kind = \"mean\"\nquantity = \"vy\""), 3, 1e-14);
   EXPECT_NEAR(value("kind = \"integral\"\nquantity = \"J\""), 2.2, 1e-14);
   EXPECT_NEAR(value("kind = \"mean\"\ngroup = \"y_max\"\nquantity = \"ux\""), 0.1, 1e-14);
@@ -125,6 +131,7 @@ std::string refusal(const std::string& text) {
 
 TEST(Probes, BadOnesAreRefusedWithAPlaceAndAWayOut) {
   EXPECT_THAT(refusal(probe("at = [5, 0, 0]\nquantity = \"ux\"")), HasSubstr("away from"));
+  EXPECT_THAT(refusal(probe("at = [2.2, 0.5, 0.5]\nquantity = \"ux\"")), HasSubstr("in no cell"));
   EXPECT_THAT(refusal(probe("quantity = \"ux\"")), HasSubstr("probe.0.at is missing"));
   EXPECT_THAT(refusal(probe("at = [0, 0, 0]\nquantity = \"uxx\"")), HasSubstr("'ux'"));
   EXPECT_THAT(refusal(probe("kind = \"mean\"\ngroup = \"x_mx\"\nquantity = \"ux\"")),
