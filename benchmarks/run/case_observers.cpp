@@ -64,7 +64,7 @@ CaseObservers::CaseObservers(const cases::Case& setup,
           scene.solver->balance(), setup.guards.energy_residual, largest_loss(setup), units_),
       involution_guard_(*scene.solver, setup.guards.involution),
       momentum_guard_(scene.solver->balance(),
-                      run::is_held(setup),
+                      run::inertia_if_held(setup, scene.graph),
                       setup.guards.angular_drift,
                       units_.rounding) {
   if (options.scales) scales_.emplace(scene.graph);

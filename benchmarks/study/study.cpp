@@ -4,6 +4,7 @@
 #include "benchmarks/run/breakdowns.hpp"
 #include "benchmarks/run/memory_estimate.hpp"
 #include "benchmarks/run/output_folder.hpp"
+#include "benchmarks/study/refinement.hpp"
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
 #include "common/run/field_norms.hpp"
@@ -163,6 +164,9 @@ Study run_study(const cases::Case& setup, const StudyOptions& options) {
     if (result.summary.status == "breakdown") {
       study.breakdowns.push_back(breakdown_of(result.summary));
       return;
+    }
+    for (const io::RunSummary& before : study.runs) {
+      if (before.column() == column) require_refined(*plan[number].setup, before, result.summary);
     }
     study.runs.push_back(result.summary);
     study.directories.push_back(run.directory);

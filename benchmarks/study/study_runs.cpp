@@ -4,6 +4,7 @@
 #include "benchmarks/run/breakdowns.hpp"
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/resumption.hpp"
+#include "benchmarks/study/refinement.hpp"
 #include "benchmarks/study/study_verb.hpp"
 #include "benchmarks/terminal/status_line.hpp"
 #include "common/base/error.hpp"
@@ -52,6 +53,7 @@ std::vector<CampaignRun> plan_of(const StudyRequest& request,
 
 void add_to_curve(const io::RunSummary& run, const cases::Case& setup, WorkCurve& curve) {
   if (curve.points.empty() || curve.points.back().run.level != run.level) {
+    if (!curve.points.empty()) require_refined(setup, curve.points.back().run, run);
     curve.points.push_back({run, run.loop_seconds, run.loop_seconds, setup.scheme.face_correction});
     return;
   }

@@ -20,12 +20,7 @@ bool has_no_support(const cases::Case& setup) {
       });
 }
 
-double volume_of(const scheme::PairGraph& graph) {
-  return std::accumulate(graph.Omega.begin(), graph.Omega.end(), 0.0);
-}
-
-}  // namespace
-
+/// Components of velocities are prescribed.
 bool is_held(const cases::Case& setup) {
   using enum scheme::BoundaryKind::Acts;
   return std::any_of(setup.boundaries.begin(), setup.boundaries.end(), [](const auto& boundary) {
@@ -33,6 +28,12 @@ bool is_held(const cases::Case& setup) {
     return acts == constrain || acts == hold;
   });
 }
+
+double volume_of(const scheme::PairGraph& graph) {
+  return std::accumulate(graph.Omega.begin(), graph.Omega.end(), 0.0);
+}
+
+}  // namespace
 
 EnergyUnits EnergyBasis::at(const scheme::Balance& initial) const {
   EnergyUnits units{rounding};
@@ -61,6 +62,15 @@ MomentumUnits momentum_units(const cases::Case& setup,
   const double mass = setup.material.density * volume_of(graph);
   const double momentum = std::sqrt(2 * mass * energies.rounding);
   return {momentum, momentum * reach};
+}
+
+double inertia_if_held(const cases::Case& setup, const scheme::PairGraph& graph) {
+  if (!is_held(setup)) return 0;
+  const scheme::Vec3 centroid = scheme::centroid_of(graph);
+  double sum = 0;
+  for (size_t a = 0; a < graph.X.size(); ++a)
+    sum += graph.Omega[a] * (graph.X[a] - centroid).squaredNorm();
+  return setup.material.density * sum;
 }
 
 }  // namespace diptych::run

@@ -17,9 +17,6 @@ struct EnergyUnits {
   double carried = 0;
 };
 
-/// Whether supports hold the body: components of velocities are prescribed.
-bool is_held(const cases::Case& setup);
-
 /// What is known of them before the state is.
 struct EnergyBasis {
   double rounding = 0;   ///< J, of a body in place
@@ -40,5 +37,10 @@ struct MomentumUnits {
 MomentumUnits momentum_units(const cases::Case& setup,
                              const scheme::PairGraph& graph,
                              const EnergyUnits& energies);
+
+/// Polar moment of inertia about the centroid of a body that supports hold (components of
+/// velocities are prescribed): one that turns with the energy E has an angular momentum of sqrt(2 I
+/// E), and no motion with that energy has more. [kg m^2] 0 of one that they do not.
+double inertia_if_held(const cases::Case& setup, const scheme::PairGraph& graph);
 
 }  // namespace diptych::run

@@ -40,12 +40,13 @@ SectionEntry guards_section() {
                "The run is stopped (code 3) where angular momentum differs by more than this "
                "from that of the start and of the moments of loads and supports, at the same steps "
                "but for the first 20 after a state of rest: as a share of the largest sum of "
-               "|x||p| over the nodes so far, or, of a body that supports hold, of the time "
-               "integral of "
-               "the work of loads and supports, if that is larger. At a loss of this share of its "
-               "angular "
-               "momentum a "
-               "body that spins has lost nearly twice the share of its energy of rotation.",
+               "|x||p| over the nodes so far, or, of a body that supports hold, of what it would "
+               "have "
+               "if it spun with the largest work of loads and supports so far, or of the time "
+               "integral of that work, if one of these is larger. At a loss of this share of its "
+               "angular momentum a body that spins has lost nearly twice the share of its energy "
+               "of "
+               "rotation.",
                "0.5"})
           .key("least_step", &GuardsCase::least_step,
                {"-", Range{0, 1, false, true},

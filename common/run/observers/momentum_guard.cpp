@@ -2,6 +2,7 @@
 
 #include "common/base/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -9,10 +10,14 @@ namespace diptych::run {
 
 double MomentumGuard::judged(const Check& check) {
   momenta_.at(check.balance, check.audit);
-  moment_of_loads_ += std::abs(check.audit.external_work) * (check.step.time - time_);
+  const double work = std::abs(check.audit.external_work);
+  moment_of_loads_ += work * (check.step.time - time_);
+  largest_work_ = std::max(largest_work_, work);
   time_ = check.step.time;
   const double drift = momenta_.angular_drift(), scale = momenta_.angular_scale();
-  return is_held_ && moment_of_loads_ > scale ? drift * scale / moment_of_loads_ : drift;
+  if (held_inertia_ == 0) return drift;
+  const double of_loads = std::max(moment_of_loads_, std::sqrt(2 * held_inertia_ * largest_work_));
+  return of_loads > scale ? drift * scale / of_loads : drift;
 }
 
 void MomentumGuard::at_check(const Check& check) {

@@ -13,15 +13,22 @@ namespace diptych::run {
 class MomentumGuard : public Observer {
  public:
   /// @param initial       of the body at t = 0
-  /// @param is_held       by supports: a body that is loaded slowly between them has hardly a
-  ///                      momentum, but D_ab turns it with every strain. The drift counts as a
-  ///                      share of the time integral of the work of loads and supports, too, where
-  ///                      that is larger
+  /// @param held_inertia  inertia_if_held(), 0 of bodies without supports. One that is loaded
+  ///                      slowly between them has hardly a momentum, but D_ab turns it with every
+  ///                      strain. The drift counts as a share of what it would have if it turned
+  ///                      with the work of loads and supports, and of the time integral of that
+  ///                      work, too, where one of these is larger
   /// @param threshold     largest admissible drift, see MomentumRecord
   /// @param least_energy  J, what rounding makes of the energies: a body that moves with no more is
   ///                      at rest, and neither it nor its first steps afterwards are judged
-  MomentumGuard(const scheme::Balance& initial, bool is_held, double threshold, double least_energy)
-      : momenta_(initial), is_held_(is_held), threshold_(threshold), least_energy_(least_energy) {}
+  MomentumGuard(const scheme::Balance& initial,
+                double held_inertia,
+                double threshold,
+                double least_energy)
+      : momenta_(initial),
+        held_inertia_(held_inertia),
+        threshold_(threshold),
+        least_energy_(least_energy) {}
 
   /// @throws base::BreakdownError
   void at_check(const Check& check) override;
@@ -33,6 +40,7 @@ class MomentumGuard : public Observer {
     momenta_.archive("momentum guard", archive);
     archive.integer("momentum guard/judged from step", judged_from_);
     archive.real("momentum guard/moment of loads", "N m s", moment_of_loads_);
+    archive.real("momentum guard/largest work", "J", largest_work_);
     archive.real("momentum guard/time", "s", time_);
   }
 
@@ -43,9 +51,9 @@ class MomentumGuard : public Observer {
   double judged(const Check& check);
 
   MomentumRecord momenta_;
-  bool is_held_;
-  double threshold_, least_energy_;
+  double held_inertia_, threshold_, least_energy_;
   double moment_of_loads_ = 0;    // N m s, integral of their work
+  double largest_work_ = 0;       // J, of loads and supports so far
   double time_ = 0;               // s, of the last check
   std::int64_t judged_from_ = 0;  // step
 };

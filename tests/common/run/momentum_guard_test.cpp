@@ -23,7 +23,7 @@ TEST(MomentumGuard, StopsWhereRotationIsBrakedAndNotWhereAMomentDoesIt) {
   tests::Scene scene = tests::scene_of("fvm", free_cube, {});
   Snapshot fields;
   const auto judge = [&](double L, double impulse) {
-    MomentumGuard guard(initial, false, 0.2, 1e-9);
+    MomentumGuard guard(initial, 0, 0.2, 1e-9);
     OutputState state(*scene.solver, fields);
     guard.at_output({0, StepReport{}, initial, scheme::Audit{}, state});
     now.angular_momentum.z() = L;
@@ -50,7 +50,7 @@ TEST(MomentumGuard, StopsWhereRotationIsBrakedAndNotWhereAMomentDoesIt) {
 
 TEST(MomentumGuard, DoesNotJudgeABodyAtRest) {
   scheme::Balance rest, now;
-  MomentumGuard guard(rest, false, 0.2, 1e-9);
+  MomentumGuard guard(rest, 0, 0.2, 1e-9);
   now.angular_momentum.z() = now.angular_scale = 1;  // of rounding, all of it drift
   const auto judge = [&](std::int64_t number, double kinetic) {
     now.kinetic = kinetic;
@@ -73,7 +73,7 @@ TEST(MomentumGuard, MeasuresAHeldBodyWithTheWorkOfItsLoadsToo) {
     scheme::Audit audit;
     audit.external_work = 100;
     now.angular_momentum.z() = now.angular_scale = 1;
-    MomentumGuard guard(initial, is_held, 0.2, 1e-9);
+    MomentumGuard guard(initial, is_held ? 1e-3 : 0, 0.2, 1e-9);
     StepReport step;
     const auto judge = [&](std::int64_t number, double time) {
       step.step = number;
@@ -87,6 +87,25 @@ TEST(MomentumGuard, MeasuresAHeldBodyWithTheWorkOfItsLoadsToo) {
       EXPECT_THROW(judge(100, 0.06), base::BreakdownError);
     }
   }
+}
+
+// Which comes to much where it has hardly begun to move: sqrt(2 I E) of the work E, here 10.
+TEST(MomentumGuard, MeasuresAHeldBodyWithTheSpinThatTheWorkOfItsLoadsWouldGive) {
+  const scheme::Balance initial;
+  scheme::Balance now;
+  now.kinetic = 1;
+  now.angular_scale = 1;
+  scheme::Audit audit;
+  audit.external_work = 100;
+  MomentumGuard guard(initial, 0.5, 0.2, 1e-9);
+  StepReport step;
+  step.step = 50;
+  now.angular_momentum.z() = 1.9;
+  EXPECT_NO_THROW(guard.at_check({step, now, audit}));
+  audit.external_work = 90;  // the largest counts
+  EXPECT_NO_THROW(guard.at_check({step, now, audit}));
+  now.angular_momentum.z() = 2.1;
+  EXPECT_THROW(guard.at_check({step, now, audit}), base::BreakdownError);
 }
 
 }  // namespace
