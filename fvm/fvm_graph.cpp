@@ -146,7 +146,7 @@ std::string cells_because(const meshes::Mesh& mesh,
   const double ratio = unevenness_of_short_lines(mesh, blocks);
   if (ratio <= most_uneven) return "";
   return fmt::format(
-      "bend too little where lines of fewer than eight nodes have uneven cells (here {:.2g} times "
+      "bend too little where lines of fewer than eight nodes have uneven cells (here {:.3g} times "
       "as long as the next ones)",
       ratio);
 }

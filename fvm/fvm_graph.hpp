@@ -15,7 +15,8 @@ namespace diptych::fvm {
 
 struct Options {
   /// edge or integral, on simplices the same up to the boundary; sbp; auto: sbp where an order
-  /// above two fits on a box, on blocks, and where they go with them on other cells, edge elsewhere
+  /// above two fits on a box, on blocks (over cells, as below, or where short lines are uneven),
+  /// and where they go with them on other cells, edge elsewhere
   std::string stencil = "edge";
   int order = 4;                          ///< of sbp on blocks
   std::string second_order_because = {};  ///< auto: edge, for this reason, unless empty

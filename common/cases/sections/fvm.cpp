@@ -35,7 +35,9 @@ SectionEntry fvm_section() {
                   "cover whole sides or end far from their edges, but with a face correction and, "
                   "off boxes, where a scene presses hard (scheme.volumes), curved lines have three "
                   "nodes along several directions, or, with jumps that are not symmetric "
-                  "(scheme.reconstruction), six; else edge.",
+                  "(scheme.reconstruction), six; else edge. On curved blocks auto takes cells, not "
+                  "lines, where lame >= 99 shear_modulus and where lines of fewer than eight nodes "
+                  "have uneven cells (neighbours differ by more than a tenth), if they take it.",
                   "\"sbp\""}))
           .key("order", &FvmCase::order,
                {"-", between(2, 6),

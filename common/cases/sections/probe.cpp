@@ -122,8 +122,8 @@ SectionKeys<ProbeCase> probe_keys() {
             "\"ux\"", "required but with reaction"})
       .key("at", KeyType::vector,
            {"m", any,
-            "Reference position in the body; between nodes the quantity is interpolated "
-            "(quadratics).",
+            "Reference position in the body, in a cell of the mesh or outside it by no more than a "
+            "tenth of its width; between nodes the quantity is interpolated (quadratics).",
             "[0, 0, 6]", "with point"})
       .key("group", KeyType::groups,
            {"-", any, "Mesh group, or a list of them.", "\"x_max\"",

@@ -180,10 +180,10 @@ struct Survey {
 /// Whether a load acts at nodes, but not at all corners of any face. Else, where no place within
 /// faces sees it, it is said of a curved side, and faces are only flat.
 template <class Value>
-bool is_of_nodes_alone(const std::vector<Value>& nodes, std::span<const LoadedFace> faces) {
+bool is_of_nodes_alone(const std::vector<Value>& nodes, std::span<const PatchFace> faces) {
   const auto acts_at = [&](std::int32_t a) { return size_of(nodes[static_cast<size_t>(a)]) > 0; };
   return std::any_of(nodes.begin(), nodes.end(), [](const Value& v) { return size_of(v) > 0; }) &&
-         std::none_of(faces.begin(), faces.end(), [&](const LoadedFace& face) {
+         std::none_of(faces.begin(), faces.end(), [&](const PatchFace& face) {
            const auto corners = std::span(face.corner).first(static_cast<size_t>(face.n_corners));
            return std::all_of(corners.begin(), corners.end(), acts_at);
          });
