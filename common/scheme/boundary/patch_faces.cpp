@@ -5,8 +5,6 @@
 #include "meshes/curved_groups.hpp"
 #include "meshes/surface.hpp"
 
-#include <Eigen/Dense>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -53,20 +51,24 @@ std::vector<std::int32_t> sides_of(const PairGraph& graph, const BoundaryPatch& 
 /// What A_aN_a is made of along the normals of the sides, where these tell it and all are positive;
 /// else the part of it that the sizes of the sides are of their sum.
 double along_normals(const Vec3& area, const std::vector<Vec3>& of_sides) {
+  constexpr double parallel = 1e-6, knife = 1e-6;
+  if (of_sides.size() <= 3) {
+    Mat3 normals = Mat3::Zero(), cosines = Mat3::Identity();
+    for (size_t i = 0; i < of_sides.size(); ++i)
+      normals.col(static_cast<int>(i)) = of_sides[i].normalized();
+    const auto n = static_cast<int>(of_sides.size());
+    cosines.topLeftCorner(n, n) = (normals.transpose() * normals).topLeftCorner(n, n);
+    if (cosines.determinant() > parallel) {
+      const Vec3 parts = cosines.inverse() * (normals.transpose() * area);
+      if (parts.head(n).minCoeff() > 0) return parts.head(n).sum();
+    }
+  }
   double sizes = 0;
   Vec3 sum = Vec3::Zero();
-  Eigen::Matrix<double, 3, Eigen::Dynamic> normals(3, std::ssize(of_sides));
-  for (size_t i = 0; i < of_sides.size(); ++i) {
-    normals.col(static_cast<int>(i)) = of_sides[i].normalized();
-    sizes += of_sides[i].norm();
-    sum += of_sides[i];
+  for (const Vec3& of_side : of_sides) {
+    sizes += of_side.norm();
+    sum += of_side;
   }
-  const auto solver = normals.colPivHouseholderQr();
-  if (solver.rank() == normals.cols()) {
-    const Eigen::VectorXd parts = solver.solve(area);
-    if (parts.minCoeff() > 0) return parts.sum();
-  }
-  constexpr double knife = 1e-6;
   return sum.norm() > knife * sizes ? area.norm() * sizes / sum.norm() : sizes;
 }
 

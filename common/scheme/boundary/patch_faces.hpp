@@ -21,11 +21,12 @@ struct PatchFace {
 /// Of a patch, by places among its nodes.
 std::vector<PatchFace> faces_of(const BoundaryPatch& patch);
 
-/// Areas of the nodes as numbers, int N_a dA. On a plane or a smooth side that is |A_aN_a|, to the
-/// last bit. Where several meet at a node, A_aN_a = sum_i A_i n_i with their normals n_i and the
-/// number is sum_i A_i; where the n_i leave the A_i open it is |A_aN_a| sum_i |S_i| / |sum_i S_i|
-/// with the shares S_i of the node in the faces of each side. Where A_aN_a is the sum of the shares
-/// S_f in faces, it is sum_f |S_f|.  @return [nodes of the patch] m^2 (m in the plane)
+/// Areas of the nodes as numbers, int N_a dA. On a plane that is |A_aN_a|, to the last bit,
+/// and on a smooth side of which A_aN_a is more than its facets. Where several meet at a node,
+/// A_aN_a = sum_i A_i n_i with their normals n_i and the number is sum_i A_i; where the n_i leave
+/// the A_i open it is |A_aN_a| sum_i |S_i| / |sum_i S_i| with the shares S_i of the node in the
+/// faces of each side. Where A_aN_a is the sum of the shares S_f in faces, it is sum_f |S_f|.
+/// @return [nodes of the patch] m^2 (m in the plane)
 std::vector<double> areas_as_numbers(const PairGraph& graph, const BoundaryPatch& patch);
 
 /// Unit normals of the planes around each node: one, that of A_aN_a, where no two faces turn by

@@ -17,6 +17,7 @@ using algebra::Vec3;
 
 const char* const block = R"([mesh]
 element = "hexahedron"
+cells = [6, 6, 6]
 [material]
 model = "neo-hookean"
 density = 1000
