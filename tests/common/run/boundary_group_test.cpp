@@ -79,7 +79,7 @@ TEST_P(LoadedGroups, HaveTheForceAndTheAreaOfTheirFaces) {
     meshes::unite_overlapping(setup.boundaries[0].groups, mesh);
     const scheme::PairGraph graph = tests::graph_of(GetParam(), mesh, setup);
     const auto solver = run::make_solver(setup, graph);
-    const run::Probes probes(setup.probes, graph, [](std::int32_t, std::vector<std::int32_t>&) {});
+    const run::Probes probes(setup.probes, graph, {});
     EXPECT_NEAR(probes.values(*solver).at(0), area, 1e-12) << groups;
     solver->step(setup.time.end);
     const run::Snapshot after = solver->snapshot();
