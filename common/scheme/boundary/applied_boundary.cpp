@@ -1,6 +1,7 @@
 #include "common/scheme/boundary/applied_boundary.hpp"
 
 #include "common/algebra/face_areas.hpp"
+#include "common/base/error.hpp"
 #include "common/parallel/agreement.hpp"
 #include "common/scheme/boundary/node_vector.hpp"
 #include "common/scheme/boundary/patch_faces.hpp"
@@ -129,7 +130,16 @@ void AppliedBoundary::place_velocities() {
   }
 }
 
+namespace {
+
+bool is_same_load(const BoundaryValues& a, const BoundaryValues& b) {
+  return (a.vector && a.vector.is_same(b.vector)) || (a.scalar && a.scalar.is_same(b.scalar));
+}
+
+}  // namespace
+
 void AppliedBoundary::place_loads(const PairGraph& graph) {
+  std::vector<std::pair<const BoundaryValues*, SeenLoad>> all;
   for (const PlacedCondition& placed : conditions_) {
     GivenLoads& given = given_.emplace_back();
     const BoundaryValues* const values = placed.condition->given();
@@ -140,8 +150,16 @@ void AppliedBoundary::place_loads(const PairGraph& graph) {
     add_telling_places(X, telling_places_);
     given.sizes = areas_as_numbers(graph, *placed.patch);
     const std::vector<PatchFace> faces = faces_of(*placed.patch);
-    if (values->vector) given.vector = resolved_load(values->vector, X, given.sizes, faces);
-    if (values->scalar) given.scalar = resolved_load(values->scalar, X, given.sizes, faces);
+    SeenLoad& seen = all.emplace_back(values, SeenLoad{}).second;
+    if (values->vector) given.vector = resolved_load(values->vector, X, given.sizes, faces, seen);
+    if (values->scalar) given.scalar = resolved_load(values->scalar, X, given.sizes, faces, seen);
+  }
+  // on one of several groups of a condition it may have none
+  for (const auto& [values, seen] : all) {
+    const bool is_seen = std::any_of(all.begin(), all.end(), [&](const auto& other) {
+      return other.second.within_faces && is_same_load(*values, *other.first);
+    });
+    if (seen.on_nodes_alone && !is_seen) throw base::InputError(no_area_for(*seen.on_nodes_alone));
   }
 }
 

@@ -1,7 +1,5 @@
 #include "common/scheme/boundary/resolved_load.hpp"
 
-#include "common/base/error.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -86,18 +84,6 @@ Value zero() {
   } else {
     return Value::Zero();
   }
-}
-
-/// Refuses a load that nodes see but no point of any face.
-template <class Value>
-[[noreturn]] void refuse_unseen(const std::vector<Value>& nodes, std::span<const Vec3> X) {
-  size_t a = 0;
-  while (size_of(nodes[a]) == 0)
-    ++a;
-  throw base::InputError(fmt::format(
-      "a load acts at the node at ({:.6g}, {:.6g}, {:.6g}) m, but at none of {} places in each "
-      "face around it: it has hardly an area; give it one that is a hundredth of a face or more",
-      X[a].x(), X[a].y(), X[a].z(), 2 * n_points));
 }
 
 /// Faces with points in them.
@@ -190,10 +176,18 @@ bool is_of_nodes_alone(const std::vector<Value>& nodes, std::span<const PatchFac
 }
 
 template <class Value>
+size_t first_loaded(const std::vector<Value>& nodes) {
+  const auto at = std::find_if(nodes.begin(), nodes.end(),
+                               [](const Value& value) { return size_of(value) > 0; });
+  return static_cast<size_t>(at - nodes.begin());
+}
+
+template <class Value>
 Survey survey(const FieldFunction<Value>& load,
               std::span<const Vec3> X,
               std::span<const PatchFace> faces,
-              const PlacedField<Value>& at_nodes) {
+              const PlacedField<Value>& at_nodes,
+              SeenLoad& seen) {
   constexpr size_t at_a_time = 256;  // their points take room
   const std::span<const double> instants = load.in_place().instants;
   Survey found;
@@ -218,9 +212,12 @@ Survey survey(const FieldFunction<Value>& load,
   std::vector<char> wanted;
   size_t n_seen = 0;
   for (size_t i = 0; i < instants.size(); ++i) {
-    if (largest[i] == 0 && !is_of_nodes_alone(nodes[i], faces)) continue;
-    if (largest[i] == 0 && instants.size() == 1) refuse_unseen(nodes[i], X);
-    if (largest[i] == 0) largest[i] = missed_most[i];
+    seen.within_faces |= largest[i] > 0;
+    if (largest[i] == 0) {
+      if (!is_of_nodes_alone(nodes[i], faces)) continue;
+      largest[i] = missed_most[i];
+      if (instants.size() == 1) seen.on_nodes_alone = X[first_loaded(nodes[i])];
+    }
     ++n_seen;
     std::vector<char> now(faces.size());
     for (size_t p = 0; p < faces.size(); ++p)
@@ -297,9 +294,10 @@ template <class Value>
 std::unique_ptr<PlacedField<Value>> resolved_load(const FieldFunction<Value>& load,
                                                   std::span<const Vec3> X,
                                                   std::span<const double> area,
-                                                  std::span<const PatchFace> faces) {
+                                                  std::span<const PatchFace> faces,
+                                                  SeenLoad& seen) {
   std::unique_ptr<PlacedField<Value>> at_nodes = load.placed(X);
-  const Survey found = survey(load, X, faces, *at_nodes);
+  const Survey found = survey(load, X, faces, *at_nodes, seen);
   if (found.unresolved_faces.empty()) return at_nodes;
   std::vector<double> of_them(X.size(), 0);
   Integrals<Value> missed(load, X, found.unresolved_faces, of_them);
@@ -307,13 +305,23 @@ std::unique_ptr<PlacedField<Value>> resolved_load(const FieldFunction<Value>& lo
                                                found.areas);
 }
 
+std::string no_area_for(const Vec3& node) {
+  return fmt::format(
+      "a load acts at the node at ({:.6g}, {:.6g}, {:.6g}) m, but at none of {} places in each "
+      "face "
+      "around it: it has hardly an area; give it one that is a hundredth of a face or more",
+      node.x(), node.y(), node.z(), 2 * n_points);
+}
+
 template std::unique_ptr<PlacedField<Vec3>> resolved_load(const FieldFunction<Vec3>&,
                                                           std::span<const Vec3>,
                                                           std::span<const double>,
-                                                          std::span<const PatchFace>);
+                                                          std::span<const PatchFace>,
+                                                          SeenLoad&);
 template std::unique_ptr<PlacedField<double>> resolved_load(const FieldFunction<double>&,
                                                             std::span<const Vec3>,
                                                             std::span<const double>,
-                                                            std::span<const PatchFace>);
+                                                            std::span<const PatchFace>,
+                                                            SeenLoad&);
 
 }  // namespace diptych::scheme

@@ -12,17 +12,33 @@
 #include "common/scheme/boundary/field_function.hpp"
 #include "common/scheme/boundary/patch_faces.hpp"
 
+#include <optional>
+#include <string>
+
 namespace diptych::scheme {
+
+/// How a load acts on a patch, at the instants at which it is looked at.
+struct SeenLoad {
+  bool within_faces = false;
+  /// A node at which a load acts that does not depend on time, though no place within a face sees
+  /// it: it has hardly an area, and the nodes carry none of it.
+  std::optional<Vec3> on_nodes_alone;
+};
 
 /// @param load   Pa; nodes alone see what does not depend on the place
 /// @param X      [nodes] m
-/// @param area   [nodes] areas_as_numbers  [m^2]
+/// @param area   [nodes] their shares of it  [m^2]
 /// @param faces  of which the nodes are the corners
-/// @throws base::InputError where the load has no value, or acts at nodes but on hardly any area
+/// @param seen   receives how it acts there
+/// @throws base::InputError where the load has no value
 template <class Value>
 std::unique_ptr<PlacedField<Value>> resolved_load(const FieldFunction<Value>& load,
                                                   std::span<const Vec3> X,
                                                   std::span<const double> area,
-                                                  std::span<const PatchFace> faces);
+                                                  std::span<const PatchFace> faces,
+                                                  SeenLoad& seen);
+
+/// What is said of a load that acts on nodes alone on all patches that it is for.
+std::string no_area_for(const Vec3& node);
 
 }  // namespace diptych::scheme

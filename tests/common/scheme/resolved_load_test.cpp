@@ -53,14 +53,16 @@ class Side {
     area_ = areas_as_numbers(scene_.graph, patch_);
   }
   const std::vector<Vec3>& X() const { return X_; }
+  const SeenLoad& seen() const { return seen_; }  ///< of the last force or values
   std::vector<double> values(const Load& load,
                              std::vector<double> instants,
                              double t,
                              bool travels = false) const {
+    seen_ = {};
     const FieldFunction<double> function(
         load, [load](std::span<const Vec3> X) { return FieldFunction<double>(load).placed(X); },
         {std::move(instants), travels});
-    return resolved_load(function, X_, area_, faces_of(patch_))->at(t);
+    return resolved_load(function, X_, area_, faces_of(patch_), seen_)->at(t);
   }
   double force(const Load& load,
                std::vector<double> instants,
@@ -78,6 +80,7 @@ class Side {
   BoundaryPatch patch_;
   std::vector<Vec3> X_;
   std::vector<double> area_;
+  mutable SeenLoad seen_;
 };
 
 using Meshed = std::tuple<std::string, std::string>;
@@ -116,9 +119,12 @@ TEST_P(ResolvedLoad, HasTheForceOfItsIntegral) {
     EXPECT_NEAR(side_.force(load, {0}, 0), force, most * force) << name;
 }
 
-TEST_P(ResolvedLoad, IsRefusedWhereItActsOnNodesAlone) {
-  EXPECT_THROW(side_.force([](const Vec3& X, double) { return X[0] > 0.9999; }, {0}, 0),
-               base::InputError);
+TEST_P(ResolvedLoad, IsNoneWhereItActsOnNodesAlone) {
+  const Load sliver = [](const Vec3& X, double) { return X[0] > 0.9999; };
+  EXPECT_NEAR(side_.force(sliver, {0}, 0), 0, 1e-9);
+  ASSERT_TRUE(side_.seen().on_nodes_alone);
+  EXPECT_EQ(side_.seen().on_nodes_alone->x(), 1);
+  EXPECT_FALSE(side_.seen().within_faces);
   // fronts and spots that begin at a node have no area then, but later
   const Load front = [](const Vec3& X, double t) { return X[0] <= t; };
   EXPECT_NEAR(side_.force(front, {0, 0.31, 0.73}, 0.45, true), 0.45, 5e-3);
@@ -128,6 +134,15 @@ TEST_P(ResolvedLoad, IsRefusedWhereItActsOnNodesAlone) {
     return std::abs(std::remainder(X[0], 0.1)) + std::abs(std::remainder(X[1], 0.1)) < 1e-9 ? 1 : 0;
   };
   EXPECT_NEAR(side_.force(curved, {0}, 0), 1, 0.01);
+}
+
+TEST(NodesAlone, AreRefusedUnlessAnotherGroupOfTheConditionSeesTheLoad) {
+  const auto scene_with = [](const std::string& groups) {
+    return tests::scene_of("fvm", std::string(block) + "[[boundary]]\ngroup = " + groups +
+                                      "\ntype = \"pressure\"\nvalue = \"x > 0.9999 ? 1 : 0\"\n");
+  };
+  EXPECT_THROW(scene_with("[\"z_max\"]"), base::InputError);
+  EXPECT_NO_THROW(scene_with("[\"z_max\", \"x_max\"]"));
 }
 
 TEST_P(ResolvedLoad, GoesWithALoadThatTravels) {
