@@ -4,6 +4,16 @@
 . "$top/benchmarks/setup/packages.sh"
 cd "$top"
 
+# quietly COMMAND...: its words are shown only where it fails.
+quietly() {
+  words=$(mktemp)
+  failed=0
+  "$@" >"$words" 2>&1 || failed=$?
+  [ "$failed" = 0 ] || cat "$words" >&2
+  rm -f "$words"
+  return "$failed"
+}
+
 # configure PRESET [OPTION...]: CMake's words are shown only where it fails. DIPTYCH_CONFIGURE holds
 # options for every call, such as -DCMAKE_COMPILE_WARNING_AS_ERROR=ON.
 configure() {

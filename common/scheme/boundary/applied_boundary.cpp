@@ -155,11 +155,12 @@ void AppliedBoundary::place_loads(const PairGraph& graph) {
     if (values->scalar) given.scalar = resolved_load(values->scalar, X, given.sizes, faces, seen);
   }
   // on one of several groups of a condition it may have none
-  for (const auto& [values, seen] : all) {
+  for (const auto& load : all) {
     const bool is_seen = std::any_of(all.begin(), all.end(), [&](const auto& other) {
-      return other.second.within_faces && is_same_load(*values, *other.first);
+      return other.second.within_faces && is_same_load(*load.first, *other.first);
     });
-    if (seen.on_nodes_alone && !is_seen) throw base::InputError(no_area_for(*seen.on_nodes_alone));
+    const auto& on_nodes_alone = load.second.on_nodes_alone;
+    if (on_nodes_alone && !is_seen) throw base::InputError(no_area_for(*on_nodes_alone));
   }
 }
 
