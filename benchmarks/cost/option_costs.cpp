@@ -13,6 +13,7 @@
 #include "meshes/deformed_cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -151,7 +152,8 @@ std::vector<double> column(const std::string& method,
                            int rounds,
                            const std::string& name,
                            StatusLine& status) {
-  std::map<std::string, CaseGraph> scenes;  // by precision
+  using Operators = std::array<std::string, 4>;
+  std::map<Operators, CaseGraph> scenes;  // by what makes their graphs
   const auto all = options();
   std::vector<std::unique_ptr<run::Solver>> solvers;
   for (const Option& option : all) {
@@ -159,9 +161,10 @@ std::vector<double> column(const std::string& method,
                                               "costs", option.overrides);
     for (int k = 0; k < option.n_branches; ++k)
       setup.material.branches.push_back({0.5, 1e-3 * (k + 1), 0.5, 2e-3 * (k + 1)});
-    const std::string& precision = setup.scheme.precision;
-    if (scenes.count(precision) == 0) scenes.emplace(precision, graph_of(setup, method, 0));
-    solvers.push_back(run::make_solver(setup, scenes.at(precision).graph));
+    const Operators operators{setup.scheme.precision, setup.scheme.volumes, setup.sph.gradient,
+                              setup.fvm.stencil};
+    if (scenes.count(operators) == 0) scenes.emplace(operators, graph_of(setup, method, 0));
+    solvers.push_back(run::make_solver(setup, scenes.at(operators).graph));
     solvers.back()->step(1e6);  // pages and caches
   }
   const meshes::DeformedCells deformed(scenes.begin()->second.mesh.mesh);

@@ -74,4 +74,18 @@ ExponentialGauss exponential_gauss(int n_points, double z) {
   return rule;
 }
 
+ExponentialGauss exponential_rule(const std::vector<double>& theta, double z) {
+  const Measure m = discretised_weight(z);
+  ExponentialGauss rule{std::exp(-z), std::vector<double>(theta.size(), 0.0), theta};
+  for (size_t at = 0; at < m.u.size(); ++at) {
+    for (size_t k = 0; k < theta.size(); ++k) {
+      double of_point = m.w[at];  // times its Lagrange polynomial
+      for (size_t j = 0; j < theta.size(); ++j)
+        of_point *= j == k ? 1 : (1 - m.u[at] - theta[j]) / (theta[k] - theta[j]);
+      rule.weight[k] += of_point;
+    }
+  }
+  return rule;
+}
+
 }  // namespace diptych::exact

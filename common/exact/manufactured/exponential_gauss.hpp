@@ -17,4 +17,8 @@ struct ExponentialGauss {
 /// @param z dt/tau > 0
 ExponentialGauss exponential_gauss(int n_points, double z);
 
+/// The rule with given points, exact for B of degree n - 1: for times tau that share the values of
+/// B.
+ExponentialGauss exponential_rule(const std::vector<double>& theta, double z);
+
 }  // namespace diptych::exact

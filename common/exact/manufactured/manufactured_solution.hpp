@@ -55,7 +55,7 @@ class ManufacturedSolution : public KnownState {
 
   /// @throws base::InputError where J <= 0 or a value is not finite
   void move_to(double t) override;
-  const algebra::BlockField& body_forces() const override { return body_forces_; }
+  const algebra::BlockField& body_forces() const override { return loads_[now_].body_forces; }
   Mat3 stress(std::int64_t node) const override;
   scheme::Snapshot snapshot(double t) override;
   void archive(algebra::Archive& archive) override;
@@ -63,11 +63,19 @@ class ManufacturedSolution : public KnownState {
  private:
   using Program = functions::PlacedProgram;
 
+  /// What is kept of a time.
+  struct Loads {
+    double time;
+    algebra::BlockField body_forces, P;  ///< N/m^3, Pa (nine components)
+  };
+
   DIPTYCH_CLONES bool evaluate(std::int64_t strip,
                                double t,
                                const Program::Instant& instant,
-                               Program::Workspace& workspace);
-  void put_deformations(scheme::Snapshot& s) const;
+                               const Branch* branches,
+                               Program::Workspace& workspace,
+                               Loads& loads);
+  void put_deformations(double t, scheme::Snapshot& s) const;
   [[noreturn]] void refuse_strip(std::int64_t strip, double t) const;
 
   std::shared_ptr<const Motion> motion_;
@@ -75,9 +83,10 @@ class ManufacturedSolution : public KnownState {
   double rho_R_;
   Stress stress_of_;
   ViscousHistory<Dim> history_;
-  Program placed_;  ///< gradients of the motion, then its acceleration
-  double time_;
-  algebra::BlockField body_forces_, P_;  ///< N/m^3, Pa (nine components)
+  /// Of the last two times: a Runge-Kutta step asks for its end, then for its middle, and the next
+  /// one begins at that end.
+  std::array<Loads, 2> loads_;
+  size_t now_ = 0;
 };
 
 extern template class ManufacturedSolution<2>;

@@ -82,6 +82,24 @@ class DeformationGradient {
     }
     return F;
   }
+  /// F without its gradient, and dF/dX_I; in plane strain of the plane alone.
+  DIPTYCH_INLINE algebra::Tensor<Lanes> value_at(int block) const {
+    algebra::Tensor<Lanes> F = algebra::identity<Lanes>();
+    for (int i = 0; i < Dim; ++i) {
+      for (int j = 0; j < Dim; ++j)
+        F(i, j) = F(i, j) + rows_[Dim * i + j][block];
+    }
+    return F;
+  }
+  template <int I>
+  DIPTYCH_INLINE algebra::Tensor<Lanes> derivative_at(int block) const {
+    algebra::Tensor<Lanes> dF;
+    for (int i = 0; i < Dim; ++i) {
+      for (int j = 0; j < Dim; ++j)
+        dF(i, j) = rows_[Dim * Dim + n_second * i + second(j, I)][block];
+    }
+    return dF;
+  }
   static constexpr int n_rows = Dim * Dim + Dim * n_second;
 
  private:

@@ -5,76 +5,169 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
 #include <string>
 
 namespace diptych::exact {
 
 namespace {
 
-constexpr double accuracy_wanted = 1e-13;  // of A and of its gradient, relative to their size
+constexpr double accuracy_wanted =
+    1e-13;  // of means of C^-1 and of their gradients, relative to their size
 
-/// Largest entry, over value (n = 0) or gradients.
-template <int Dim>
-double largest(const algebra::SymmetricTensor<algebra::Dual<Lanes, Dim>>& A, bool gradient) {
-  double most = 0;
-  for (const auto& component : A.s) {
-    for (int k = gradient ? 0 : -1; k < (gradient ? Dim : 0); ++k) {
-      const Lanes& value = k < 0 ? component.v : component.d[k];
-      for (int lane = 0; lane < algebra::n_lanes; ++lane)
-        most = std::max(most, std::abs(value[lane]));
-    }
-  }
-  return most;
+/// Times from 0 to `last`.
+std::vector<double> evenly(double last, int n) {
+  std::vector<double> times;
+  for (int k = 0; k < n; ++k)
+    times.push_back(last * k / (n - 1));
+  return times;
+}
+/// Intervals of this length that half overlap.
+int n_covering(double whole, double length) {
+  return 2 * static_cast<int>(std::lround(whole / length)) - 1;
+}
+/// The times with the largest errors.
+std::vector<double> worst_of(const std::vector<double>& times,
+                             const std::vector<double>& errors,
+                             size_t n) {
+  std::vector<size_t> order(times.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t p, size_t q) { return errors[p] > errors[q]; });
+  std::vector<double> worst;
+  for (size_t k = 0; k < std::min(n, order.size()); ++k)
+    worst.push_back(times[order[k]]);
+  return worst;
 }
 
-template <int Dim>
+std::vector<int> joined(std::vector<int> first, const std::vector<int>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+/// C^-1 and G^-1 of a block, or their derivatives by one direction; in plane strain of the plane,
+/// and G_33^-1. What physics::right_tensors comes to, whose duals by all directions are several
+/// times as many as registers hold.
 struct Drives {
-  algebra::SymmetricTensor<algebra::Dual<Lanes, Dim>> inverse_C, inverse_G;
+  algebra::SymmetricTensor<Lanes> inverse_C, inverse_G;
 };
 
-/// C^-1 and G^-1 of a block.
-DIPTYCH_INLINE Drives<3> drives_of(const algebra::Tensor<algebra::Dual<Lanes, 3>>& F) {
-  const auto X = physics::right_tensors(F);
-  return {X.inverse_C, X.inverse_G};
+template <int Dim>
+class DrivesOf {
+ public:
+  DIPTYCH_INLINE explicit DrivesOf(const algebra::Tensor<Lanes>& F) : F_(F) {
+    if constexpr (Dim == 3) {
+      const physics::RightTensors<Lanes> X = physics::right_tensors(F);
+      values_ = {X.inverse_C, X.inverse_G};
+      inverse_det_ = X.inverse_G(0, 0) / X.C(0, 0);
+    } else {
+      const Lanes C_00 = F(0, 0) * F(0, 0) + F(1, 0) * F(1, 0);
+      const Lanes C_11 = F(0, 1) * F(0, 1) + F(1, 1) * F(1, 1);
+      const Lanes C_01 = F(0, 0) * F(0, 1) + F(1, 0) * F(1, 1);
+      inverse_det_ = 1.0 / (C_00 * C_11 - C_01 * C_01);
+      auto& [inverse_C, inverse_G] = values_;
+      inverse_G(0, 0) = inverse_C(1, 1) = inverse_det_ * C_00;
+      inverse_G(1, 1) = inverse_C(0, 0) = inverse_det_ * C_11;
+      inverse_G(0, 1) = inverse_det_ * C_01;
+      inverse_C(0, 1) = -1.0 * inverse_G(0, 1);
+      inverse_G(2, 2) = inverse_det_;
+    }
+  }
+  const Drives& values() const { return values_; }
+
+  /// d(C^-1) = -C^-1 dC C^-1 and d(C/det C) = dC/det C - (C^-1 : dC) C/det C for dC = F^T dF + dF^T
+  /// F.
+  DIPTYCH_INLINE Drives derivatives(const algebra::Tensor<Lanes>& dF) const {
+    const auto& [inverse_C, inverse_G] = values_;
+    algebra::Tensor<Lanes> M, K;  // F^T dF, dC C^-1
+    algebra::SymmetricTensor<Lanes> dC;
+    Drives d;
+    for (int i = 0; i < Dim; ++i) {
+      for (int j = 0; j < Dim; ++j)
+        M(i, j) = sum([&](int k) DIPTYCH_INLINE_LAMBDA { return F_(k, i) * dF(k, j); });
+    }
+    for (int i = 0; i < Dim; ++i) {
+      for (int j = i; j < Dim; ++j)
+        dC(i, j) = M(i, j) + M(j, i);
+    }
+    for (int i = 0; i < Dim; ++i) {
+      for (int j = 0; j < Dim; ++j)
+        K(i, j) = sum([&](int k) DIPTYCH_INLINE_LAMBDA { return dC(i, k) * inverse_C(k, j); });
+    }
+    const Lanes trace = sum([&](int k) DIPTYCH_INLINE_LAMBDA { return K(k, k); });
+    for (int i = 0; i < Dim; ++i) {
+      for (int j = i; j < Dim; ++j) {
+        d.inverse_C(i, j) =
+            -sum([&](int k) DIPTYCH_INLINE_LAMBDA { return inverse_C(i, k) * K(k, j); });
+        d.inverse_G(i, j) = inverse_det_ * dC(i, j) - trace * inverse_G(i, j);
+      }
+    }
+    if constexpr (Dim == 2) d.inverse_G(2, 2) = -trace * inverse_G(2, 2);
+    return d;
+  }
+
+ private:
+  template <class Term>
+  static DIPTYCH_INLINE Lanes sum(const Term& term) {
+    if constexpr (Dim == 2) return term(0) + term(1);
+    return term(0) + term(1) + term(2);
+  }
+  const algebra::Tensor<Lanes>& F_;
+  Drives values_;
+  Lanes inverse_det_;
+};
+
+/// A = old A_before + weight C^-1 of what Drives are of: the values (I = -1) or a direction.
+template <int I, int Dim>
+DIPTYCH_INLINE void add_drive(const algebra::SymmetricTensor<Lanes>& drive,
+                              bool of_G,
+                              double old,
+                              const algebra::SymmetricTensor<algebra::Dual<Lanes, Dim>>& before,
+                              double weight,
+                              algebra::SymmetricTensor<algebra::Dual<Lanes, Dim>>& A) {
+  const auto add = [&](int i, int j) DIPTYCH_INLINE_LAMBDA {
+    const algebra::Dual<Lanes, Dim>& from = before(i, j);
+    algebra::Dual<Lanes, Dim>& to = A(i, j);
+    if constexpr (I < 0) {
+      to.v = old * from.v + weight * drive(i, j);
+    } else {
+      to.d[I] = old * from.d[I] + weight * drive(i, j);
+    }
+  };
+  for (int i = 0; i < Dim; ++i) {
+    for (int j = i; j < Dim; ++j)
+      add(i, j);
+  }
+  if (Dim == 2 && of_G) add(2, 2);
 }
-/// In plane strain, where C_33 = 1 and G_33 = det C: a third of the operations.
-DIPTYCH_INLINE Drives<2> drives_of(const algebra::Tensor<algebra::Dual<Lanes, 2>>& F) {
-  using Scalar = algebra::Dual<Lanes, 2>;
-  const Scalar C_00 = F(0, 0) * F(0, 0) + F(1, 0) * F(1, 0);
-  const Scalar C_11 = F(0, 1) * F(0, 1) + F(1, 1) * F(1, 1);
-  const Scalar C_01 = F(0, 0) * F(0, 1) + F(1, 0) * F(1, 1);
-  const Scalar inverse_det = 1.0 / (C_00 * C_11 - C_01 * C_01);
-  auto r = Drives<2>{algebra::symmetric_identity<Scalar>(), algebra::symmetric_identity<Scalar>()};
-  r.inverse_G(0, 0) = r.inverse_C(1, 1) = inverse_det * C_00;
-  r.inverse_G(1, 1) = r.inverse_C(0, 0) = inverse_det * C_11;
-  r.inverse_G(0, 1) = inverse_det * C_01;
-  r.inverse_C(0, 1) = -1.0 * r.inverse_G(0, 1);
-  r.inverse_G(2, 2) = inverse_det;
-  return r;
+
+/// use(direction, Drives) for the values (-1) and for each direction.
+template <int Dim, class Use>
+DIPTYCH_INLINE void for_drives(const DeformationGradient<Dim>& gradient,
+                               int block,
+                               const Use& use) {
+  const algebra::Tensor<Lanes> F = gradient.value_at(block);
+  const DrivesOf<Dim> of(F);
+  use(std::integral_constant<int, -1>(), of.values());
+  use(std::integral_constant<int, 0>(), of.derivatives(gradient.template derivative_at<0>(block)));
+  use(std::integral_constant<int, 1>(), of.derivatives(gradient.template derivative_at<1>(block)));
+  if constexpr (Dim == 3) {
+    use(std::integral_constant<int, 2>(),
+        of.derivatives(gradient.template derivative_at<2>(block)));
+  }
 }
 
 }  // namespace
 
-/// Times and weights of the way from one time to another.
-template <int Dim>
-struct ViscousHistory<Dim>::Plan {
-  struct Point {
-    double t;
-    functions::PlacedProgram::Instant instant;
-  };
-  int n_intervals = 0;
-  std::vector<ExponentialGauss> rule;       ///< [clock]
-  std::vector<std::vector<Point>> at_time;  ///< [clock][interval * n_points + point]
-};
-
 template <int Dim>
 ViscousHistory<Dim>::ViscousHistory(const Motion& motion,
+                                    const std::vector<int>& results,
                                     std::span<const Vec3> X,
                                     std::vector<physics::MaxwellBranch> branches,
                                     bool relaxed,
                                     double end)
     : motion_(&motion),
-      placed_(motion.program(), motion.gradients(), X),
+      placed_(motion.program(), joined(motion.gradients(), results), X),
       branches_(std::move(branches)),
       relaxed_(relaxed) {
   const auto clock = [&](double tau) -> Clock& {
@@ -109,11 +202,7 @@ void ViscousHistory<Dim>::restart() {
   const auto I = algebra::symmetric_identity<Scalar>();
   const std::int64_t n_blocks = placed_.n_strips() * placed_.width();
   const Branch identity{I, I};
-  now_ = 0;
-  n_asked_ = 1;
-  for (State& state : states_)
-    state = {0, 0, {}};
-  states_[0].used = n_asked_;
+  states_ = {};
   states_[0].branches.assign(static_cast<size_t>(n_blocks * n_branches()), identity);
   if (!relaxed_ || clocks_.empty()) return;
   const functions::PlacedProgram::Instant start = placed_.at(0);
@@ -130,14 +219,19 @@ void ViscousHistory<Dim>::relax(const functions::PlacedProgram::Instant& start,
   placed_.evaluate(strip, 0, start, workspace);
   const DeformationGradient<Dim> gradient(placed_, strip, start, workspace);
   for (int w = 0; w < placed_.width(); ++w) {
-    const Drives<Dim> drives = drives_of(gradient.at(w));
     Branch* const branch = &states_[0].branches[(strip * placed_.width() + w) * n_branches()];
-    for (std::int64_t k = 0; k < n_branches(); ++k)
-      branch[k] = {drives.inverse_C, drives.inverse_G};
+    for_drives(gradient, w, [&](auto direction, const Drives& drives) DIPTYCH_INLINE_LAMBDA {
+      for (std::int64_t k = 0; k < n_branches(); ++k) {
+        add_drive<direction>(drives.inverse_C, false, 0, branch[k].A, 1, branch[k].A);
+        add_drive<direction>(drives.inverse_G, true, 0, branch[k].S, 1, branch[k].S);
+      }
+    });
   }
 }
 
-/// Finds for every rule how long its intervals may be, at some of the places.
+/// Finds for every rule how long its intervals may be, at some of the places. What an interval
+/// takes to A is the mean of C^-1 over it, weighed by the exponential, so that A errs by no more
+/// than these means do, however many intervals there are.
 template <int Dim>
 void ViscousHistory<Dim>::calibrate(double end, std::span<const Vec3> X) {
   constexpr std::int64_t n_samples = 2 * algebra::n_lanes;
@@ -145,155 +239,199 @@ void ViscousHistory<Dim>::calibrate(double end, std::span<const Vec3> X) {
   const auto n = static_cast<std::int64_t>(X.size());
   for (std::int64_t k = 0; k < n_samples; ++k)
     sample.push_back(X[static_cast<size_t>(k * (n - 1) / (n_samples - 1))]);
-  for (const int n_points : {2, 3, 4}) {
-    const double longest = longest_interval(n_points, end, 1 << 8, sample);
-    if (longest > 0) accuracies_.push_back({n_points, longest});
+  constexpr int most_intervals = 1 << 16, most_looks = 256;
+  constexpr size_t n_worst = 16;
+  std::vector<double> begins, worst;
+  double longest = end / 8;
+  for (const int n_points : {6, 5, 4, 3, 2}) {
+    for (; longest * most_intervals >= end; longest /= 2) {
+      if (n_points == 6)
+        begins = evenly(end - longest, std::min(most_looks, n_covering(end, longest)));
+      const std::vector<double> errors = errors_of(n_points, longest, begins, sample);
+      if (*std::max_element(errors.begin(), errors.end()) <= accuracy_wanted) break;
+      if (n_points == 6) worst = worst_of(begins, errors, n_worst);
+    }
+    if (!(longest * most_intervals >= end)) break;
+    accuracies_.insert(accuracies_.begin(), {n_points, longest});
+    if (!worst.empty()) begins = worst;  // where the others err most, too
   }
-  const double longest = longest_interval(6, end, 1 << 16, sample);
-  if (!(longest > 0)) {
+  if (accuracies_.empty()) {
     throw base::InputError(
         "manufactured.displacement: the internal variables cannot be integrated in time to 1e-13; "
         "write a motion that is smooth up to time.end");
   }
-  accuracies_.push_back({6, longest});
 }
 
-/// @return the longest interval at which halving changes nothing, 0 where `most` are too few
+/// Of intervals of this length that begin at these times: how far the means of C^-1 and G^-1, or
+/// their gradients, are from those by two intervals of half the length, relative to their size.
 template <int Dim>
-double ViscousHistory<Dim>::longest_interval(int n_points,
-                                             double end,
-                                             int most,
-                                             std::span<const Vec3> sample) const {
-  constexpr int n_times = 8;
-  for (int n = n_times; n <= most; n *= 2) {
-    ViscousHistory coarse(*this, sample, {n_points, end / n});
-    ViscousHistory fine(*this, sample, {n_points, end / (2 * n)});
-    double error[2] = {0, 0}, scale[2] = {1, 1e-3};
-    for (int k = 1; k <= n_times; ++k) {
-      coarse.move_to(end * k / n_times);
-      fine.move_to(end * k / n_times);
-      const size_t n_all = coarse.states_[coarse.now_].branches.size();
-      for (size_t i = 0; i < n_all; ++i) {
-        const Branch &p = coarse.at(0)[i], &q = fine.at(0)[i];
-        for (const bool of_G : {false, true}) {
-          const auto& c = of_G ? p.S : p.A;
-          const auto& f = of_G ? q.S : q.A;
-          for (const int part : {0, 1}) {
-            error[part] = std::max(error[part], largest<Dim>(c + (-1.0) * f, part == 1));
-            scale[part] = std::max(scale[part], largest<Dim>(f, part == 1));
+std::vector<double> ViscousHistory<Dim>::errors_of(int n_points,
+                                                   double length,
+                                                   std::span<const double> begins,
+                                                   std::span<const Vec3> sample) const {
+  ViscousHistory coarse(*this, sample, {n_points, length});
+  ViscousHistory fine(*this, sample, {n_points, length / 2});
+  std::vector<double> errors;
+  for (const double begin : begins) {
+    const std::vector<Branch>& p = coarse.taken_in(begin, length);
+    const std::vector<Branch>& q = fine.taken_in(begin, length);
+    double error[2] = {0, 0}, scale[2] = {1, 1e-3};  // of values, of gradients
+    const auto compare = [&](const auto& of_coarse, const auto& of_fine, double share) {
+      for (int s = 0; s < 6; ++s) {
+        for (int d = -1; d < Dim; ++d) {
+          const int part = d < 0 ? 0 : 1;
+          const Lanes& c = d < 0 ? of_coarse.s[s].v : of_coarse.s[s].d[d];
+          const Lanes& f = d < 0 ? of_fine.s[s].v : of_fine.s[s].d[d];
+          for (int lane = 0; lane < algebra::n_lanes; ++lane) {
+            error[part] = std::max(error[part], std::abs(c[lane] - f[lane]) / share);
+            scale[part] = std::max(scale[part], std::abs(f[lane]) / share);
           }
         }
       }
+    };
+    for (const Clock& clock : clocks_) {
+      const double share = -std::expm1(-length / clock.tau);
+      for (size_t i = 0; i < p.size(); ++i) {
+        const int branch = static_cast<int>(static_cast<std::int64_t>(i) % n_branches());
+        if (std::find(clock.C.begin(), clock.C.end(), branch) != clock.C.end())
+          compare(p[i].A, q[i].A, share);
+        if (std::find(clock.G.begin(), clock.G.end(), branch) != clock.G.end())
+          compare(p[i].S, q[i].S, share);
+      }
     }
-    if (error[0] <= accuracy_wanted * scale[0] && error[1] <= accuracy_wanted * scale[1])
-      return end / (2 * n);
+    errors.push_back(std::max(error[0] / scale[0], error[1] / scale[1]));
   }
-  return 0;
+  return errors;
+}
+
+/// What an interval adds to the branches.
+template <int Dim>
+auto ViscousHistory<Dim>::taken_in(double begin, double length) -> const std::vector<Branch>& {
+  restart();
+  states_[0].time = begin;
+  std::fill(states_[0].branches.begin(), states_[0].branches.end(), Branch{});
+  return branches_at(begin + length);
 }
 
 template <int Dim>
-auto ViscousHistory<Dim>::plan(double from, double to) const -> Plan {
-  const double length = to - from;
+void ViscousHistory<Dim>::plan(Way& way) const {
+  const double start = states_[way.from].time, length = way.to_time - start;
   const auto fits = [&](const Accuracy& a) { return length <= a.longest; };
   auto accuracy = std::find_if(accuracies_.begin(), accuracies_.end(), fits);
   if (accuracy == accuracies_.end()) accuracy = accuracies_.end() - 1;
-  Plan plan;
-  plan.n_intervals = std::max(1, static_cast<int>(std::ceil(length / accuracy->longest - 1e-9)));
-  const double interval = length / plan.n_intervals;
+  const int n_intervals =
+      std::max(1, static_cast<int>(std::ceil(length / accuracy->longest - 1e-9)));
+  const double interval = length / n_intervals;
+  const auto slowest = std::max_element(clocks_.begin(), clocks_.end(),
+                                        [](auto& p, auto& q) { return p.tau < q.tau; });
+  const ExponentialGauss gauss = exponential_gauss(accuracy->n_points, interval / slowest->tau);
   for (const Clock& clock : clocks_) {
-    plan.rule.push_back(exponential_gauss(accuracy->n_points, interval / clock.tau));
-    auto& points = plan.at_time.emplace_back();
-    for (int k = 0; k < plan.n_intervals; ++k) {
-      for (const double theta : plan.rule.back().theta) {
-        const double t = from + (k + theta) * interval;
-        points.push_back({t, placed_.at(t)});
-      }
-    }
+    way.rules.push_back(
+        clock.tau == slowest->tau ? gauss : exponential_rule(gauss.theta, interval / clock.tau));
   }
-  return plan;
-}
-
-template <int Dim>
-void ViscousHistory<Dim>::integrate(const Plan& plan,
-                                    const State& from,
-                                    State& to,
-                                    std::int64_t strip,
-                                    functions::PlacedProgram::Workspace& workspace) const {
-  const std::int64_t width = placed_.width();
-  const auto begin = static_cast<size_t>(strip * width * n_branches());
-  for (size_t c = 0; c < clocks_.size(); ++c) {
-    const Clock& clock = clocks_[c];
-    const ExponentialGauss& rule = plan.rule[c];
-    const size_t n_points = rule.theta.size();
-    for (size_t k = 0; k < plan.at_time[c].size(); ++k) {
-      const double old = k % n_points == 0 ? rule.old : 1, weight = rule.weight[k % n_points];
-      const auto& point = plan.at_time[c][k];
-      placed_.evaluate(strip, point.t, point.instant, workspace);
-      const DeformationGradient<Dim> gradient(placed_, strip, point.instant, workspace);
-      const State& before = k == 0 ? from : to;
-      for (int w = 0; w < width; ++w) {
-        const size_t block = begin + static_cast<size_t>(w * n_branches());
-        const Branch* const old_branch = &before.branches[block];
-        Branch* const branch = &to.branches[block];
-        const Drives<Dim> drives = drives_of(gradient.at(w));
-        for (const int i : clock.C)
-          branch[i].A = old * old_branch[i].A + weight * drives.inverse_C;
-        for (const int i : clock.G)
-          branch[i].S = old * old_branch[i].S + weight * drives.inverse_G;
-      }
+  for (int k = 0; k < n_intervals; ++k) {
+    for (const double theta : gauss.theta) {
+      const double t = start + (k + theta) * interval;
+      way.points.push_back({t, placed_.at(t)});
     }
   }
 }
 
 template <int Dim>
-void ViscousHistory<Dim>::move_to(double t) {
-  if (clocks_.empty()) return;
-  const auto holds = [](const State& state) { return state.used > 0; };
-  size_t from = states_.size(), oldest = 0;
-  for (size_t k = 0; k < states_.size(); ++k) {
-    State& state = states_[k];
-    if (holds(state) && state.time == t) {
-      state.used = ++n_asked_;
-      now_ = k;
-      return;
-    }
-    const bool is_before = holds(state) && state.time < t;
-    if (is_before && (from == states_.size() || state.time > states_[from].time)) from = k;
-  }
-  if (from == states_.size()) {
+auto ViscousHistory<Dim>::way_to(double t) -> Way {
+  Way way;
+  way.to_time = t;
+  if (clocks_.empty()) return way;  // the same at all times
+  const bool has_both = states_[1].holds();
+  const size_t latest = has_both && states_[1].time > states_[0].time ? 1 : 0;
+  const size_t earlier = has_both ? 1 - latest : latest;
+  if (t < states_[earlier].time) {
     restart();
-    return move_to(t);
+    return way_to(t);
   }
-  for (size_t k = 0; k < states_.size(); ++k) {
-    const bool replaces = oldest == from || states_[k].used < states_[oldest].used;
-    if (k != from && replaces) oldest = k;
-  }
-  const Plan way = plan(states_[from].time, t);
-  State& to = states_[oldest];
+  way.from = t < states_[latest].time ? earlier : latest;
+  way.to = way.from;
+  if (t == states_[way.from].time) return way;
+  way.is_kept = way.from == latest;
+  way.to = 1 - way.from;
+  plan(way);
   // those that do not relax are the same at all times
-  if (to.branches.size() != states_[from].branches.size()) to.branches = states_[from].branches;
+  if (way.is_kept && !has_both) states_[way.to].branches = states_[way.from].branches;
+  return way;
+}
+
+template <int Dim>
+auto ViscousHistory<Dim>::follow(const Way& way,
+                                 std::int64_t strip,
+                                 functions::PlacedProgram::Workspace& workspace,
+                                 Branch* room) -> const Branch* {
+  const Branch* const from = states_[way.from].branches.data() + strip * branches_of_strip();
+  if (way.from == way.to) return from;
+  Branch* const to =
+      way.is_kept ? states_[way.to].branches.data() + strip * branches_of_strip() : room;
+  if (!way.is_kept) std::copy_n(from, branches_of_strip(), to);
+  integrate(way, strip, workspace, from, to);
+  return to;
+}
+
+template <int Dim>
+void ViscousHistory<Dim>::integrate(const Way& way,
+                                    std::int64_t strip,
+                                    functions::PlacedProgram::Workspace& workspace,
+                                    const Branch* from,
+                                    Branch* to) const {
+  const size_t n_points = way.rules.front().theta.size();
+  for (size_t k = 0; k < way.points.size(); ++k) {
+    const typename Way::Point& point = way.points[k];
+    placed_.evaluate(strip, point.t, point.instant, workspace);
+    const DeformationGradient<Dim> gradient(placed_, strip, point.instant, workspace);
+    const Branch* const before = k == 0 ? from : to;
+    for (int w = 0; w < placed_.width(); ++w) {
+      const Branch* const old_branch = before + w * n_branches();
+      Branch* const branch = to + w * n_branches();
+      for_drives(gradient, w, [&](auto direction, const Drives& drives) DIPTYCH_INLINE_LAMBDA {
+        for (size_t c = 0; c < clocks_.size(); ++c) {
+          const ExponentialGauss& rule = way.rules[c];
+          const double old = k % n_points == 0 ? rule.old : 1, weight = rule.weight[k % n_points];
+          for (const int i : clocks_[c].C)
+            add_drive<direction>(drives.inverse_C, false, old, old_branch[i].A, weight,
+                                 branch[i].A);
+          for (const int i : clocks_[c].G)
+            add_drive<direction>(drives.inverse_G, true, old, old_branch[i].S, weight, branch[i].S);
+        }
+      });
+    }
+  }
+}
+
+template <int Dim>
+void ViscousHistory<Dim>::arrive(const Way& way) {
+  if (way.from != way.to && way.is_kept) states_[way.to].time = way.to_time;
+}
+
+template <int Dim>
+auto ViscousHistory<Dim>::branches_at(double t) -> const std::vector<Branch>& {
+  const Way way = way_to(t);
+  if (!way.is_kept) passing_ = states_[way.from].branches;
   placed_.for_strips([&](std::int64_t strip, functions::PlacedProgram::Workspace& workspace) {
-    integrate(way, states_[from], to, strip, workspace);
+    (void)follow(way, strip, workspace,
+                 way.is_kept ? nullptr : passing_.data() + strip * branches_of_strip());
   });
-  to.time = t;
-  to.used = ++n_asked_;
-  now_ = oldest;
+  arrive(way);
+  return way.is_kept ? states_[way.to].branches : passing_;
 }
 
 template <int Dim>
 void ViscousHistory<Dim>::archive(algebra::Archive& archive) {
-  auto now = static_cast<std::int64_t>(now_);
-  archive.integer("known state/now", now);
-  archive.integer("known state/times asked for", n_asked_);
-  now_ = static_cast<size_t>(now);
   for (size_t k = 0; k < states_.size(); ++k) {
     State& state = states_[k];
-    const std::string name = fmt::format("known state/{} of 3", k);
+    const std::string name = fmt::format("known state/{} of 2", k);
+    std::int64_t is_held = state.holds() ? 1 : 0;
     archive.real(name + " time", "s", state.time);
-    archive.integer(name + " asked for", state.used);
-    if (archive.is_loading() && state.used > 0)
+    archive.integer(name + " is held", is_held);
+    if (archive.is_loading())
       state.branches.resize(
-          static_cast<size_t>(placed_.n_strips() * placed_.width() * n_branches()));
+          static_cast<size_t>(is_held * placed_.n_strips() * branches_of_strip()));
     // value and gradient of the components of A and of S, lane by lane
     std::vector<double> values;
     const auto for_each = [&](const auto& use) {
