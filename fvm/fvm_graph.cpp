@@ -136,19 +136,28 @@ scheme::Operators edge_because(const meshes::Mesh& mesh,
   return edge_on(mesh, fmt::format("edge stencil: {}", because), std::move(notices));
 }
 
-/// Why "auto" takes operators over cells where lines of curved blocks are there to derive along;
-/// empty: it does not.
-std::string cells_because(const meshes::Mesh& mesh,
-                          const std::vector<meshes::LatticeBlock>& blocks,
-                          const Options& options) {
-  if (blocks.empty()) return "";
-  if (options.is_hardly_compressible) return "lock where lame >= 99 shear_modulus (nu >= 0.495)";
+/// Why "auto" takes operators over cells where lines of curved blocks are there to derive along,
+/// and what to do where these refuse; no reason: it does not.
+struct CellsBecause {
+  std::string reason, remedy;
+};
+
+CellsBecause cells_because(const meshes::Mesh& mesh,
+                           const std::vector<meshes::LatticeBlock>& blocks,
+                           const Options& options) {
+  if (blocks.empty()) return {};
+  if (options.is_hardly_compressible)
+    return {"lock where lame >= 99 shear_modulus (nu >= 0.495)", ""};
+  if (has_lines_of_two(blocks))
+    return {"twist and bend too little where lines have two nodes", "give these lines three nodes"};
   const double ratio = unevenness_of_short_lines(mesh, blocks);
-  if (ratio <= most_uneven) return "";
-  return fmt::format(
-      "bend too little where lines of fewer than eight nodes have uneven cells (here {:.3g} times "
-      "as long as the next ones)",
-      ratio);
+  if (ratio <= most_uneven) return {};
+  return {
+      fmt::format(
+          "bend too little where lines of fewer than eight nodes have uneven cells (here {:.3g} "
+          "times as long as the next ones)",
+          ratio),
+      "make the cells of these lines even, or give lines eight nodes"};
 }
 
 scheme::Operators edge_as_refused(const meshes::Mesh& mesh, const base::InputError& refusal) {
@@ -162,7 +171,7 @@ scheme::Operators edge_as_refused(const meshes::Mesh& mesh, const base::InputErr
 scheme::Operators chosen_off_boxes(const meshes::Mesh& mesh, const Options& options) {
   const std::vector<meshes::LatticeBlock> blocks = smooth_blocks(mesh);
   std::vector<std::string> notices;
-  if (const std::string because = cells_because(mesh, blocks, options); !because.empty()) {
+  if (const auto [because, remedy] = cells_because(mesh, blocks, options); !because.empty()) {
     try {
       scheme::Operators operators = sbp_on_cells(mesh);
       operators.notices.push_back(fmt::format(
@@ -172,9 +181,8 @@ scheme::Operators chosen_off_boxes(const meshes::Mesh& mesh, const Options& opti
       if (options.is_hardly_compressible) return edge_as_refused(mesh, refusal);
       notices.push_back(
           fmt::format("operators along the lines of curved blocks, which {}: tens of percent; "
-                      "those over cells do not go with this mesh ({}). Make the cells of these "
-                      "lines even, or give lines eight nodes",
-                      because, refusal.what()));
+                      "those over cells do not go with this mesh ({}); {}",
+                      because, refusal.what(), remedy));
     }
   }
   if (!is_too_small(blocks) && !options.jumps_are_symmetric &&

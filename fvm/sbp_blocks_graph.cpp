@@ -151,6 +151,13 @@ bool is_too_small(const std::vector<LatticeBlock>& blocks) {
   });
 }
 
+bool has_lines_of_two(const std::vector<LatticeBlock>& blocks) {
+  return std::any_of(blocks.begin(), blocks.end(), [](const LatticeBlock& block) {
+    const auto end = block.n_nodes.begin() + block.dimension;
+    return std::find(block.n_nodes.begin(), end, 2) != end;
+  });
+}
+
 double unevenness_of_short_lines(const meshes::Mesh& mesh,
                                  const std::vector<LatticeBlock>& blocks) {
   const int enough = closure::sbp_table(highest_order).least_nodes();

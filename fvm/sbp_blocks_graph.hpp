@@ -38,6 +38,10 @@ std::string blocks_text(const std::vector<meshes::LatticeBlock>& blocks, int ord
 /// to there breaks bodies, or is not braked (notes 4.6). They sum by parts as any nodes do.
 bool is_too_small(const std::vector<meshes::LatticeBlock>& blocks);
 
+/// Whether a block is one cell thick: the trapezoid rule along its lines makes the moments of a
+/// cross section too large where other blocks lie beside it (an O-grid of two rings by a fourth).
+bool has_lines_of_two(const std::vector<meshes::LatticeBlock>& blocks);
+
 /// How many times as long as its neighbour a cell is on lines of three to seven nodes, on which the
 /// operator is of second order: the root mean square, in the logarithm, over the lines of one
 /// direction of a block, of the block and direction with the most; 1 where there are none. The

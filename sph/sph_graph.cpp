@@ -15,6 +15,7 @@
 #include "sph/gaps.hpp"
 #include "sph/kernel_correction.hpp"
 #include "sph/neighbours.hpp"
+#include "sph/reach.hpp"
 #include "sph/sbp_graph.hpp"
 
 #include <cmath>
@@ -162,14 +163,22 @@ meshes::Quadrature quadrature_of(const meshes::Mesh& mesh) {
                                                                       : meshes::Quadrature::exact;
 }
 
+/// A graph, and how much of the cells its supports hardly see.
+struct ReachingGraph {
+  scheme::PairGraph graph;
+  double far_edges = 0;  ///< share of the edges
+};
+
 /// By round supports, wider where operators that sum by parts take it.
-scheme::PairGraph round_graph_of(const meshes::Mesh& mesh,
-                                 const Options& options,
-                                 bool sums_by_parts) {
+ReachingGraph round_graph_of(const meshes::Mesh& mesh, const Options& options, bool sums_by_parts) {
   constexpr int most_times = 6;
   const Kernel kernel = kernels().at(options.kernel);
   const meshes::DualMeasure by_vertices = meshes::dual_measure(mesh, meshes::Quadrature::vertex);
   std::vector<double> h = smoothing_lengths(mesh, by_vertices.Omega, options.kappa);
+  std::vector<double> radius(h);
+  for (double& r : radius)
+    r *= kernel.support;
+  const double far_edges = share_of_far_edges(mesh, radius);
   scheme::PairGraph graph;
   if (sums_by_parts) {
     const meshes::DualMeasure by_quadratics = meshes::quadratic_measure(mesh);
@@ -190,17 +199,31 @@ scheme::PairGraph round_graph_of(const meshes::Mesh& mesh,
     graph.cells = {std::move(cells.row), std::move(cells.corner), std::move(cells.share)};
   }
   validate(graph);
-  return graph;
+  require_joined(mesh, graph);
+  return {std::move(graph), far_edges};
 }
 
 /// On any nodes; supports are ellipsoids where cells are long.
-scheme::PairGraph graph_of(const meshes::Mesh& mesh, const Options& options, bool sums_by_parts) {
+ReachingGraph graph_of(const meshes::Mesh& mesh, const Options& options, bool sums_by_parts) {
+  double far_edges = 0;
   scheme::PairGraph graph = scheme::on_equal_widths(mesh, [&](const meshes::Mesh& equal_widths) {
-    return round_graph_of(equal_widths, options, sums_by_parts);
+    ReachingGraph of_these = round_graph_of(equal_widths, options, sums_by_parts);
+    far_edges = of_these.far_edges;
+    return std::move(of_these.graph);
   });
   if (!sums_by_parts && scheme::has_long_cells(mesh))  // to the bits of finite volumes
     set_measure(meshes::dual_measure(mesh, quadrature_of(mesh)), graph);
-  return graph;
+  return {std::move(graph), far_edges};
+}
+
+std::vector<std::string> notices_of(const ReachingGraph& made) {
+  constexpr double many = 0.1;
+  if (made.far_edges <= many) return {};
+  return {fmt::format(
+      "{:.2g} of the edges of cells are spanned by no more than the tail of the kernel: cells are "
+      "long in directions that turn over the body, and SPH errs by several percent across them; "
+      "make them about as wide as long, or raise sph.kappa",
+      made.far_edges)};
 }
 
 scheme::Operators sbp_on(const meshes::Mesh& mesh, const Options& options) {
@@ -208,17 +231,21 @@ scheme::Operators sbp_on(const meshes::Mesh& mesh, const Options& options) {
     return {sbp_graph(mesh, kernels().at(options.kernel), options.kappa), sbp_text(options.kappa),
             sbp_notices(mesh)};
   }
-  return {graph_of(mesh, options, true),
+  ReachingGraph made = graph_of(mesh, options, true);
+  std::vector<std::string> notices = notices_of(made);
+  return {std::move(made.graph),
           fmt::format("sbp: order 2 on {} nodes, kappa {:.4g}", mesh.n_nodes(), options.kappa),
-          {},
-          true};
+          std::move(notices), true};
 }
 
 scheme::Operators corrected_on(const meshes::Mesh& mesh,
                                const Options& options,
                                std::string text,
                                std::vector<std::string> notices = {}) {
-  scheme::Operators operators{graph_of(mesh, options, false), std::move(text), std::move(notices)};
+  ReachingGraph made = graph_of(mesh, options, false);
+  for (std::string& notice : notices_of(made))
+    notices.push_back(std::move(notice));
+  scheme::Operators operators{std::move(made.graph), std::move(text), std::move(notices)};
   operators.errs_less_with_cells = true;
   return operators;
 }

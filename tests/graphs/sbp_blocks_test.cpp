@@ -237,6 +237,19 @@ TEST(SbpBlocks, AreLeftForCellsByDefaultWhereShortLinesAreUneven) {
   EXPECT_THAT(refused.notices, testing::Contains(HasSubstr("do not go with this mesh")));
 }
 
+// An O-grid twists by a fifth to a fourth too little.
+TEST(SbpBlocks, AreLeftForCellsByDefaultWhereLinesHaveTwoNodes) {
+  const auto chosen = [](const meshes::Mesh& mesh) {
+    return fvm::operators_on(mesh, {"auto", 4, "", "", true});
+  };
+  EXPECT_THAT(chosen(disc(3, 1)).text, HasSubstr("on the cells around"));
+  EXPECT_THAT(chosen(disc(3, 1)).notices, ElementsAre(HasSubstr("two nodes")));
+  EXPECT_THAT(chosen(disc(3, 2)).text, HasSubstr("5 blocks glued"));
+  const scheme::Operators of_arch = chosen(ring(18, 1, 0));  // which those over cells refuse
+  EXPECT_THAT(of_arch.text, HasSubstr("one curved block"));
+  EXPECT_THAT(of_arch.notices, testing::Contains(HasSubstr("give these lines three nodes")));
+}
+
 TEST(SbpBlocks, RefuseLinesThatBendTooMuch) {
   const meshes::Mesh mesh = mapped_box({0, 0, 0}, {1, 1, 0}, {9, 9, 0}, [](const Vec3& X) {
     const double in = X[0] > 0.99 && X[1] > 0.99 ? 0.16 : 0;
