@@ -281,7 +281,7 @@ std::optional<std::string> CaseRun::notice_of_rounding() const {
   }
   if (kinetic <= 1e-12 * rounding || std::max(kinetic, strain) > rounding) return std::nullopt;
   return fmt::format(
-      "strains are below 1e-8: strain energy is what rounding leaves of it (up to {:.1g} J), and "
+      "strains are so small that strain energy is what rounding leaves of it (up to {:.1g} J), and "
       "neither the energy budget nor its guards say anything; scale loads or velocities up",
       rounding);
 }

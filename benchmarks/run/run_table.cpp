@@ -33,7 +33,9 @@ std::string inverted_cells_warning(const io::RunSummary& s) {
   if (!s.inverted_from) return "";
   return fmt::format(
       "  WARNING: {} level {}: from t = {:.4g} s on cells are inside out (up to {}, least cell J "
-      "{:.3g}):\n  the body has passed through itself between nodes; do not use what comes after\n",
+      "{:.3g}):\n  the body has passed through itself between nodes, or they are too coarse or too "
+      "thin for the "
+      "motion; do not use what comes after\n",
       s.column(), s.level, *s.inverted_from, s.most_inverted_cells, s.least_cell_J);
 }
 

@@ -9,8 +9,9 @@
 namespace diptych::run {
 
 struct EnergyUnits {
-  /// J, what rounding makes of the energies of a body: some eps of rho c_p^2 a volume, that of a
-  /// strain of 1e-8, and of `carried` where that is more. A body that has held no more is at rest.
+  /// J, what rounding makes of the energies of a body: 100 eps of rho c_p^2 a volume, that of a
+  /// strain of 2e-7 (with F alone 1 eps and 2e-8), and of `carried` where that is more. A body that
+  /// has held no more is at rest.
   double rounding = 0;
   /// J, kinetic energy of the centre of mass that a body without supports begins with: as much as
   /// the frame in which it is described gives it, and so no measure of what it holds.

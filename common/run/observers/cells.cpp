@@ -10,10 +10,12 @@ std::string LeastCell::message(std::int64_t step, double time) const {
       "{} of {} cells are inside out, step {}, time {:.6g} s\n"
       "  the worst (deformed over undeformed volume {:.3g}) had its centre at X = ({:.6g}, {:.6g}, "
       "{:.6g}) m\n"
-      "  the body has passed through itself between nodes: let cells carry pressure and part of "
-      "the "
-      "shear (scheme.volumes = \"cells\"), load more slowly, refine, or use the sign-preserving "
-      "limiter; guards.inverted_cells = \"warn\" lets the run go on",
+      "  nodes are sound: the body has passed through itself between them, or these cells, whose "
+      "edges stay straight, are too coarse or too thin for the motion; let cells carry pressure "
+      "and "
+      "part of the shear (scheme.volumes = \"cells\"), load more slowly, refine with rounder "
+      "cells, "
+      "or use the sign-preserving limiter; guards.inverted_cells = \"warn\" lets the run go on",
       n_inverted, n_cells, step, time, J, centre[0], centre[1], centre[2]);
 }
 
