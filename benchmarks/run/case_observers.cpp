@@ -28,6 +28,11 @@ double largest_loss(const cases::Case& setup) {
   return scheme::limits_slopes(scheme::limiter_menu().at(setup.scheme.limiter)) ? all : 0.5;
 }
 
+run::LossBound loss_bound(const cases::Case& setup) {
+  constexpr double set_off = 0.1;  // part of the run, guards.numerical_dissipation
+  return {largest_loss(setup), set_off * setup.time.end};
+}
+
 }  // namespace
 
 run::MeshAround mesh_around(const meshes::Mesh& mesh) {
@@ -61,7 +66,7 @@ CaseObservers::CaseObservers(const cases::Case& setup,
       progress_(setup, options, history_),
       walls_(setup, scene.mesh.mesh, spacing),
       energy_guard_(
-          scene.solver->balance(), setup.guards.energy_residual, largest_loss(setup), units_),
+          scene.solver->balance(), setup.guards.energy_residual, loss_bound(setup), units_),
       involution_guard_(*scene.solver, setup.guards.involution),
       momentum_guard_(scene.solver->balance(),
                       run::inertia_if_held(setup, scene.graph),

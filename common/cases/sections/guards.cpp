@@ -24,8 +24,9 @@ SectionEntry guards_section() {
                optional({"-", Range{0, 1, false, true},
                          "The run is stopped (code 3) where numerical dissipation has taken more "
                          "than this share of the same energy, at the same steps but for "
-                         "the first 20 after a state of rest: what is left is no solution of the "
-                         "equations. 1: no bound.",
+                         "the first 20 after a state of rest and the first tenth of time.end, in "
+                         "which loads may still bring what matters: what is left is no solution of "
+                         "the equations. 1: no bound.",
                          "0.05",
                          "optional; 0.5, and no bound with a limiter of shocks (all but \"none\" "
                          "and \"sign-preserving\"): shocks dissipate"}))

@@ -31,7 +31,7 @@ void EnergyGuard::refuse_loss(const Check& check, double lost) const {
       "numerical dissipation has taken {:.3g} of the largest energy so far, bound {:g}, {}\n"
       "  the mesh does not resolve the motion: use a finer one (--level); a limiter "
       "(scheme.limiter) says that shocks dissipate; guards.numerical_dissipation sets the bound",
-      lost / energy_.scale(), largest_loss_, instant_of(check.step)));
+      lost / energy_.scale(), loss_.largest, instant_of(check.step)));
 }
 
 void EnergyGuard::refuse_residual(const Check& check, double residual, double bound) const {
@@ -90,8 +90,8 @@ void EnergyGuard::at_check(const Check& check) {
       residual > 0 ? std::min(check.balance.swing, most_of_swing * threshold_ * scale) : 0;
   if (std::abs(residual) * scale - swing > bound * scale + units_.rounding)
     refuse_residual(check, residual - swing / scale, bound);
-  if (check.step.step - at_rest_until_ < steps_of_any_loss) return;
-  if (lost > largest_loss_ * scale + units_.rounding) refuse_loss(check, lost);
+  if (check.step.step - at_rest_until_ < steps_of_any_loss || check.step.time < loss_.from) return;
+  if (lost > loss_.largest * scale + units_.rounding) refuse_loss(check, lost);
 }
 
 }  // namespace diptych::run

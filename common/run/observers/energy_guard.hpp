@@ -13,22 +13,26 @@
 
 namespace diptych::run {
 
+/// Of what numerical dissipation takes. What a body holds at first may be a trace of motion, which
+/// no mesh resolves, beside what its loads bring later: it is not judged before `from`.
+struct LossBound {
+  double largest = 0;  ///< share of the largest energy so far; infinite: any
+  double from = 0;     ///< s
+};
+
 class EnergyGuard : public Observer {
  public:
   /// @param initial       of the body at t = 0
   /// @param threshold     largest admissible |residual|, and dissipation below zero, as a share of
   ///                      the largest energy so far
-  /// @param largest_loss  largest admissible numerical dissipation, the same; infinite: any
+  /// @param loss          largest admissible numerical dissipation, the same
   /// @param units         a body that holds no more than rounding makes is at rest, and as much of
   ///                      any residual is not judged
   EnergyGuard(const scheme::Balance& initial,
               double threshold,
-              double largest_loss,
+              const LossBound& loss,
               const EnergyUnits& units)
-      : energy_(initial, {0, units.carried}),
-        threshold_(threshold),
-        largest_loss_(largest_loss),
-        units_(units) {}
+      : energy_(initial, {0, units.carried}), threshold_(threshold), loss_(loss), units_(units) {}
 
   /// A residual that is not finite is refused at once. Others, and what numerical dissipation took,
   /// are not judged while the body is at rest; in the first steps after it the former has a bound
@@ -85,7 +89,8 @@ class EnergyGuard : public Observer {
   void refuse_residual(const Check& check, double residual, double bound) const;
 
   EnergyRecord energy_;
-  double threshold_, largest_loss_;
+  double threshold_;
+  LossBound loss_;
   EnergyUnits units_;
   std::int64_t at_rest_until_ = -steps_of_start;  // step
   bool is_at_rest_ = false;                       // since the last check

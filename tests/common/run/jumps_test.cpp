@@ -117,7 +117,7 @@ TEST_P(Jumps, OfSupportsAreBookedWhereTheyAre) {
                                                               "[initial]\nvelocity = [0, 0, 1]\n",
                                                               instant),
                         {"time.max_retries=0"});
-    EnergyGuard guard(scene.solver->balance(), 0.01, 0.5, {1e-9});
+    EnergyGuard guard(scene.solver->balance(), 0.01, {0.5}, {1e-9});
     Simulation simulation(scene.setup, *scene.solver, {&guard});
     EXPECT_EQ(simulation.run(), Ending::done) << instant;
     const Snapshot fields = scene.solver->snapshot();

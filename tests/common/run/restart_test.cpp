@@ -60,7 +60,7 @@ class Route {
         steps_(*scene_.solver, probes_),
         exact_(scene_.setup, with_exact_survey(scene_), 0, probes_),
         scales_(scene_.graph),
-        guard_(scene_.solver->balance(), 1e9, 1e9, {1e-9}),
+        guard_(scene_.solver->balance(), 1e9, {1e9}, {1e-9}),
         simulation_(scene_.setup,
                     *scene_.solver,
                     {&cells_, &watch_, &history_, &steps_, &exact_, &scales_, &guard_}) {}
