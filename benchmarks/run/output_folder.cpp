@@ -125,6 +125,21 @@ bool is_finished(const fs::path& run) {
   return false;
 }
 
+/// Without links; as it stands where they cannot be followed.
+fs::path followed(const fs::path& path) {
+  std::error_code error;
+  fs::path result = fs::weakly_canonical(path, error);
+  return error ? path : result;
+}
+
+/// Of the case that a run was of, as its file was then; nothing where the run has left none.
+std::optional<std::string> text_of_case(const fs::path& run) {
+  const fs::path copy = run / "case.toml";
+  std::error_code error;
+  if (!fs::is_regular_file(copy, error)) return std::nullopt;
+  return cases::original_text(io::read_file(copy.string()));
+}
+
 /// Nothing where the run did not finish.
 std::optional<int> finished_level(const fs::path& run) {
   const std::string summary = (run / "summary.json").string();
@@ -150,16 +165,33 @@ OutputFolder::OutputFolder(std::string directory,
   for (const fs::path& run : all_runs(directory_)) {
     const auto owner = owner_of(run);
     if (!owner) continue;
-    const bool is_same =
-        owner->case_file.empty() ? owner->case_name == setup.name : owner->case_file == setup.file;
-    if (is_same || contains(also, owner->case_file)) continue;
+    if (is_of_this_case(run.string(), *owner, also)) continue;
+    const std::string case_file = owner->case_file.empty() ? "" : " (" + owner->case_file + ")";
+    if (kind_ == OutputKind::continued) {
+      throw base::InputError(
+          fmt::format("{}: holds results of another case, {}{}, whose text is not that of {}: "
+                      "--restart goes on "
+                      "with results of its own case; give the --out that has them",
+                      directory_, owner->case_name, case_file, setup.file));
+    }
     of_another_case_ = true;
     if (force) return;
     throw base::InputError(fmt::format(
         "{}: holds results of another case, {}{}; give another --out, or --force to replace them",
-        directory_, owner->case_name,
-        owner->case_file.empty() ? "" : " (" + owner->case_file + ")"));
+        directory_, owner->case_name, case_file));
   }
+}
+
+/// A case is its file, by whatever path, or, where a run goes on, the text that it left beside its
+/// results: its folder may have been moved or copied since.
+bool OutputFolder::is_of_this_case(const std::string& run,
+                                   const io::SummaryOwner& owner,
+                                   const std::vector<std::string>& also) const {
+  if (owner.case_file.empty()) return owner.case_name == setup_.name;
+  const fs::path file = followed(owner.case_file);
+  const auto is_that = [&](const std::string& other) { return followed(other) == file; };
+  if (is_that(setup_.file) || std::any_of(also.begin(), also.end(), is_that)) return true;
+  return kind_ == OutputKind::continued && text_of_case(run) == setup_.text;
 }
 
 void OutputFolder::prepare() {
@@ -170,7 +202,7 @@ void OutputFolder::prepare() {
   if (of_another_case_) remove_everything();
   if (is_output_folder(directory_)) remove_pages();
   const bool has_runs = kind_ == OutputKind::runs || kind_ == OutputKind::levels;
-  if (has_runs && !goes_on_) {
+  if (has_runs) {
     remove_runs();
     set_levels_aside();
   }
@@ -179,7 +211,7 @@ void OutputFolder::prepare() {
 }
 
 void OutputFolder::refuse_to_replace(bool force) const {
-  if (force || goes_on_ || directory_.empty()) return;
+  if (force || kind_ == OutputKind::continued || directory_.empty()) return;
   std::vector<std::string> finished;
   const auto look_at = [&](const fs::path& run) {
     if (is_run_folder(run.string()) && !contains(taken_over_, run) && is_finished(run))

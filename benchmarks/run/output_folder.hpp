@@ -6,6 +6,7 @@
 #include "benchmarks/run/columns.hpp"
 #include "common/cases/case.hpp"
 #include "common/io/folder_lock.hpp"
+#include "common/io/run_record.hpp"
 
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@ namespace diptych::harness {
 /// What a command is about to put there.
 enum class OutputKind {
   runs,         ///< of `run` and `compare`: DIR/<column>, report.html
+  continued,    ///< of `run --restart`: runs of DIR/<column> stay, whatever came of them
   levels,       ///< of `converge`: DIR/level_<L>/<column>, convergence.*, report.html
   study,        ///< of `study`: DIR/runs, work_precision.*
   stability,    ///< of `study --stability`: stability.csv
@@ -26,9 +28,10 @@ enum class OutputKind {
 class OutputFolder {
  public:
   /// @param setup  kept by reference
+  /// @param force  whether results of another case may be replaced; never those to go on from
   /// @param also   files of other cases whose runs belong to the command
-  /// @throws base::InputError where results of another case lie there and `force` is false, or
-  /// another process writes there
+  /// @throws base::InputError where results of another case lie there and are not to be replaced,
+  /// or another process writes there
   OutputFolder(std::string directory,
                const cases::Case& setup,
                OutputKind kind,
@@ -39,9 +42,6 @@ class OutputFolder {
   /// are brought back from where they were set aside, unless all are to be run again.
   /// @throws base::EnvironmentError
   void ask_for(const std::vector<int>& levels, const std::vector<Column>& columns, bool fresh);
-
-  /// Runs that lie there go on: they stay, whatever came of them.
-  void go_on() { goes_on_ = true; }
 
   /// Before the first file is written; later calls do nothing. Removes what earlier commands of
   /// this kind left, sets finished levels aside that are not taken over now, in DIR/earlier, and
@@ -55,6 +55,9 @@ class OutputFolder {
   void refuse_to_replace(bool force) const;
 
  private:
+  bool is_of_this_case(const std::string& run,
+                       const io::SummaryOwner& owner,
+                       const std::vector<std::string>& also) const;
   void remove_everything() const;
   void remove_pages() const;
   void remove_runs() const;
@@ -64,7 +67,7 @@ class OutputFolder {
   const cases::Case& setup_;
   OutputKind kind_;
   std::vector<std::string> asked_, taken_over_;  ///< folders of runs
-  bool of_another_case_ = false, goes_on_ = false, prepared_ = false;
+  bool of_another_case_ = false, prepared_ = false;
   std::optional<io::FolderLock> lock_;  ///< as soon as the folder is there, until the end
 };
 

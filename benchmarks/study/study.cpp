@@ -145,10 +145,11 @@ Study run_study(const cases::Case& setup, const StudyOptions& options) {
   for (const Column& column : study.columns)
     require_memory(column.setup, {column.method}, options.levels);
   const bool has_levels = options.levels.size() > 1;
-  OutputFolder output(options.directory, setup, has_levels ? OutputKind::levels : OutputKind::runs,
-                      options.force);
+  const OutputKind kind = options.goes_on ? OutputKind::continued
+                          : has_levels    ? OutputKind::levels
+                                          : OutputKind::runs;
+  OutputFolder output(options.directory, setup, kind, options.force);
   if (has_levels) output.ask_for(options.levels, study.columns, !options.resume);
-  if (options.goes_on) output.go_on();
   if (options.resume || !has_levels) output.refuse_to_replace(options.force);
   std::vector<FinestRun> finest;  // those that were run now
   const auto plan = plan_of(study.columns, options, output);

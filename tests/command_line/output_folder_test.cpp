@@ -119,6 +119,9 @@ TEST_F(OutputFolder, TellsCasesOfOneNameApartByTheirFiles) {
   EXPECT_THAT(diptych("run ./b/../a/cube --method fvm", 2).text,
               HasSubstr("is a run that finished"))
       << "the same file";
+  fs::create_directory_symlink("a", folder.path() / "link");
+  EXPECT_THAT(diptych("run link/cube --method fvm", 2).text, HasSubstr("is a run that finished"))
+      << "the same file";
   diptych("run out/case.toml --method fvm --force");  // its copy
   diptych("run b/cube/case.toml --method fvm --force");
 }

@@ -207,6 +207,28 @@ TEST_F(Restarted, IsRefusedWhereNoneIsWhole) {
   EXPECT_EQ(text_of(out("fvm") / "history.csv"), history) << "what lies there stays";
 }
 
+/// Moved, copied, behind a link: a case with the same text goes on, another one changes no file.
+TEST_F(Restarted, GoesOnFromAnotherPathOfItsCase) {
+  end_after(17, 5, "--method fvm");
+  for (const char* name : {"moved", "other"})
+    fs::create_directories(folder.path() / name);
+  folder.write("other/case.toml", scene + "# of another text\n");
+  fs::rename(folder.path() / "case.toml", folder.path() / "moved/case.toml");
+  fs::create_directory_symlink("moved", folder.path() / "link");
+  const std::string restart = " --method fvm --threads 1 --quiet --out out --restart ";
+  const std::string named = checkpoints_in(out("fvm"))[0].string();
+  for (const std::string& from : {std::string("latest"), named}) {
+    const auto other = command("run other --force" + restart + from);
+    EXPECT_EQ(other.exit_code, 2) << other.text;
+    EXPECT_THAT(other.text, AllOf(HasSubstr("results of another case"),
+                                  HasSubstr("whose text is not that of"), HasSubstr("--out")));
+    EXPECT_EQ(checkpoints_in(out("fvm")).size(), 2u);
+  }
+  const auto again = command("run link --force" + restart + "latest");
+  EXPECT_EQ(again.exit_code, 0) << again.text;
+  expect_same("fvm");
+}
+
 TEST_F(Restarted, IsRefusedForAnotherRun) {
   end_after(17, 5, "--method fvm");
   const std::string file = " --restart " + checkpoints_in(out("fvm"))[0].string();
