@@ -1,6 +1,7 @@
 /// The command line. Verbs and exit codes are contracts; see README.md.
 
 #include "benchmarks/run/interruption.hpp"
+#include "benchmarks/run/rank_programs.hpp"
 #include "benchmarks/run/ranked_runs.hpp"
 #include "benchmarks/verbs/command_line.hpp"
 #include "benchmarks/verbs/table.hpp"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -17,6 +19,7 @@
 #include <fmt/format.h>
 #include <new>
 #include <sys/resource.h>
+#include <thread>
 #include <unistd.h>
 
 namespace {
@@ -85,10 +88,19 @@ int follow() {
   return harness::follow_runs();
 }
 
-/// Of several ranks that could not join only one says so.
+/// Of several ranks that could not join one says so: rank 0, whose end is that of the others too.
+/// What another rank alone has met it says a while later, if it is still there.
 void complain(const std::string& message) {
-  if (parallel::launched_rank() == 0)
-    std::fputs(fmt::format("diptych: {}\n", message).c_str(), stderr);
+  using std::chrono::milliseconds;
+  const int rank = parallel::launched_ranks() > 1 ? parallel::launched_rank() : 0;
+  std::string who;
+  if (rank > 0) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+      std::signal(signal, SIG_DFL);
+    std::this_thread::sleep_for(milliseconds(1000 + 100 * std::min(rank, 40)));
+    who = fmt::format("rank {} of {}: ", rank, parallel::launched_ranks());
+  }
+  std::fputs(fmt::format("diptych: {}{}\n", who, message).c_str(), stderr);
 }
 
 }  // namespace
@@ -101,8 +113,10 @@ int main(int argc, char** argv) {
 #ifndef DIPTYCH_OPENMP_INSIDE
     if (limit_spinning()) start_once_more(argv);  // OpenMP's runtime reads it when it is loaded
 #endif
-    harness::catch_interrupts();
+    std::signal(SIGUSR1, SIG_IGN);  // until there is what can be kept
     const parallel::Ranks ranks;
+    harness::require_one_program();
+    harness::catch_interrupts();
     if (harness::is_following()) return follow();
     const harness::LedRuns led_runs;
     const int code = verbs::run_program(verbs::verb_table(), argc, argv);

@@ -2,6 +2,7 @@
 
 #include "benchmarks/run/memory.hpp"
 #include "benchmarks/run/menus.hpp"
+#include "benchmarks/run/rank_programs.hpp"
 #include "benchmarks/run/surveys.hpp"
 #include "common/base/error.hpp"
 #include "common/parallel/agreement.hpp"
@@ -60,15 +61,16 @@ const run::LeadingSolver* leading_of(const Scene& scene) {
 
 /// Follows the run of a scene that rank 0 makes.
 void follow_run(Communicator& ranks, const Request& request) {
-  parallel::set_threads(static_cast<int>(request.threads));
   reset_peak_rss();
   std::optional<cases::Case> setup;
   {
     const parallel::Phase phase(set_up);
     parallel::agree_on(ranks, [&] {
       const Meeting after(ranks);
+      parallel::set_threads(static_cast<int>(request.threads));  // limits are this machine's
       setup = cases::case_from_text(request.text, request.file, request.overrides, menus());
     });
+    (void)programs_of_all(ranks);
   }
   run::follow(*setup, ranks, request.partition, [&](const run::Solver& solver) {
     return surveys_among(ranks, *setup, nullptr, nullptr, solver);
@@ -99,6 +101,8 @@ std::unique_ptr<Scene> scene_of_run(const cases::Case& setup,
       const Meeting after(*ranks);
       scene = make();
     });
+    if (const auto notice = notice_of_processors(programs_of_all(*ranks)))
+      scene->notices.push_back(*notice);
   }
   scene->solver = std::make_unique<run::LeadingSolver>(
       std::move(scene->solver), scene->graph, *ranks, options.partition,

@@ -116,6 +116,35 @@ class MpiCommunicator final : public Communicator {
 };
 
 std::unique_ptr<Watch> watch;
+int patience = 0;  ///< s, of rank 0, while there are ranks; 0: for ever
+
+/// What each rank tells all: environments may differ from machine to machine, and what ranks do
+/// together is to begin on all of them or on none.
+struct Start {
+  int patience = 0;  ///< s, negative: no number
+  int threads = 0;   ///< that MPI provides
+};
+
+std::vector<Start> starts_of_all(const Start& mine, int n_ranks) {
+  std::vector<Start> all(static_cast<size_t>(n_ranks));
+  MPI_Allgather(&mine, sizeof mine, MPI_BYTE, all.data(), sizeof mine, MPI_BYTE, MPI_COMM_WORLD);
+  return all;
+}
+
+/// The same on all ranks; empty where they can begin.
+std::string fault_in(const std::vector<Start>& all) {
+  for (size_t r = 0; r < all.size(); ++r) {
+    const std::string who =
+        " (rank " + std::to_string(r) + " of " + std::to_string(all.size()) + ")";
+    if (all[r].patience < 0)
+      return "DIPTYCH_RANK_PATIENCE is no number of seconds from 0 to 1000000" + who;
+    if (all[0].patience > 0 && all[r].threads < MPI_THREAD_MULTIPLE) {
+      return "this MPI has no MPI_THREAD_MULTIPLE" + who +
+             ", which ranks need to watch each other; set DIPTYCH_RANK_PATIENCE=0 to do without";
+    }
+  }
+  return "";
+}
 
 Communicator* begin(std::string& error, const char* (*phase)()) {
   int provided = 0;
@@ -131,27 +160,21 @@ Communicator* begin(std::string& error, const char* (*phase)()) {
             "; use the mpirun of the MPI that it was built with";
     return nullptr;
   }
-  const std::optional<int> patience = rank_patience();
-  if (!patience) {
-    error = "DIPTYCH_RANK_PATIENCE is no number of seconds from 0 to 1000000";
+  const auto all = starts_of_all({rank_patience().value_or(-1), provided}, world.size());
+  error = fault_in(all);
+  if (!error.empty()) {
+    MPI_Finalize();
     return nullptr;
   }
-  if (*patience > 0) {
-    if (provided < MPI_THREAD_MULTIPLE) {
-      error =
-          "this MPI has no MPI_THREAD_MULTIPLE, which ranks need to watch each other; set "
-          "DIPTYCH_RANK_PATIENCE=0 to do without";
-      return nullptr;
-    }
-    watch = std::make_unique<Watch>(*patience, phase);
-  }
+  patience = all[0].patience;
+  if (patience > 0) watch = std::make_unique<Watch>(patience, phase);
   return &world;
 }
 
 void end() {
   watch.reset();
   std::optional<Countdown> countdown;
-  if (const int patience = *rank_patience(); patience > 0) {
+  if (patience > 0) {
     countdown.emplace(patience, "diptych: a rank has not been heard of for " +
                                     std::to_string(patience) +
                                     " s, last in its end: it is stopped, or its machine is lost; "
@@ -187,6 +210,6 @@ constexpr RanksModule ranks_module{begin, end, metis};
 
 }  // namespace diptych::parallel
 
-extern "C" const diptych::parallel::RanksModule* diptych_ranks_module() {
+extern "C" const diptych::parallel::RanksModule* diptych_ranks_module_2() {
   return &diptych::parallel::ranks_module;
 }

@@ -38,6 +38,7 @@ const RanksModule& module() {
       void* found = opened == nullptr ? nullptr : dlsym(opened, ranks_module_symbol);
       if (found != nullptr) return reinterpret_cast<RanksModuleFunction>(found)();
       reason = dlerror();
+      if (opened != nullptr) reason += " (it is of another version of the program)";
     }
     throw base::EnvironmentError(
         std::string("several ranks need ") + ranks_module_file + ": " + reason +

@@ -15,14 +15,16 @@ namespace diptych::parallel {
 struct RanksModule {
   /// Calls MPI_Init, and watches the other ranks from then on.
   /// @param phase  what this rank does: phase(), below
-  /// @return null, and a message in `error`, where that is not possible
+  /// @return null, and a message in `error`, where that is not possible; what one rank meets
+  ///         behind MPI_Init is null and the same message on all
   Communicator* (*begin)(std::string& error, const char* (*phase)());
   /// Calls MPI_Finalize.
   void (*end)();
   std::vector<int> (*metis)(const ChunkGraph& graph, int n_parts);
 };
 using RanksModuleFunction = const RanksModule* (*)();
-inline constexpr const char* ranks_module_symbol = "diptych_ranks_module";
+/// Its number grows when RanksModule changes: a module of another version is not called.
+inline constexpr const char* ranks_module_symbol = "diptych_ranks_module_2";
 inline constexpr const char* ranks_module_file = "libdiptych_mpi.so";
 
 /// Processes that this one was started among, by the variables that mpirun and srun leave; 1 where

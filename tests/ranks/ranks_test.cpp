@@ -272,6 +272,49 @@ TEST(RanksOfARun, HavePatienceInSeconds) {
   EXPECT_THAT(outcome.text, HasSubstr("DIPTYCH_RANK_PATIENCE is no number of seconds"));
 }
 
+/// The program with another build id: as good as another build.
+void copy_as_another_build(const std::filesystem::path& to) {
+  const std::filesystem::path from = build_folder();
+  std::filesystem::copy_file(from / "diptych", to / "other");
+  std::filesystem::create_symlink(from / "libdiptych_mpi.so", to / "libdiptych_mpi.so");
+  std::string bytes = text_of(to / "other");
+  const size_t note = bytes.find(std::string("\3\0\0\0GNU\0", 8));  // its type, its owner
+  ASSERT_NE(note, std::string::npos);
+  bytes[note + 8] ^= 1;
+  std::ofstream(to / "other", std::ios::binary) << bytes;
+}
+
+/// Environments of machines differ: what only one rank has ends all with a message, or nothing.
+TEST(RanksOfARun, EndTogetherWhereOneAloneHasAFault) {
+  const Folder folder;
+  folder.write("case.toml", cube);
+  copy_as_another_build(folder.path());
+  struct Start {
+    const char *what, *of_rank_1;  ///< $run: the arguments
+    int code;
+    const char* message;
+  };
+  const Start starts[] = {
+      {"threads", "env OMP_THREAD_LIMIT=1 $diptych $run", 2, "rank 1 of 2: 3 threads are more"},
+      {"patience", "env DIPTYCH_RANK_PATIENCE=long $diptych $run", 4,
+       "seconds from 0 to 1000000 (rank 1 of 2)"},
+      {"no patience", "env DIPTYCH_RANK_PATIENCE=0 $diptych $run", 0, "2 ranks of"},
+      {"stack", "sh -c \"ulimit -s 128; exec $diptych $run\"", 4,
+       "rank 1 of 2: the stack of a process"},
+      {"build", "./other $run", 4, "rank 1 of 2 is another program"},
+  };
+  for (const Start& one : starts) {
+    const Outcome outcome = shell(
+        folder,
+        std::string("run='run case.toml --method fvm --threads 3 --quiet --out out --force'\n") +
+            mpirun + "--timeout 60 -n 1 $diptych $run : -n 1 " + one.of_rank_1);
+    EXPECT_EQ(outcome.exit_code, one.code) << one.what << "\n" << outcome.text;
+    const size_t first = outcome.text.find(one.message);
+    EXPECT_NE(first, std::string::npos) << one.what << "\n" << outcome.text;
+    EXPECT_EQ(outcome.text.find(one.message, first + 1), std::string::npos) << outcome.text;
+  }
+}
+
 TEST(RanksOfARun, ArePartitionedWhereThereAreSome) {
   const Folder folder;
   folder.write("case.toml", cube);
