@@ -83,8 +83,7 @@ void check_output() {
 
 /// Another rank than 0: what interrupts rank 0 ends the run, and so this one.
 int follow() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1})
-    std::signal(signal, SIG_IGN);
+  harness::pass_signals_on();
   return harness::follow_runs();
 }
 
@@ -114,7 +113,7 @@ int main(int argc, char** argv) {
     if (limit_spinning()) start_once_more(argv);  // OpenMP's runtime reads it when it is loaded
 #endif
     std::signal(SIGUSR1, SIG_IGN);  // until there is what can be kept
-    const parallel::Ranks ranks;
+    const parallel::Ranks ranks({harness::take_signal, harness::obey_signal});
     harness::require_one_program();
     harness::catch_interrupts();
     if (harness::is_following()) return follow();

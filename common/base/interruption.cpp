@@ -1,30 +1,29 @@
 #include "common/base/interruption.hpp"
 
-#include <csignal>
+#include <atomic>
 
 namespace diptych::base {
 
 namespace {
-volatile std::sig_atomic_t interrupt_flag = 0;
-volatile std::sig_atomic_t checkpoint_flag = 0;
+// of handlers of signals, and of the thread that passes on those of other ranks
+std::atomic<bool> interrupt_flag = false, checkpoint_flag = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 }  // namespace
 
 void request_interrupt() {
-  interrupt_flag = 1;
+  interrupt_flag = true;
 }
 
 bool interrupt_requested() {
-  return interrupt_flag != 0;
+  return interrupt_flag;
 }
 
 void request_checkpoint() {
-  checkpoint_flag = 1;
+  checkpoint_flag = true;
 }
 
 bool take_checkpoint_request() {
-  if (checkpoint_flag == 0) return false;
-  checkpoint_flag = 0;
-  return true;
+  return checkpoint_flag.exchange(false);
 }
 
 }  // namespace diptych::base

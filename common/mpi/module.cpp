@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -146,7 +147,15 @@ std::string fault_in(const std::vector<Start>& all) {
   return "";
 }
 
-Communicator* begin(std::string& error, const char* (*phase)()) {
+/// On a shared machine a rank that spins for a message takes the processor from the one that is to
+/// send it. Open MPI reads its settings in MPI_Init, and those of its environment and of mpirun are
+/// kept; others take no notice.
+void leave_processor_while_waiting() {
+  setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+}
+
+Communicator* begin(std::string& error, const char* (*phase)(), PassedSignals signals) {
+  leave_processor_while_waiting();
   int provided = 0;
   if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_MULTIPLE, &provided) != MPI_SUCCESS ||
       provided < MPI_THREAD_FUNNELED) {
@@ -167,7 +176,7 @@ Communicator* begin(std::string& error, const char* (*phase)()) {
     return nullptr;
   }
   patience = all[0].patience;
-  if (patience > 0) watch = std::make_unique<Watch>(patience, phase);
+  if (patience > 0) watch = std::make_unique<Watch>(patience, phase, signals);
   return &world;
 }
 

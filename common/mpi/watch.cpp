@@ -29,6 +29,7 @@ struct SignalsBlocked {
 };
 
 constexpr std::chrono::milliseconds no_pause{1};
+enum Tag { beat_tag, signal_tag };
 /// What MPI_Abort may take.
 constexpr int abort_seconds = 5;
 
@@ -60,7 +61,8 @@ std::optional<int> rank_patience() {
   return static_cast<int>(seconds);
 }
 
-Watch::Watch(int patience, const char* (*phase)()) : patience_(patience), phase_(phase) {
+Watch::Watch(int patience, const char* (*phase)(), PassedSignals signals)
+    : patience_(patience), phase_(phase), signals_(signals) {
   MPI_Comm_dup(MPI_COMM_WORLD, &beats_);
   MPI_Comm_rank(beats_, &rank_);
   MPI_Comm_size(beats_, &size_);
@@ -85,7 +87,7 @@ void Watch::say(bool is_last) {
   const char* phase = phase_();
   std::strncpy(said_.phase, phase == nullptr ? "nothing for others" : phase,
                sizeof said_.phase - 1);
-  MPI_Isend(&said_, sizeof said_, MPI_BYTE, (rank_ + 1) % size_, 0, beats_, &saying_);
+  MPI_Isend(&said_, sizeof said_, MPI_BYTE, (rank_ + 1) % size_, beat_tag, beats_, &saying_);
 }
 
 void Watch::give_up() const {
@@ -104,7 +106,8 @@ void Watch::give_up() const {
 }
 
 void Watch::listen() {
-  MPI_Irecv(&beat_, sizeof beat_, MPI_BYTE, (rank_ + size_ - 1) % size_, 0, beats_, &hearing_);
+  MPI_Irecv(&beat_, sizeof beat_, MPI_BYTE, (rank_ + size_ - 1) % size_, beat_tag, beats_,
+            &hearing_);
 }
 
 bool Watch::hear() {
@@ -120,6 +123,31 @@ bool Watch::hear() {
   return has_heard;
 }
 
+/// Of another rank than 0.
+void Watch::pass_signal() {
+  int is_sent = 0;
+  MPI_Test(&passing_, &is_sent, MPI_STATUS_IGNORE);
+  if (is_sent == 0) return;
+  signal_ = signals_.take();
+  if (signal_ != 0) MPI_Isend(&signal_, 1, MPI_INT, 0, signal_tag, beats_, &passing_);
+}
+
+void Watch::await_signal() {
+  MPI_Irecv(&signal_, 1, MPI_INT, MPI_ANY_SOURCE, signal_tag, beats_, &passing_);
+}
+
+/// Of rank 0.
+void Watch::take_signals() {
+  for (;;) {
+    int has_come = 0;
+    MPI_Status status;
+    MPI_Test(&passing_, &has_come, &status);
+    if (has_come == 0) return;
+    signals_.obey(status.MPI_SOURCE, signal_);
+    await_signal();
+  }
+}
+
 /// Seconds are counted as rounds of this thread: where the whole job was stopped and goes on, none
 /// has passed for anybody.
 void Watch::run(const std::stop_token& stop) {
@@ -127,11 +155,17 @@ void Watch::run(const std::stop_token& stop) {
   std::condition_variable_any woken;
   std::unique_lock lock(mutex);
   listen();
+  if (rank_ == 0) await_signal();
   std::chrono::milliseconds silent{0};
   while (!heard_.is_last || !said_.is_last) {
     const bool is_ending = stop.stop_requested();
     if (!said_.is_last) say(is_ending);
     if (hear()) silent = {};
+    if (rank_ == 0) {
+      take_signals();
+    } else if (!is_ending) {
+      pass_signal();
+    }
     const auto pause = is_ending ? no_pause : interval;
     if (is_ending) {
       std::this_thread::sleep_for(pause);
@@ -142,6 +176,8 @@ void Watch::run(const std::stop_token& stop) {
     if (!heard_.is_last && silent > std::chrono::seconds(patience_)) give_up();
   }
   MPI_Wait(&saying_, MPI_STATUS_IGNORE);
+  if (rank_ == 0) MPI_Cancel(&passing_);
+  MPI_Wait(&passing_, MPI_STATUS_IGNORE);
 }
 
 }  // namespace diptych::parallel

@@ -2,9 +2,11 @@
 /// Ranks watch each other: each says once a second to the next one that it lives, and in which
 /// phase it is. A process that is stopped, a machine that has gone: the next one hears nothing
 /// more, says of whom, and ends the job; else all would wait for ever. Beats are sent by a thread
-/// of their own, however long a phase takes. The end of MPI itself has a Countdown; a process that
-/// is stopped after that, in the milliseconds of its exit, holds mpirun until it is continued, with
-/// nothing left to do. Test: tests/ranks
+/// of their own, however long a phase takes, which takes signals of other ranks to rank 0 too. The
+/// end of MPI itself has a Countdown; a process that is stopped after that, in the milliseconds of
+/// its exit, holds mpirun until it is continued, with nothing left to do. Test: tests/ranks
+
+#include "common/parallel/ranks.hpp"
 
 #include <mpi.h>
 
@@ -31,9 +33,10 @@ class Countdown {
 
 class Watch {
  public:
-  /// @param phase  what this rank does, or null; called by the thread that watches
+  /// @param phase    what this rank does, or null; called by the thread that watches
+  /// @param signals  called by it too
   /// @pre MPI_THREAD_MULTIPLE; several ranks
-  Watch(int patience, const char* (*phase)());
+  Watch(int patience, const char* (*phase)(), PassedSignals signals);
   /// Waits until all ranks are here, and for the last word of the one before. @pre all ranks end
   /// their watches
   ~Watch();
@@ -49,14 +52,20 @@ class Watch {
   void say(bool is_last);
   void listen();
   bool hear();  ///< whether there was a word
+  void pass_signal();
+  void await_signal();
+  void take_signals();
   [[noreturn]] void give_up() const;
 
   int patience_;
   const char* (*phase_)();
+  PassedSignals signals_;
   MPI_Comm beats_ = MPI_COMM_NULL;  ///< apart from what the program sends
   int rank_ = 0, size_ = 1;
   Beat heard_, beat_, said_;
   MPI_Request saying_ = MPI_REQUEST_NULL, hearing_ = MPI_REQUEST_NULL;
+  int signal_ = 0;                          ///< on its way to rank 0
+  MPI_Request passing_ = MPI_REQUEST_NULL;  ///< of it; on rank 0 from whoever has one
   std::jthread thread_;
 };
 

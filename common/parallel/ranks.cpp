@@ -71,10 +71,10 @@ int count_sharing(Communicator& ranks) {
 
 }  // namespace
 
-Ranks::Ranks() {
+Ranks::Ranks(PassedSignals signals) {
   if (launched_ranks() <= 1) return;
   std::string error;
-  communicator = module().begin(error, phase);
+  communicator = module().begin(error, phase, signals);
   if (communicator == nullptr) throw base::EnvironmentError("ranks cannot begin: " + error);
   n_sharing = count_sharing(*communicator);
 }

@@ -10,14 +10,22 @@
 
 namespace diptych::parallel {
 
+/// Signals go to one process, and rank 0 alone can do what they ask for: what the thread that
+/// watches the other ranks asks the program for and tells it.
+struct PassedSignals {
+  int (*take)() = nullptr;                       ///< of another rank: what it was sent; 0: nothing
+  void (*obey)(int rank, int signal) = nullptr;  ///< of rank 0: another rank was sent this one
+};
+
 /// What the module gives (common/mpi/module.cpp). It is looked for beside the program, and in
 /// lib/diptych of the folder above it.
 struct RanksModule {
   /// Calls MPI_Init, and watches the other ranks from then on.
-  /// @param phase  what this rank does: phase(), below
+  /// @param phase    what this rank does: phase(), below
+  /// @param signals  passed to rank 0 while ranks watch each other
   /// @return null, and a message in `error`, where that is not possible; what one rank meets
   ///         behind MPI_Init is null and the same message on all
-  Communicator* (*begin)(std::string& error, const char* (*phase)());
+  Communicator* (*begin)(std::string& error, const char* (*phase)(), PassedSignals signals);
   /// Calls MPI_Finalize.
   void (*end)();
   std::vector<int> (*metis)(const ChunkGraph& graph, int n_parts);
@@ -37,7 +45,7 @@ int launched_rank();
 class Ranks {
  public:
   /// @throws base::EnvironmentError where there are several and MPI cannot be had
-  Ranks();
+  explicit Ranks(PassedSignals signals);
   ~Ranks();
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;

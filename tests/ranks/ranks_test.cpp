@@ -315,6 +315,27 @@ TEST(RanksOfARun, EndTogetherWhereOneAloneHasAFault) {
   }
 }
 
+/// Who drains a machine signals its ranks alone: rank 0 is told, and does what is asked for.
+TEST(RanksOfARun, PassSignalsToRankZero) {
+  const Folder folder;
+  folder.write("case.toml", cube);
+  const Outcome outcome = shell(
+      folder,
+      "run='run case.toml --method fvm --threads 1 --quiet --out out --set time.end=5 --set "
+      "time.max_steps=1000000 --set output.frames=100000'\n" +
+          mpirun +
+          "--timeout 100 -n 2 $diptych $run : -n 1 sh -c \"echo \\$\\$ >pid; exec $diptych $run\" "
+          "&\n"
+          "for i in $(seq 400); do [ -s out/fvm/history.csv ] && break; sleep 0.05; done\n"
+          "kill -USR1 $(cat pid)\n"
+          "for i in $(seq 200); do ls out/fvm/checkpoint_* 2>/dev/null && break; sleep 0.05; done\n"
+          "kill -TERM $(cat pid); wait $!");
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("out/fvm/checkpoint_")) << "of SIGUSR1";
+  EXPECT_THAT(outcome.text, HasSubstr("ending after this step, since rank 2 was sent SIGTERM"));
+  EXPECT_THAT(text_of(folder.path() / "out/fvm/summary.json"), HasSubstr("\"interrupted\""));
+}
+
 TEST(RanksOfARun, ArePartitionedWhereThereAreSome) {
   const Folder folder;
   folder.write("case.toml", cube);
