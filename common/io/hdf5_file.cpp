@@ -61,6 +61,18 @@ bool set_format(hid_t access) {
   return H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V110) >= 0;
 }
 
+/// Without the time at which an object was made: files with the same content have the same bytes.
+bool leave_out_times(hid_t properties) {
+  return properties >= 0 && H5Pset_obj_track_times(properties, false) >= 0;
+}
+
+/// The same of the group that a file itself is.
+hid_t create_file(const std::string& path, hid_t access) {
+  const Owned properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  if (!leave_out_times(properties.get())) return -1;
+  return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties.get(), access);
+}
+
 /// Without a file behind it.
 bool set_in_memory(hid_t access) {
   constexpr size_t growth = size_t{1} << 20;
@@ -111,7 +123,7 @@ Hdf5File Hdf5File::create(const std::string& path) {
   be_quiet();
   const Owned access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   const hid_t file = set_in_memory(access.get()) && set_format(access.get())
-                         ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get())
+                         ? create_file(path, access.get())
                          : -1;
   return {path, file, "cannot create it in memory"};
 }
@@ -123,7 +135,7 @@ Hdf5File Hdf5File::create_on_disk(const std::string& path) {
   const Owned access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   const hid_t file =
       set_driver(access.get(), *on_disk->out, on_disk->end) && set_format(access.get())
-          ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get())
+          ? create_file(path, access.get())
           : -1;
   return {path, file, "cannot create it", std::move(on_disk)};
 }
@@ -159,7 +171,10 @@ void Hdf5File::fail(const std::string& what) const {
 }
 
 void Hdf5File::create_group(const std::string& name) {
-  Owned group(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  const Owned properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  if (!leave_out_times(properties.get())) fail("cannot create group '" + name + "'");
+  Owned group(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+              H5Gclose);
   if (group.failed() || !group.close()) fail("cannot create group '" + name + "'");
 }
 
@@ -201,7 +216,7 @@ void Hdf5File::write_values(const std::string& name,
   const Owned space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
                     H5Sclose);
   const Owned properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  if (space.failed() || properties.failed()) fail(what);
+  if (space.failed() || !leave_out_times(properties.get())) fail(what);
   if (compressed && shape[0] > 0 && !compress(properties.get(), shape[0])) fail(what);
   Owned set(H5Dcreate2(file_, name.c_str(), stored_type(memory_type), space.get(), H5P_DEFAULT,
                        properties.get(), H5P_DEFAULT),
@@ -233,9 +248,10 @@ void Hdf5File::write_rows(const std::string& name,
   const hid_t type = type_of(Real{});
   const Owned space(H5Screate_simple(n_dimensions, whole, nullptr), H5Sclose);
   const Owned memory(H5Screate_simple(n_dimensions, part, nullptr), H5Sclose);
-  if (space.failed() || memory.failed()) fail(what);
+  const Owned properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  if (space.failed() || memory.failed() || !leave_out_times(properties.get())) fail(what);
   Owned set(first == 0 ? H5Dcreate2(file_, name.c_str(), stored_type(type), space.get(),
-                                    H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)
+                                    H5P_DEFAULT, properties.get(), H5P_DEFAULT)
                        : H5Dopen2(file_, name.c_str(), H5P_DEFAULT),
             H5Dclose);
   if (set.failed() ||

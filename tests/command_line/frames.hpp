@@ -2,6 +2,7 @@
 /// Frames that two runs have left.
 
 #include "common/io/field_writer.hpp"
+#include "tests/command_line/program.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,6 +21,7 @@ inline void expect_same_frames(const std::filesystem::path& a, const std::filesy
                 io::read_field(wanted[k].path, field).values)
           << field << " of frame " << k;
     }
+    EXPECT_TRUE(text_of(found[k].path) == text_of(wanted[k].path)) << "bytes of frame " << k;
   }
 }
 

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -19,6 +20,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
+#include <thread>
 
 namespace diptych::io {
 namespace {
@@ -93,6 +95,16 @@ TEST(FieldWriter, GivesBackWhatItWroteInSinglePrecision) {
   EXPECT_EQ(read_field(folder / "out/frame_0000.hdf", "velocity [m s-1]").values, velocity.values);
   EXPECT_EQ(read_field(folder / "out/frame_0000.hdf", "stress [Pa]").n_components, 9);
   EXPECT_EQ(read_field(folder / "out/frame_0000.hdf", "jacobian [-]").n_components, 1);
+}
+
+/// HDF5 would put the second in which it makes a table beside it.
+TEST(FieldWriter, GivesTheSameBytesWheneverItWrites) {
+  const Scratch folder;
+  FieldWriter(folder / "one", two_tets()).write(0.5, whole(fields()));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  FieldWriter(folder / "other", two_tets()).write(0.5, whole(fields()));
+  for (const char* file : {"/mesh.hdf", "/frame_0000.hdf"})
+    EXPECT_TRUE(read_file(folder / "one" + file) == read_file(folder / "other" + file)) << file;
 }
 
 TEST(FieldWriter, HasTheLayoutOfVtkhdfOne) {
