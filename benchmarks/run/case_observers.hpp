@@ -48,6 +48,8 @@ class CaseObservers {
   std::vector<run::Observer*> all();
   /// J, what rounding makes of the energies of the body (run::EnergyUnits).
   double energy_rounding() const { return units_.rounding; }
+  /// Of the outputs so far.
+  const std::vector<io::HistoryRow>& rows() const { return history_.rows(); }
   /// What is to be told of walls that the body went through.
   std::optional<std::string> notice_of_walls() const { return walls_.notice(); }
   /// What is to be told of the exact solution: nothing unless the run begins with another motion.

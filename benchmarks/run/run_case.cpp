@@ -24,6 +24,7 @@
 #include "common/scheme/option_menus.hpp"
 #include "meshes/dual_measure.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -97,6 +98,7 @@ class CaseRun {
  private:
   void identify();
   void go_on();
+  void note_other_instants();
   void keep_checkpoints();
   void archive(algebra::Archive& archive);
   void tell(const std::string& notice) const;
@@ -164,6 +166,29 @@ void CaseRun::go_on() {
   observers_->check_files();
   tell(fmt::format("goes on from {}, step {}, t = {:.6g} s", options_.checkpoint,
                    simulation_->totals().steps, scene_->solver->time()));
+  note_other_instants();
+}
+
+/// Steps end at instants of output: where those before the checkpoint were of another setting, so
+/// are its steps and rows.
+void CaseRun::note_other_instants() {
+  std::vector<double> were;
+  for (const io::HistoryRow& row : observers_->rows())
+    were.push_back(row.time);
+  const std::vector<double> are = simulation_->instants_until_now();
+  const auto [was, is] = std::mismatch(were.begin(), were.end(), are.begin(), are.end());
+  if (was == were.end() && is == are.end()) return;
+  const std::string first =
+      was == were.end() ? fmt::format("t = {} s was none", *is)
+      : is == are.end() ? fmt::format("t = {} s is none any more", *was)
+                        : fmt::format("the first that differs was t = {} s, is {} s", *was, *is);
+  result_.summary.notices.push_back(fmt::format(
+      "goes on from a run with other instants of output ({}; time.end, output.frames): steps and "
+      "rows before the checkpoint are those of that run, and bits are not those of a run that "
+      "never "
+      "ended",
+      first));
+  tell(result_.summary.notices.back());
 }
 
 void CaseRun::keep_checkpoints() {

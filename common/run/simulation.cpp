@@ -69,6 +69,13 @@ double Simulation::instant(int frame) const {
   return frame == n ? setup_.time.end : setup_.time.end * frame / n;
 }
 
+std::vector<double> Simulation::instants_until_now() const {
+  std::vector<double> instants;
+  for (int frame = 0; frame <= setup_.output.frames && instant(frame) <= solver_.time(); ++frame)
+    instants.push_back(instant(frame));
+  return instants;
+}
+
 Ending Simulation::advance() {
   begin();
   for (int frame = 1; frame <= setup_.output.frames; ++frame) {

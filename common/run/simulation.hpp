@@ -65,6 +65,9 @@ class Simulation {
   /// energies of a body cost 0.3 of a step of leapfrog at most, 0.6 % (diptych cost).
   static constexpr std::int64_t check_period = 50;
 
+  /// Of the setting, until now: where outputs have been, unless they were of another setting.  [s]
+  std::vector<double> instants_until_now() const;
+
   const StepTotals& totals() const { return totals_; }
   const std::optional<base::BreakdownError>& breakdown() const { return breakdown_; }
   /// Fields of the last output, or of the last good state where a step has broken down; none where

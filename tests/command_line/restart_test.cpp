@@ -229,6 +229,27 @@ TEST_F(Restarted, GoesOnFromAnotherPathOfItsCase) {
   expect_same("fvm");
 }
 
+/// Bits are those of the run that never ended, or the run says that they are not.
+TEST_F(Restarted, TellsOfOtherInstantsOfOutput) {
+  for (const auto& [first, is_told] : std::vector<std::pair<std::string, bool>>{
+           {"--set time.end=0.02 --set output.frames=2", false},
+           {"--set time.end=0.025 --set output.frames=3", true},
+           {"--set output.frames=7 --set time.max_steps=17", true},
+           {"--set output.frames=1 --set time.max_steps=30", true}}) {
+    fs::remove_all(folder.path() / "out");
+    const std::string fvm = "--method fvm --set time.checkpoint_every=100 ";
+    ASSERT_EQ(command(run + "out " + fvm + first).exit_code, 0);
+    const auto again = command("run case.toml --threads 1 --out out --restart latest " + fvm);
+    EXPECT_EQ(again.exit_code, 0) << again.text;
+    for (const std::string& text : {again.text, text_of(out("fvm") / "summary.json")})
+      EXPECT_EQ(text.find("other instants of output") != std::string::npos, is_told) << first;
+    EXPECT_EQ(
+        summary_in(out("fvm")).state_hash == summary_in(folder.path() / "whole" / "fvm").state_hash,
+        !is_told)
+        << first;
+  }
+}
+
 TEST_F(Restarted, IsRefusedForAnotherRun) {
   end_after(17, 5, "--method fvm");
   const std::string file = " --restart " + checkpoints_in(out("fvm"))[0].string();
