@@ -18,6 +18,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <new>
+#include <poll.h>
 #include <sys/resource.h>
 #include <thread>
 #include <unistd.h>
@@ -72,10 +73,18 @@ bool limit_spinning() {
 }
 #endif
 
-/// What was printed has arrived. @throws base::EnvironmentError where it has not
+/// Who reads standard output has gone, with what it wanted: `diptych list | head`.
+bool is_left_by_reader() {
+  pollfd out{STDOUT_FILENO, POLLOUT, 0};
+  return poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
+}
+
+/// What was printed has arrived, as far as somebody reads it. @throws base::EnvironmentError where
+/// it has not
 void check_output() {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  if (is_left_by_reader()) return;
   const char* reason = errno != 0 ? std::strerror(errno) : "a write failed";
   throw base::EnvironmentError(
       fmt::format("standard output: not all could be written: {}", reason));

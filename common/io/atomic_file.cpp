@@ -105,6 +105,24 @@ void sync_folder(const std::string& path) {
 
 }  // namespace
 
+namespace {
+
+/// Of a folder that cannot be made: the link on its way that leads nowhere, which the system calls
+/// a file that exists; empty where there is none.
+std::string dead_link(const std::filesystem::path& directory) {
+  std::filesystem::path at;
+  std::error_code ignored;
+  for (const std::filesystem::path& part : directory) {
+    at /= part;
+    if (!std::filesystem::is_symlink(at, ignored) || std::filesystem::exists(at, ignored)) continue;
+    return fmt::format("'{}' is a link to '{}', which is not there", at.string(),
+                       std::filesystem::read_symlink(at, ignored).string());
+  }
+  return "";
+}
+
+}  // namespace
+
 void make_directory(const std::string& directory) {
   std::error_code failure;
   std::filesystem::create_directories(directory, failure);
@@ -112,8 +130,9 @@ void make_directory(const std::string& directory) {
     failure = std::make_error_code(std::errc::not_a_directory);
   }
   if (failure) {
-    throw EnvironmentError(
-        fmt::format("cannot make the folder '{}': {}", directory, reason(failure.value())));
+    const std::string link = dead_link(directory);
+    throw EnvironmentError(fmt::format("cannot make the folder '{}': {}", directory,
+                                       link.empty() ? reason(failure.value()) : link));
   }
 }
 

@@ -64,6 +64,8 @@ const Place places[] = {
     {"NameOfFourThousandLetters", "$run --out $(printf 'x%.0s' $(seq 4096))", 4, "name too long"},
     {"FolderThatTakesNoFiles", "$run --out /proc/self/out", 4, "cannot make the folder"},
     {"ResultsThatAreALink", "mkdir out; ln -s /tmp out/fvm; $run --out out", 2, "is a link"},
+    {"FolderThatIsADeadLink", "ln -s nowhere out; $run --out out", 4,
+     "'out' is a link to 'nowhere', which is not there"},
     {"NoTemporaryFolder", "TMPDIR=/nowhere $run --out out", 0, ""},
 };
 

@@ -149,6 +149,14 @@ TEST(CommandLine, OutputThatDoesNotArriveIsAnError) {
   EXPECT_EQ(summary.find('{'), 0u) << summary.substr(0, 100);
 }
 
+TEST(CommandLine, AReaderThatHasGoneIsNone) {
+  for (const char* words : {"list", "explain all", "--help"}) {
+    const auto outcome = tests::shell(Folder(), std::string("{ sleep 0.2; $diptych ") + words +
+                                                    "; echo \"code $?\" >&2; } | true");
+    EXPECT_EQ(outcome.text, "code 0\n") << words;
+  }
+}
+
 /// A case whose mesh is made by gmsh.
 std::string geo_case() {
   return "[mesh]\nfile = \"block.geo\"\nsize = 0.5\nelement = \"tetrahedron\"\n[material]\n"
