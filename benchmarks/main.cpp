@@ -14,10 +14,12 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <new>
+#include <optional>
 #include <poll.h>
 #include <sys/resource.h>
 #include <thread>
@@ -41,19 +43,48 @@ void start_once_more(char** argv) {
   execv("/proc/self/exe", argv);
 }
 
+constexpr rlim_t least_stack = 256 << 10;
+
+/// Bytes that OMP_STACKSIZE gives the stack of a thread; nothing where it is not set.
+std::optional<double> stack_of_threads() {
+  const char* text = std::getenv("OMP_STACKSIZE");
+  if (text == nullptr) return std::nullopt;
+  char* unit = nullptr;
+  const double size = std::strtod(text, &unit);
+  if (unit == text) return std::nullopt;  // OpenMP tells of it
+  switch (unit[std::strspn(unit, " ")]) {
+    case 'b':
+    case 'B':
+      return size;
+    case 'm':
+    case 'M':
+      return size * (1 << 20);
+    case 'g':
+    case 'G':
+      return size * (1 << 30);
+    default:
+      return size * (1 << 10);
+  }
+}
+
 /// A stack that is too small ends the program without a word: as much as a usual one is taken where
 /// it may be, for its threads too. @throws base::EnvironmentError
 void require_stack(char** argv) {
-  constexpr rlim_t least = 256 << 10, usual = 8 << 20;
+  constexpr rlim_t usual = 8 << 20;
+  if (const auto size = stack_of_threads(); size && *size < least_stack) {
+    throw base::EnvironmentError(
+        fmt::format("OMP_STACKSIZE={} is too small for threads: unset it, or give {}K at least",
+                    std::getenv("OMP_STACKSIZE"), least_stack >> 10));
+  }
   rlimit limit{};
   if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= usual) return;
   const rlim_t had = limit.rlim_cur;
   limit.rlim_cur = std::min(limit.rlim_max, usual);
   if (limit.rlim_cur > had && setrlimit(RLIMIT_STACK, &limit) == 0) start_once_more(argv);
-  if (limit.rlim_cur >= least) return;
+  if (limit.rlim_cur >= least_stack) return;
   throw base::EnvironmentError(
       fmt::format("the stack of a process is limited to {} KiB, {} KiB are needed: ulimit -s 8192",
-                  limit.rlim_cur >> 10, least >> 10));
+                  limit.rlim_cur >> 10, least_stack >> 10));
 }
 
 /// On a shared machine a thread that spins at a barrier takes the processor from the one it waits
