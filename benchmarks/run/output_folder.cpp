@@ -169,9 +169,8 @@ OutputFolder::OutputFolder(std::string directory,
     const std::string case_file = owner->case_file.empty() ? "" : " (" + owner->case_file + ")";
     if (kind_ == OutputKind::continued) {
       throw base::InputError(
-          fmt::format("{}: holds results of another case, {}{}, whose text is not that of {}: "
-                      "--restart goes on "
-                      "with results of its own case; give the --out that has them",
+          fmt::format("{}: holds results of another case, {}{}, whose text is not that of {}; "
+                      "--restart goes on with those of its own case: give the --out that has them",
                       directory_, owner->case_name, case_file, setup.file));
     }
     of_another_case_ = true;
