@@ -9,6 +9,7 @@
 #include "common/run/solver.hpp"
 #include "common/scheme/option_menus.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace diptych::harness {
@@ -103,6 +104,30 @@ TEST(StrongPressure, IsThatOfANearlyIncompressibleBodyHeldOnAllSides) {
 /// What carries the pressure.
 std::string carrier(const std::string& method, const std::vector<std::string>& overrides) {
   return scheme::name_of(run::volumes_of(block(overrides), made(method, overrides).graph));
+}
+
+// A ball that its surface squeezed to J = 0.22 at nu = 0.3 (5.5 shear moduli) turned inside out.
+TEST(StrongPressure, IsThatOfABodyWhoseSupportsLeaveItLittleRoom) {
+  const auto pressed_to = [](const char* J) {
+    return because({}, fmt::format(R"([[boundary]]
+group = ["x_min", "y_min", "z_min", "y_max", "z_max"]
+type = "symmetry"
+[[boundary]]
+group = "x_max"
+type = "velocity"
+value = ["({} - 1)*2*t", "0", "0"]
+)",
+                                   J));
+  };
+  EXPECT_THAT(pressed_to("0.62"), IsEmpty());
+  EXPECT_THAT(pressed_to("0.5"), HasSubstr("leave it 0.5 of its volume"));
+  EXPECT_THAT(pressed_to("1.5"), IsEmpty());
+  EXPECT_THAT(because({}, R"([[boundary]]
+group = "x_max"
+type = "velocity"
+value = ["-0.9", "0", "0"]
+)"),
+              IsEmpty());  // it gives way to the sides
 }
 
 TEST(StrongPressure, IsLeftToNodesWhereNothingPresses) {
