@@ -7,7 +7,11 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <latch>
 #include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 namespace diptych::parallel {
 
@@ -17,6 +21,33 @@ namespace {
 int initial_threads() {
   static const int n = omp_get_max_threads();
   return n;
+}
+
+/// OpenMP ends the program where it cannot make a thread, so that they are made once before; its
+/// own follow at once, as long as there is room for them.
+/// @throws base::EnvironmentError
+void require_threads(int count) {
+  static int made = 1;
+  if (count <= made) return;
+  std::vector<std::thread> threads;
+  std::latch all_are_there(1);
+  std::string reason;
+  try {
+    while (static_cast<int>(threads.size()) < count - 1)
+      threads.emplace_back([&] { all_are_there.wait(); });
+  } catch (const std::system_error& error) {
+    reason = error.code().message();
+  }
+  all_are_there.count_down();
+  for (std::thread& thread : threads)
+    thread.join();
+  if (!reason.empty()) {
+    throw base::EnvironmentError(
+        "this machine gives the program " + std::to_string(threads.size() + 1) + " of " +
+        std::to_string(count) + " threads (" + reason +
+        "); give fewer with --threads, or raise the limit (ulimit -u, ulimit -v, of a container)");
+  }
+  made = count;
 }
 
 }  // namespace
@@ -38,8 +69,10 @@ int thread_count(int asked) {
 
 void set_threads(int n) {
   const int count = thread_count(n);
+  require_threads(count);
   omp_set_dynamic(0);
   omp_set_num_threads(count);
+  (void)running_threads();
 }
 
 int n_threads() {
