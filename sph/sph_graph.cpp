@@ -163,6 +163,9 @@ meshes::Quadrature quadrature_of(const meshes::Mesh& mesh) {
                                                                       : meshes::Quadrature::exact;
 }
 
+/// Of a support over the distance of nodes, kappa 1.2: less is no matter of the cells.
+constexpr double usual_radius = 2.4;
+
 /// A graph, and how much of the cells its supports hardly see.
 struct ReachingGraph {
   scheme::PairGraph graph;
@@ -177,7 +180,7 @@ ReachingGraph round_graph_of(const meshes::Mesh& mesh, const Options& options, b
   std::vector<double> h = smoothing_lengths(mesh, by_vertices.Omega, options.kappa);
   std::vector<double> radius(h);
   for (double& r : radius)
-    r *= kernel.support;
+    r *= std::max(usual_radius / options.kappa, kernel.support);
   const double far_edges = share_of_far_edges(mesh, radius);
   scheme::PairGraph graph;
   if (sums_by_parts) {

@@ -30,6 +30,7 @@ double seconds() {
 // lock-free: of handlers, and of the thread that watches other ranks
 std::atomic<double> asked_at = 0, keeping_asked_at = 0;  // s, 0: not yet
 std::atomic<int> signal_to_pass = 0;
+std::atomic<bool> is_asked_by_rank = false;  // other than 0
 /// Whether Open MPI's mpirun kills its ranks a second after it tells them to end.
 bool is_killed_soon = false;
 
@@ -39,7 +40,7 @@ void say(std::string_view text) {
 
 void end_after_this_step(int signal) {
   if (asked_at > 0) {
-    if (seconds() - asked_at < same_request) return;
+    if (seconds() - asked_at < (is_asked_by_rank ? same_request_of_ranks : same_request)) return;
     std::signal(signal, SIG_DFL);
     std::raise(signal);
     return;
@@ -108,6 +109,7 @@ void obey_signal(int rank, int signal) {
     return;
   }
   if (asked_at > 0) return;
+  is_asked_by_rank = true;
   asked_at = seconds();
   request_interrupt();
   say(fmt::format("\ndiptych: ending after this step, since rank {} was sent {}\n", rank,

@@ -169,13 +169,15 @@ void CaseRun::go_on() {
   note_other_instants();
 }
 
-/// Steps end at instants of output: where those before the checkpoint were of another setting, so
-/// are its steps and rows.
+/// Steps are cut for the next instant of output: where those before the checkpoint were of another
+/// setting, so are its steps and rows.
 void CaseRun::note_other_instants() {
   std::vector<double> were;
   for (const io::HistoryRow& row : observers_->rows())
     were.push_back(row.time);
-  const std::vector<double> are = simulation_->instants_until_now();
+  if (simulation_->instant_ahead() > scene_->solver->time())
+    were.push_back(simulation_->instant_ahead());
+  const std::vector<double> are = simulation_->instants_of_steps();
   const auto [was, is] = std::mismatch(were.begin(), were.end(), are.begin(), are.end());
   if (was == were.end() && is == are.end()) return;
   const std::string first =

@@ -19,9 +19,9 @@ bool is_nearly_incompressible(const cases::MaterialCase& material);
 /// nearly incompressible body is held on all sides, or another that is has no more room than leads
 /// to such a pressure, and the mesh has what bears it (finite volumes
 /// have no cells on faces that are no parallelograms). What walls,
-/// impacts, supports of a part of the boundary, body forces and manufactured tractions press is not
-/// seen, and loads on one group are not added. Empty where nothing presses so, or where the case
-/// says what carries the pressure (scheme.volumes).
+/// impacts, supports of a part of the boundary, manufactured velocities, body forces and
+/// manufactured tractions press is not seen, and loads on one group are not added. Empty where
+/// nothing presses so, or where the case says what carries the pressure (scheme.volumes).
 std::string strong_pressure_because(const cases::Case& setup,
                                     const std::string& method,
                                     const meshes::Mesh& mesh);

@@ -103,10 +103,6 @@ void sync_folder(const std::string& path) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// Of a folder that cannot be made: the link on its way that leads nowhere, which the system calls
 /// a file that exists; empty where there is none.
 std::string dead_link(const std::filesystem::path& directory) {
@@ -114,7 +110,9 @@ std::string dead_link(const std::filesystem::path& directory) {
   std::error_code ignored;
   for (const std::filesystem::path& part : directory) {
     at /= part;
-    if (!std::filesystem::is_symlink(at, ignored) || std::filesystem::exists(at, ignored)) continue;
+    if (!std::filesystem::is_symlink(at, ignored) ||
+        std::filesystem::status(at, ignored).type() != std::filesystem::file_type::not_found)
+      continue;
     return fmt::format("'{}' is a link to '{}', which is not there", at.string(),
                        std::filesystem::read_symlink(at, ignored).string());
   }

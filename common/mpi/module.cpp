@@ -124,6 +124,7 @@ int patience = 0;  ///< s, of rank 0, while there are ranks; 0: for ever
 struct Start {
   int patience = 0;  ///< s, negative: no number
   int threads = 0;   ///< that MPI provides
+  int launched = 0;  ///< ranks, by the environment
 };
 
 std::vector<Start> starts_of_all(const Start& mine, int n_ranks) {
@@ -137,6 +138,11 @@ std::string fault_in(const std::vector<Start>& all) {
   for (size_t r = 0; r < all.size(); ++r) {
     const std::string who =
         " (rank " + std::to_string(r) + " of " + std::to_string(all.size()) + ")";
+    if (all[r].launched != static_cast<int>(all.size())) {
+      return "the program was started among " + std::to_string(all[r].launched) +
+             " processes and MPI sees " + std::to_string(all.size()) + who +
+             "; use the mpirun of the MPI that it was built with";
+    }
     if (all[r].patience < 0)
       return "DIPTYCH_RANK_PATIENCE is no number of seconds from 0 to 1000000" + who;
     if (all[0].patience > 0 && all[r].threads < MPI_THREAD_MULTIPLE) {
@@ -163,13 +169,8 @@ Communicator* begin(std::string& error, const char* (*phase)(), PassedSignals si
     return nullptr;
   }
   static MpiCommunicator world;
-  if (world.size() != launched_ranks()) {
-    error = "the program was started among " + std::to_string(launched_ranks()) +
-            " processes and MPI sees " + std::to_string(world.size()) +
-            "; use the mpirun of the MPI that it was built with";
-    return nullptr;
-  }
-  const auto all = starts_of_all({rank_patience().value_or(-1), provided}, world.size());
+  const auto all =
+      starts_of_all({rank_patience().value_or(-1), provided, launched_ranks()}, world.size());
   error = fault_in(all);
   if (!error.empty()) {
     MPI_Finalize();

@@ -7,9 +7,9 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <exception>
 #include <latch>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -30,13 +30,14 @@ void require_threads(int count) {
   static int made = 1;
   if (count <= made) return;
   std::vector<std::thread> threads;
+  threads.reserve(static_cast<size_t>(count));
   std::latch all_are_there(1);
   std::string reason;
   try {
     while (static_cast<int>(threads.size()) < count - 1)
       threads.emplace_back([&] { all_are_there.wait(); });
-  } catch (const std::system_error& error) {
-    reason = error.code().message();
+  } catch (const std::exception& error) {
+    reason = error.what();
   }
   all_are_there.count_down();
   for (std::thread& thread : threads)

@@ -69,10 +69,14 @@ double Simulation::instant(int frame) const {
   return frame == n ? setup_.time.end : setup_.time.end * frame / n;
 }
 
-std::vector<double> Simulation::instants_until_now() const {
+std::vector<double> Simulation::instants_of_steps() const {
   std::vector<double> instants;
-  for (int frame = 0; frame <= setup_.output.frames && instant(frame) <= solver_.time(); ++frame)
-    instants.push_back(instant(frame));
+  const bool is_between = ahead_ > solver_.time();
+  for (int frame = 0; frame <= setup_.output.frames; ++frame) {
+    const bool is_past = instant(frame) <= solver_.time();
+    if (is_past || is_between) instants.push_back(instant(frame));
+    if (!is_past) break;
+  }
   return instants;
 }
 
@@ -135,6 +139,7 @@ void Simulation::archive(algebra::Archive& archive) {
   archive.real("last step/least J", "-", last_.least_J);
   archive.integer("last step/rejected", last_.rejected);
   archive.integer("run/judged step", judged_);
+  archive.real("run/instant ahead", "s", ahead_);
   archive.integer("run/outputs", n_outputs_);
   archive.real("run/time of last output", "s", output_time_);
   solver_.archive(archive);
@@ -166,6 +171,7 @@ double Simulation::end_of_step(double limit) {
 }
 
 void Simulation::advance_to(double limit) {
+  ahead_ = limit;
   while (solver_.time() < limit && !is_interrupted() && !is_at_step_limit()) {
     const auto start = Clock::now();
     totals_before_ = totals_;

@@ -65,8 +65,11 @@ class Simulation {
   /// energies of a body cost 0.3 of a step of leapfrog at most, 0.6 % (diptych cost).
   static constexpr std::int64_t check_period = 50;
 
-  /// Of the setting, until now: where outputs have been, unless they were of another setting.  [s]
-  std::vector<double> instants_until_now() const;
+  /// Of the setting: instants of output until now, and the next one where the state stands between
+  /// two: what steps until now were cut for, unless they were of another setting.  [s]
+  std::vector<double> instants_of_steps() const;
+  /// The instant that the last step was cut for.  [s]
+  double instant_ahead() const { return ahead_; }
 
   const StepTotals& totals() const { return totals_; }
   const std::optional<base::BreakdownError>& breakdown() const { return breakdown_; }
@@ -103,6 +106,7 @@ class Simulation {
   std::vector<StepEnd> step_ends_;
   size_t next_end_ = 0;      // of step_ends_: those before it have been passed
   std::int64_t judged_ = 0;  // step
+  double ahead_ = 0;         // s, instant that steps are cut for
   std::int64_t n_outputs_ = 0;
   double output_time_ = 0;  // s, of the last output
   Snapshot state_;  ///< of the last output, as far as taken; gone once the body has moved on

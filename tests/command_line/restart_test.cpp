@@ -235,6 +235,7 @@ TEST_F(Restarted, TellsOfOtherInstantsOfOutput) {
            {"--set time.end=0.02 --set output.frames=2", false},
            {"--set time.end=0.025 --set output.frames=3", true},
            {"--set output.frames=7 --set time.max_steps=17", true},
+           {"--set output.frames=7 --set time.max_steps=3", true},
            {"--set output.frames=1 --set time.max_steps=30", true}}) {
     fs::remove_all(folder.path() / "out");
     const std::string fvm = "--method fvm --set time.checkpoint_every=100 ";

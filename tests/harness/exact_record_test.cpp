@@ -125,6 +125,8 @@ end = 0.7
                                                           "scene"),
                                     options);
   EXPECT_EQ(result.summary.status, "done");
+  EXPECT_THAT(result.summary.notices,
+              testing::Contains(testing::HasSubstr("strain energy is what rounding leaves of it")));
 }
 
 TEST(ExactRecord, HoldsProbesKineticEnergyAndMomentaThatAreNotZero) {

@@ -52,6 +52,8 @@ void ManufacturedSolution<Dim>::move_to(double t) {
   Loads& loads = loads_[now_];
   if (t == loads.time) return;
   const typename ViscousHistory<Dim>::Way way = history_.way_to(t);
+  // what goes on from a checkpoint here has no states of before either
+  if (way.begins_anew()) loads_[1 - now_].time = no_time;
   const Program& placed = history_.placed();
   const Program::Instant instant = placed.at(t);
   std::vector<char> is_sound(static_cast<size_t>(placed.n_strips()));

@@ -27,18 +27,22 @@ std::vector<double> evenly(double last, int n) {
 int n_covering(double whole, double length) {
   return 2 * static_cast<int>(std::lround(whole / length)) - 1;
 }
-/// The times with the largest errors.
-std::vector<double> worst_of(const std::vector<double>& times,
-                             const std::vector<double>& errors,
-                             size_t n) {
-  std::vector<size_t> order(times.size());
+/// Where the halves of the intervals that err most begin: what is hard in them lies in one of
+/// these.
+std::vector<double> halves_of(const std::vector<double>& begins,
+                              const std::vector<double>& errors,
+                              double length) {
+  constexpr size_t most = 12;
+  std::vector<size_t> order(begins.size());
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](size_t p, size_t q) { return errors[p] > errors[q]; });
-  std::vector<double> worst;
-  for (size_t k = 0; k < std::min(n, order.size()); ++k)
-    worst.push_back(times[order[k]]);
-  return worst;
+  std::vector<double> halves;
+  for (size_t k = 0; k < std::min(most, order.size()); ++k) {
+    halves.push_back(begins[order[k]]);
+    halves.push_back(begins[order[k]] + length / 2);
+  }
+  return halves;
 }
 
 std::vector<int> joined(std::vector<int> first, const std::vector<int>& second) {
@@ -128,21 +132,20 @@ void ViscousHistory<Dim>::calibrate(double end, std::span<const Vec3> X) {
   const auto n = static_cast<std::int64_t>(X.size());
   for (std::int64_t k = 0; k < n_samples; ++k)
     sample.push_back(X[static_cast<size_t>(k * (n - 1) / (n_samples - 1))]);
-  constexpr int most_intervals = 1 << 16, most_looks = 256;
-  constexpr size_t n_worst = 16;
-  std::vector<double> begins, worst;
+  constexpr int most_intervals = 1 << 16, most_looks = 32;
   double longest = end / 8;
+  std::vector<double> begins = evenly(end - longest, n_covering(end, longest));
   for (const int n_points : {6, 5, 4, 3, 2}) {
     for (; longest * most_intervals >= end; longest /= 2) {
-      if (n_points == 6)
-        begins = evenly(end - longest, std::min(most_looks, n_covering(end, longest)));
       const std::vector<double> errors = errors_of(n_points, longest, begins, sample);
       if (*std::max_element(errors.begin(), errors.end()) <= accuracy_wanted) break;
-      if (n_points == 6) worst = worst_of(begins, errors, n_worst);
+      begins = halves_of(begins, errors, longest);
+      const std::vector<double> others =
+          evenly(end - longest / 2, std::min(most_looks, n_covering(end, longest / 2)));
+      begins.insert(begins.end(), others.begin(), others.end());
     }
     if (!(longest * most_intervals >= end)) break;
     accuracies_.insert(accuracies_.begin(), {n_points, longest});
-    if (!worst.empty()) begins = worst;  // where the others err most, too
   }
   if (accuracies_.empty()) {
     throw base::InputError(
@@ -231,21 +234,32 @@ auto ViscousHistory<Dim>::way_to(double t) -> Way {
   Way way;
   way.to_time = t;
   if (clocks_.empty()) return way;  // the same at all times
-  const bool has_both = states_[1].holds();
-  const size_t latest = has_both && states_[1].time > states_[0].time ? 1 : 0;
-  const size_t earlier = has_both ? 1 - latest : latest;
-  if (t < states_[earlier].time) {
-    restart();
-    return way_to(t);
+  constexpr size_t none = ~size_t{0};
+  size_t latest = 0, oldest = 0, empty = none;
+  way.from = none;
+  for (size_t k = 0; k < states_.size(); ++k) {
+    const State& state = states_[k];
+    if (!state.holds()) {
+      empty = k;
+      continue;
+    }
+    if (state.time > states_[latest].time) latest = k;
+    if (state.time < states_[oldest].time) oldest = k;
+    if (state.time <= t && (way.from == none || state.time > states_[way.from].time)) way.from = k;
   }
-  way.from = t < states_[latest].time ? earlier : latest;
+  if (way.from == none) {
+    restart();
+    way = way_to(t);
+    way.begins_anew_ = true;
+    return way;
+  }
   way.to = way.from;
   if (t == states_[way.from].time) return way;
   way.is_kept = way.from == latest;
-  way.to = 1 - way.from;
+  way.to = empty != none ? empty : oldest;
   plan(way);
   // those that do not relax are the same at all times
-  if (way.is_kept && !has_both) states_[way.to].branches = states_[way.from].branches;
+  if (way.is_kept && empty != none) states_[way.to].branches = states_[way.from].branches;
   return way;
 }
 
@@ -314,7 +328,7 @@ template <int Dim>
 void ViscousHistory<Dim>::archive(algebra::Archive& archive) {
   for (size_t k = 0; k < states_.size(); ++k) {
     State& state = states_[k];
-    const std::string name = fmt::format("known state/{} of 2", k);
+    const std::string name = fmt::format("known state/{} of 3", k);
     std::int64_t is_held = state.holds() ? 1 : 0;
     archive.real(name + " time", "s", state.time);
     archive.integer(name + " is held", is_held);

@@ -3,9 +3,9 @@
 ///   A' = (C^-1 - A)/tau,   (grad A)' = (grad C^-1 - grad A)/tau,
 /// linear with C^-1(t) known, so that an exponential Gauss rule integrates them to about 1e-13 for
 /// every dt/tau: that of the longest tau, whose points the others take, too. Times are asked for in
-/// the order of a step (t, t + dt, t + dt/2, t + dt, ...): the states of the last three times are
-/// kept, a new one costs one short interval from the nearest before it. Test:
-/// tests/common/exact/manufactured_test.cpp.
+/// the order of a step (t, t + dt, t + dt/2, t + dt, ...): the states of the three latest times are
+/// kept, so that any of them, of a step that is made again too, is one short interval away; what
+/// lies between them is not kept. Test: tests/common/exact/manufactured_test.cpp.
 
 #include "common/algebra/archive.hpp"
 #include "common/exact/manufactured/exponential_gauss.hpp"
@@ -37,7 +37,7 @@ class ViscousHistory {
 
   /// From a state that is kept to another time.
   class Way;
-  /// Fastest to times after the earlier one of those kept; from 0 where t lies before them.
+  /// Fastest to times after the earliest of those kept; from 0 where t lies before them.
   Way way_to(double t);
   /// Goes a way with one strip. `room` is taken where the end of the way is not kept.
   /// @param room  [branches_of_strip()]
@@ -101,13 +101,17 @@ class ViscousHistory {
   std::vector<Clock> clocks_;
   std::vector<Accuracy> accuracies_;  ///< fewest points first
   bool relaxed_;
-  std::array<State, 2> states_;
+  std::array<State, 3> states_;
   std::vector<Branch> passing_;  ///< at a time that is not kept
 };
 
 /// Times and weights from one time to another.
 template <int Dim>
 class ViscousHistory<Dim>::Way {
+ public:
+  /// At 0, since the end lies before all states that were kept: these are forgotten.
+  bool begins_anew() const { return begins_anew_; }
+
  private:
   friend class ViscousHistory;
   struct Point {
@@ -115,8 +119,9 @@ class ViscousHistory<Dim>::Way {
     functions::PlacedProgram::Instant instant;
   };
   double to_time = 0;
-  size_t from = 0, to = 0;              ///< states; the same: there is nothing to go
-  bool is_kept = true;                  ///< the end of the way, in states_[to]
+  size_t from = 0, to = 0;  ///< states; the same: there is nothing to go
+  bool is_kept = true;      ///< the end of the way, in states_[to]
+  bool begins_anew_ = false;
   std::vector<ExponentialGauss> rules;  ///< [clock], of one interval; all have the same points
   std::vector<Point> points;            ///< [interval * n_points + point]
 };
