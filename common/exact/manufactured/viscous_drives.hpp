@@ -42,7 +42,8 @@ class DrivesOf {
   /// d(C^-1) = -C^-1 dC C^-1 and d(C/det C) = dC/det C - (C^-1 : dC) C/det C for dC = F^T dF + dF^T
   /// F.
   DIPTYCH_INLINE Drives derivatives(const algebra::Tensor<Lanes>& dF) const {
-    const auto& [inverse_C, inverse_G] = values_;
+    const algebra::SymmetricTensor<Lanes>&inverse_C = values_.inverse_C,
+          &inverse_G = values_.inverse_G;
     algebra::Tensor<Lanes> M, K;  // F^T dF, dC C^-1
     algebra::SymmetricTensor<Lanes> dC;
     Drives d;
