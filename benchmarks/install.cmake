@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 install(TARGETS diptych)
 if(TARGET diptych_mpi) # cmake --install BUILD --component ranks: the package does not ask for an MPI library
-  install(TARGETS diptych_mpi LIBRARY DESTINATION ${CMAKE_INSTALL_PREFIX}/lib/diptych COMPONENT ranks EXCLUDE_FROM_ALL)
+  install(TARGETS diptych_mpi LIBRARY DESTINATION lib/diptych COMPONENT ranks EXCLUDE_FROM_ALL)
 endif()
 foreach(folder ${data})
   install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_DATADIR}/diptych)
