@@ -16,6 +16,7 @@ namespace diptych::meshes {
 namespace {
 
 constexpr std::uint32_t faces_stride = 8;  ///< face id = cell * stride + local face
+static_assert(most_cells <= std::numeric_limits<std::uint32_t>::max() / faces_stride);
 static_assert(most_faces <= static_cast<int>(faces_stride));
 
 /// A face without its least node, which is the bucket. Absent nodes stand last, as the greatest
@@ -164,10 +165,9 @@ void refuse_split_quadrilaterals(const Mesh& mesh) {
 }  // namespace
 
 void find_boundary_faces(Mesh& mesh) {
-  if (mesh.n_cells() > std::numeric_limits<std::uint32_t>::max() / faces_stride) {
-    throw base::InputError(fmt::format("{} cells are too many, at most {} are supported",
-                                       mesh.n_cells(),
-                                       std::numeric_limits<std::uint32_t>::max() / faces_stride));
+  if (mesh.n_cells() > most_cells) {
+    throw base::InputError(
+        fmt::format("{} cells are too many, at most {} are supported", mesh.n_cells(), most_cells));
   }
   std::vector<std::int64_t> bucket_ends(mesh.n_nodes() + 1, 0);
   for_each_face(mesh, [&](std::uint32_t, const BoundaryFace&, std::int32_t least) {

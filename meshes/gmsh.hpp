@@ -37,8 +37,11 @@ bool has_gmsh();
 /// @throws base::InputError naming the first bad cell and its place
 void check_cells(const Mesh& mesh, const std::string& name);
 
+/// Cells that a mesh may have: a face is counted by its cell and its place there, in 32 bits.
+inline constexpr std::int64_t most_cells = 536'870'911;
+
 /// Fills mesh.boundary_faces (outward) from the cells; returns nothing else. Used by all makers.
-/// @throws base::InputError on a face shared by more than two cells
+/// @throws base::InputError on a face shared by more than two cells, or more than most_cells
 void find_boundary_faces(Mesh& mesh);
 
 /// Corners of the faces of a group, outward; -1 where a face has fewer than four.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <queue>
 #include <utility>
 
@@ -19,11 +20,51 @@ namespace {
 /// now.
 constexpr double detour = 2;
 
+/// Lengths of paths to the few nodes that a walk comes to, a table of open addressing: an array
+/// over all nodes for each thread would outgrow the mesh.
+class Lengths {
+ public:
+  Lengths() : entries_(least_size) {}
+  void clear() {
+    std::fill(entries_.begin(), entries_.end(), Entry{});
+    n_ = 0;
+  }
+  /// m, of the shortest path so far; infinite where there is none
+  double to(std::int32_t node) const { return entries_[place_of(node)].length; }
+  void set(std::int32_t node, double length) {
+    const size_t place = place_of(node);
+    n_ += entries_[place].node != node;
+    entries_[place] = {node, length};
+    if (2 * n_ > entries_.size()) grow();
+  }
+
+ private:
+  static constexpr size_t least_size = 512;
+  struct Entry {
+    std::int32_t node = -1;
+    double length = std::numeric_limits<double>::infinity();
+  };
+  size_t place_of(std::int32_t node) const {
+    size_t place = static_cast<std::uint32_t>(node) * 2654435761U & (entries_.size() - 1);
+    while (entries_[place].node != node && entries_[place].node >= 0)
+      place = (place + 1) & (entries_.size() - 1);
+    return place;
+  }
+  void grow() {
+    std::vector<Entry> before(2 * entries_.size());
+    before.swap(entries_);
+    for (const Entry& entry : before)
+      if (entry.node >= 0) entries_[place_of(entry.node)] = entry;
+  }
+
+  std::vector<Entry> entries_;  // a power of two of them
+  size_t n_ = 0;
+};
+
 /// Walks from one node at a time; a thread has one of its own.
 class Walk {
  public:
-  Walk(const std::vector<Vec3>& X, const meshes::NodalGraph& near)
-      : X_(X), near_(near), seen_from_(X.size(), -1), length_(X.size()) {}
+  Walk(const std::vector<Vec3>& X, const meshes::NodalGraph& near) : X_(X), near_(near) {}
 
   /// Marks the neighbours of a, [first, last) of `rows`, that it reaches: the shortest paths first.
   void reach(std::int32_t a, const Rows& rows, std::vector<std::uint8_t>& is_reached) {
@@ -34,22 +75,21 @@ class Walk {
     const auto begin = rows.neighbour.begin() + first, end = rows.neighbour.begin() + last;
     std::int64_t left = last - first;
     next_ = {};
-    come_to(a, a, 0);
+    length_.clear();
+    come_to(a, 0);
     while (!next_.empty()) {
       const auto [length, c] = next_.top();
       next_.pop();
-      if (length > length_[c]) continue;  // a shorter one has been there
+      if (length > length_.to(c)) continue;  // a shorter one has been there
       if (std::binary_search(begin, end, c) && --left == 0) break;
       for (const std::int32_t b : near_.around(c)) {
         const double there = length + distance(c, b);
-        if (there <= detour * farthest && (seen_from_[b] != a || there < length_[b]))
-          come_to(a, b, there);
+        if (there <= detour * farthest && there < length_.to(b)) come_to(b, there);
       }
     }
     for (std::int64_t p = first; p < last; ++p) {
       const std::int32_t b = rows.neighbour[p];
-      is_reached[static_cast<size_t>(p)] =
-          seen_from_[b] == a && length_[b] <= detour * distance(a, b);
+      is_reached[static_cast<size_t>(p)] = length_.to(b) <= detour * distance(a, b);
     }
   }
 
@@ -57,16 +97,14 @@ class Walk {
   using Place = std::pair<double, std::int32_t>;  // length of the path to a node
 
   double distance(std::int32_t a, std::int32_t b) const { return (X_[b] - X_[a]).norm(); }
-  void come_to(std::int32_t a, std::int32_t b, double length) {
-    seen_from_[b] = a;
-    length_[b] = length;
+  void come_to(std::int32_t b, double length) {
+    length_.set(b, length);
     next_.emplace(length, b);
   }
 
   const std::vector<Vec3>& X_;
   const meshes::NodalGraph& near_;
-  std::vector<std::int32_t> seen_from_;
-  std::vector<double> length_;  // m, of the shortest path so far
+  Lengths length_;
   std::priority_queue<Place, std::vector<Place>, std::greater<>> next_;
 };
 

@@ -8,6 +8,7 @@
 #include "common/cases/reader.hpp"
 #include "common/closure/sbp_operator.hpp"
 #include "common/run/solver.hpp"
+#include "meshes/gmsh.hpp"
 
 #include <algorithm>
 #include <array>
@@ -347,6 +348,13 @@ void require(const cases::Case& setup,
         "{} at level {} has {:.3g} nodes; they are counted in 32 bits, so the most is {:.3g}; use "
         "a smaller --level or fewer mesh.cells",
         setup.name, level, asked.nodes, most_nodes));
+  }
+  constexpr auto most_cells = static_cast<double>(meshes::most_cells);
+  if (asked.cells > most_cells) {
+    throw base::InputError(fmt::format(
+        "{} at level {} has {:.3g} cells, the most is {:.3g}; use a smaller --level, fewer "
+        "mesh.cells or hexahedra",
+        setup.name, level, asked.cells, most_cells));
   }
   const AvailableMemory available = available_memory();
   if (asked.bytes > static_cast<double>(available.bytes))

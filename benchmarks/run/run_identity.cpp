@@ -5,14 +5,17 @@
 #include "common/io/checkpoint_file.hpp"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 namespace diptych::harness {
 
 namespace {
 
-template <class T>
-std::string bytes_of(const std::vector<T>& values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+std::string hash_of_nodes(const scheme::PairGraph& graph) {
+  const XXH64_hash_t of_places = XXH3_64bits(graph.X.data(), graph.X.size() * sizeof(graph.X[0]));
+  const XXH64_hash_t of_both = XXH3_64bits_withSeed(
+      graph.Omega.data(), graph.Omega.size() * sizeof(graph.Omega[0]), of_places);
+  return fmt::format("{:016x}", of_both);
 }
 
 }  // namespace
@@ -36,7 +39,7 @@ RunIdentity identity_of(const cases::Case& setup,
   identity.level = summary.level;
   identity.settings = cases::settings_text(cases::lasting_settings(setup));
   identity.volumes = summary.volumes;
-  identity.nodes = cases::case_hash(bytes_of(graph.X) + bytes_of(graph.Omega), {});
+  identity.nodes = hash_of_nodes(graph);
   identity.program = summary.provenance.program;
   identity.version = summary.provenance.version + " " + summary.provenance.commit;
   identity.instruction_set = summary.provenance.instruction_set;

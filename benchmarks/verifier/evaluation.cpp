@@ -96,13 +96,19 @@ bool asks_for_missing_error(const std::string& text, const std::map<std::string,
   return false;
 }
 
+/// Whether a run that came to its end lacks what an optional column asks for.
+bool lacks(const VerificationTable& table,
+           const VerificationColumn& column,
+           const VerificationRow& row) {
+  return column.optional && row.failure.empty() &&
+         asks_for_missing_error(column.value, numbers_of(table, row.summary));
+}
+
 double value_of(const VerificationTable& table,
                 const VerificationColumn& column,
                 const VerificationRow& row) {
-  if (!row.failure.empty()) return nothing;
-  const auto numbers = numbers_of(table, row.summary);
-  if (column.optional && asks_for_missing_error(column.value, numbers)) return nothing;
-  return functions::constant_value(column.value, numbers, column.where);
+  if (!row.failure.empty() || lacks(table, column, row)) return nothing;
+  return functions::constant_value(column.value, numbers_of(table, row.summary), column.where);
 }
 
 /// Value of a column in the same row of the run that it is divided by.
@@ -191,10 +197,8 @@ void evaluate(VerificationResult& result) {
       if (!contains(bound.columns, table.columns[c].title)) continue;
       for (const VerificationSequence& sequence : result.sequences) {
         if (!contains(bound.runs, table.runs[sequence.run].name)) continue;
-        const VerificationRow& last = sequence.rows.back();
-        const bool has_none =
-            table.columns[c].optional && last.failure.empty() && !std::isfinite(last.value[c]);
-        if (!has_none) result.verdicts.push_back(verdict_of(result, bound, sequence, c));
+        if (!lacks(table, table.columns[c], sequence.rows.back()))
+          result.verdicts.push_back(verdict_of(result, bound, sequence, c));
       }
     }
   }

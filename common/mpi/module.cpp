@@ -9,11 +9,14 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -73,6 +76,18 @@ class MpiCommunicator final : public Communicator {
       broadcast_from(r, all, bytes[r]);
       all += bytes[r];
     }
+  }
+  void reduce(std::span<std::int64_t> sums, std::span<std::int64_t> largest) override {
+    const Timing timing(cost_);
+    std::array<MPI_Request, 2> requests{MPI_REQUEST_NULL, MPI_REQUEST_NULL};
+    const auto begin = [](std::span<std::int64_t> values, MPI_Op operation, MPI_Request& request) {
+      if (values.empty()) return;
+      MPI_Iallreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_INT64_T,
+                     operation, MPI_COMM_WORLD, &request);
+    };
+    begin(sums, MPI_SUM, requests[0]);
+    begin(largest, MPI_MAX, requests[1]);
+    MPI_Waitall(2, requests.data(), MPI_STATUSES_IGNORE);
   }
   void broadcast(std::byte* bytes, std::int64_t n) override {
     const Timing timing(cost_);
@@ -198,10 +213,22 @@ std::vector<To> as(const std::vector<From>& from) {
   return {from.begin(), from.end()};
 }
 
+/// The same in proportion, so small that METIS, which adds them up in an idx_t, has room for their
+/// sum.
+std::vector<idx_t> in_room(const std::vector<std::int64_t>& weights) {
+  constexpr std::int64_t most = std::numeric_limits<idx_t>::max() / 4;
+  const std::int64_t sum = std::accumulate(weights.begin(), weights.end(), std::int64_t{0});
+  const std::int64_t share = sum / most + 1;
+  std::vector<idx_t> small;
+  for (const std::int64_t weight : weights)
+    small.push_back(static_cast<idx_t>(std::max<std::int64_t>(1, weight / share)));
+  return small;
+}
+
 std::vector<int> metis(const ChunkGraph& graph, int n_parts) {
   idx_t n = static_cast<idx_t>(graph.n_chunks()), n_constraints = 1, parts = n_parts, cut = 0;
   std::vector<idx_t> row = as<idx_t>(graph.row), neighbour = as<idx_t>(graph.neighbour);
-  std::vector<idx_t> work = as<idx_t>(graph.work), weight = as<idx_t>(graph.weight);
+  std::vector<idx_t> work = in_room(graph.work), weight = in_room(graph.weight);
   std::vector<idx_t> owner(graph.work.size());
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
@@ -210,7 +237,11 @@ std::vector<int> metis(const ChunkGraph& graph, int n_parts) {
   const int status =
       METIS_PartGraphKway(&n, &n_constraints, row.data(), neighbour.data(), work.data(), nullptr,
                           weight.data(), &parts, nullptr, nullptr, options, &cut, owner.data());
-  if (status != METIS_OK) throw std::bad_alloc();
+  if (status == METIS_ERROR_MEMORY) throw std::bad_alloc();
+  if (status != METIS_OK) {
+    throw std::runtime_error("METIS finds no partition (status " + std::to_string(status) +
+                             "); use --partition bisection or slab");
+  }
   return as<int>(owner);
 }
 

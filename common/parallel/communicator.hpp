@@ -36,6 +36,9 @@ class Communicator {
   /// @param all    the parts of the ranks, one behind the other; mine stands there already
   /// @param bytes  [size] of each part
   virtual void all_gather(std::byte* all, std::span<const std::int64_t> bytes) = 0;
+  /// Adds up what the ranks have in each of `sums`, and takes the largest of what they have in each
+  /// of `largest`: all have the results.
+  virtual void reduce(std::span<std::int64_t> sums, std::span<std::int64_t> largest) = 0;
   /// What rank 0 has there, for all.
   virtual void broadcast(std::byte* bytes, std::int64_t n) = 0;
   /// Returns once all ranks have come here. Who waits leaves its processor to others, and may be a

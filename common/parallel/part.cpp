@@ -40,21 +40,6 @@ void Part::complete_entries(std::byte* values,
   });
 }
 
-void Part::complete(std::span<std::vector<double>* const> arrays) const {
-  if (is_whole()) return;
-  const size_t n = arrays.size(), n_chunks = owner_.size();
-  std::vector<double> together(n * n_chunks);
-  for (size_t i = 0; i < n; ++i) {
-    for (const std::int64_t chunk : own_)
-      together[static_cast<size_t>(chunk) * n + i] = (*arrays[i])[chunk];
-  }
-  complete_entries(bytes_of(together.data()), static_cast<std::int64_t>(n * sizeof(double)), all_);
-  for (size_t i = 0; i < n; ++i) {
-    for (size_t chunk = 0; chunk < n_chunks; ++chunk)
-      (*arrays[i])[chunk] = together[chunk * n + i];
-  }
-}
-
 ChunksOfList::ChunksOfList(const std::vector<std::int64_t>& chunk_of_entry)
     : entry(chunk_of_entry.size()) {
   std::iota(entry.begin(), entry.end(), std::int64_t{0});

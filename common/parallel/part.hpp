@@ -1,8 +1,7 @@
 #pragma once
 /// The part of a body that a rank works on: chunks of blocks (for_chunks.hpp), whose numbers do not
-/// depend on the ranks. Sums over a body are made chunk by chunk by the ranks that own the chunks,
-/// brought to all ranks and added in the order of the chunks: so they have the same bits for every
-/// number of ranks, and whatever is decided by them is decided alike everywhere.
+/// depend on the ranks. Sums over a body (reduction.hpp) have the same bits for every number of
+/// ranks, and whatever is decided by them is decided alike everywhere.
 /// Test: tests/common/parallel/partition_test.cpp, tests/ranks
 
 #include "common/parallel/communicator.hpp"
@@ -36,8 +35,6 @@ class Part {
     if (is_whole()) return;
     complete_entries(bytes_of(values.data()), sizeof(T), chunk_of);
   }
-  /// The same of several arrays with an entry for each chunk.
-  void complete(std::span<std::vector<double>* const> arrays) const;
   template <class T>
   void complete(std::vector<T>& values) const {
     if (is_whole()) return;
@@ -88,19 +85,5 @@ struct ChunksOfList {
   explicit ChunksOfList(const std::vector<std::int64_t>& chunk_of_entry);
   std::int64_t n_groups() const { return static_cast<std::int64_t>(chunk.size()); }
 };
-
-/// Sum over a list of nodes: add(k, sum) of the entries that are of this part, group by group.
-/// @param add  changes nothing but the sum, and what belongs to entry k
-template <class Sum, class Add>
-Sum sum_over(const Part& part, const ChunksOfList& list, const Add& add) {
-  std::vector<Sum> parts(list.chunk.size());
-  for_shares(list.n_groups(), [&](std::int64_t group) {
-    if (!part.owns(list.chunk[group])) return;
-    for (std::int64_t k = list.first[group]; k < list.first[group + 1]; ++k)
-      add(list.entry[k], parts[group]);
-  });
-  part.complete(parts, list.chunk);
-  return sum_in_order(parts);
-}
 
 }  // namespace diptych::parallel

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace diptych::run {
@@ -33,16 +34,16 @@ class ExactFields {
 
  private:
   std::vector<Mat3> deformation_gradients(double t, std::int64_t begin, std::int64_t end) const;
-  std::vector<Mat3> differences(double t, std::int64_t begin, std::int64_t end) const;
+  std::vector<Mat3> differences(double t, std::span<const Vec3> places) const;
 
   const cases::Case& setup_;
-  std::vector<Vec3> X_;  ///< empty where no differences are made
+  std::vector<Vec3> X_;  ///< empty where no gradients are wanted
   double length_;
   Stress stress_;
   size_t of_v_ = 0, of_u_ = 0, of_F_ = 0, of_P_ = 0, n_values_ = 0;  ///< places in values_
   std::optional<functions::PlacedExpressions> values_;
   std::optional<functions::PlacedValues> gradients_;   ///< of the displacement, where it has any
-  std::shared_ptr<const functions::Program> program_;  ///< of the displacement, where it has none
+  std::shared_ptr<const functions::Program> program_;  ///< of the displacement, for differences
   std::vector<int> results_;
 };
 

@@ -10,9 +10,10 @@ namespace diptych::run {
 
 /// Compares a given F with difference quotients of the displacement, column by column, between each
 /// node and its neighbours: in their mean, which is inside the body, with steps of a thousandth of
-/// their distance. One of the central, forward and backward quotients must agree to 1e-3 (of |F|,
-/// at least of 1), so that kinks may lie anywhere. Of bodies of more than 50 000 nodes it takes so
-/// many, evenly spread. Nothing is compared where F is not given: it is then the discrete gradient.
+/// their distance. One of the central, forward and backward quotients must agree to 1e-3 of the
+/// largest |F - I|, and rounding, so that kinks may lie anywhere. Of bodies of more than 50 000
+/// nodes it takes so many, evenly spread. Nothing is compared where F is not given: it is then the
+/// discrete gradient.
 /// @throws base::InputError where they are apart: place and both columns
 void check_initial_deformation(const cases::Case& setup, const scheme::PairGraph& graph);
 

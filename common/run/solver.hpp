@@ -116,7 +116,7 @@ class Solver {
   /// @throws base::InputError where it is not
   virtual void archive(algebra::Archive& archive) = 0;
   virtual int unknowns_per_node() const = 0;
-  /// Of the sweeps: "runs" or "rows" (scheme/sweep_graph.hpp); they differ in the last bits.
+  /// Of the sweeps: "runs" or "rows" (scheme/graph/sweep_graph.hpp); they differ in the last bits.
   virtual std::string arrangement() const = 0;
   virtual int evaluations_per_step() const = 0;
   virtual std::int64_t bytes() const = 0;

@@ -53,13 +53,15 @@ std::string state_hash(const scheme::Body<Dim>& body,
         for (std::int64_t a = begin * n_lanes; a < last; ++a)
           sums[chunk] += hash_of_node(body, a, number[a - begin * n_lanes], values);
       });
-  part.complete(sums);
-  const HashSum sum = parallel::sum_in_order(sums);
+  const HashSum own = parallel::sum_in_order(sums);
+  std::array<std::int64_t, 2> words{static_cast<std::int64_t>(own.high),
+                                    static_cast<std::int64_t>(own.low)};
+  if (!part.is_whole()) part.ranks().reduce(words, {});
   struct {
     double time;
     std::int64_t n_nodes;
-    HashSum sum;
-  } const all{time, body.n_owned, sum};
+    std::array<std::int64_t, 2> sum;
+  } const all{time, body.n_owned, words};
   const XXH128_hash_t hash = XXH3_128bits(&all, sizeof all);
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }

@@ -1,4 +1,4 @@
-/// A step of leapfrog in its kick-drift-kick form (schemes/leapfrog.hpp): one evaluation a step.
+/// A step of leapfrog in its kick-drift-kick form (notes 5.6): one evaluation a step.
 
 #include "common/scheme/sweeps/update.hpp"
 #include "common/time/step_begin.hpp"

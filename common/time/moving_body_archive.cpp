@@ -84,14 +84,10 @@ void archive_boundary(scheme::AppliedBoundary& boundary, Archive& archive) {
 template <int Dim>
 void archive_results(scheme::Sweeps<Dim>& sweeps, Archive& archive) {
   scheme::SweepResults results = sweeps.results();
-  const auto in_chunks = [&archive](const char* name, const char* unit, auto& values) {
-    archive.reals(name, unit, values, 1, static_cast<std::int64_t>(values.size()));
-  };
   archive.real("sweeps/stable dt", "s", results.stable_dt);
-  in_chunks("sweeps/viscous dissipation", "J", results.viscous_dissipation);
-  in_chunks("sweeps/least J", "-", results.least_J);
-  in_chunks("sweeps/numerical power", "W", results.numerical_power);
-  in_chunks("sweeps/largest rate", "1/s", results.largest_rate);
+  archive.real("sweeps/numerical power", "W", results.numerical_power);
+  archive.real("sweeps/viscous dissipation", "J", results.viscous_dissipation);
+  archive.real("sweeps/least J", "-", results.least_J);
   if (archive.is_loading()) sweeps.set_results(results);
 }
 

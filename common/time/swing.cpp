@@ -1,5 +1,6 @@
 #include "common/time/swing.hpp"
 
+#include "common/parallel/reduction.hpp"
 #include "common/scheme/body/node_chunks.hpp"
 
 #include <algorithm>
@@ -22,8 +23,8 @@ double squared_accelerations(const scheme::Body<Dim>& body,
         }
         parts[static_cast<size_t>(chunk)] = algebra::lane_sum(sum) / body.options.rho_R;
       });
-  body.part().complete(parts);
-  return std::max(0.0, parallel::sum_in_order(parts) - boundary.squared_reactions(body));
+  return std::max(0.0,
+                  parallel::sum_of_chunks(body.part(), parts) - boundary.squared_reactions(body));
 }
 
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 /// What a .msh file says, of either version, before it becomes a mesh: tags as in the file, nothing
-/// resolved. The parsers fill it (msh_format.cpp and msh_version_*.cpp), msh_assembly.cpp reads it.
+/// resolved. The parsers fill it (format.cpp and version_*.cpp), assembly.cpp reads it.
 
 #include "meshes/mesh.hpp"
 #include "meshes/msh/source.hpp"

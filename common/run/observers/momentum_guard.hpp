@@ -54,6 +54,7 @@ class MomentumGuard : public Observer {
   double held_inertia_, threshold_, least_energy_;
   double moment_of_loads_ = 0;    // N m s, integral of their work
   double largest_work_ = 0;       // J, of loads and supports so far
+  double of_loads_ = 0;           // N m s, what the drift is a share of where it is the larger
   double time_ = 0;               // s, of the last check
   std::int64_t judged_from_ = 0;  // step
 };

@@ -3,6 +3,7 @@
 #include "common/algebra/face_areas.hpp"
 #include "common/base/error.hpp"
 #include "common/parallel/agreement.hpp"
+#include "common/parallel/reduction.hpp"
 #include "common/scheme/boundary/node_vector.hpp"
 #include "common/scheme/boundary/patch_faces.hpp"
 #include "common/scheme/boundary/resolved_load.hpp"
@@ -170,9 +171,11 @@ void AppliedBoundary::place_walls(const PairGraph& graph) {
     const std::optional<RigidWall> wall = placed.condition->wall();
     if (!wall) continue;
     for (const std::int32_t node : placed.patch->nodes) {
-      const auto held = std::find_if(constrained_.begin(), constrained_.end(),
-                                     [&](const ConstrainedNode& c) { return c.node == node; });
-      const Mat3 keep = held == constrained_.end() ? Mat3(Mat3::Identity()) : held->keep;
+      const auto held = std::lower_bound(
+          constrained_.begin(), constrained_.end(), node,
+          [](const ConstrainedNode& c, std::int32_t other) { return c.node < other; });
+      const bool is_held = held != constrained_.end() && held->node == node;
+      const Mat3 keep = is_held ? held->keep : Mat3(Mat3::Identity());
       walls_.add(*wall, {node, graph.Omega[node], graph.X[node], X_[node], keep, placed.patch});
     }
   }

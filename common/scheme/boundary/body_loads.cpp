@@ -1,6 +1,7 @@
 #include "common/scheme/boundary/body_loads.hpp"
 
 #include "common/algebra/tensor.hpp"
+#include "common/parallel/reduction.hpp"
 
 namespace diptych::scheme {
 
@@ -54,8 +55,7 @@ LoadRates BodyLoads::add_to(Body<Dim>& body) const {
   parallel::for_chunks(body.part(), body.n_blocks, [&](auto begin, auto end, auto chunk) {
     parts[static_cast<size_t>(chunk)] = add_blocks(forces, body, begin, end);
   });
-  body.part().complete(parts);
-  return parallel::sum_in_order(parts);
+  return parallel::sum_of_chunks(body.part(), parts);
 }
 
 template <int Dim>
@@ -78,8 +78,7 @@ double BodyLoads::power(const Body<Dim>& body) const {
   parallel::for_chunks(body.part(), body.n_blocks, [&](auto begin, auto end, auto chunk) {
     parts[static_cast<size_t>(chunk)] = power_of_blocks(forces, body, begin, end);
   });
-  body.part().complete(parts);
-  return parallel::sum_in_order(parts);
+  return parallel::sum_of_chunks(body.part(), parts);
 }
 
 #define DIPTYCH_INSTANTIATE(Dim)                               \

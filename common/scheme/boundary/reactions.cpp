@@ -1,5 +1,6 @@
 /// What constraints and walls exert, from the force field.
 
+#include "common/parallel/reduction.hpp"
 #include "common/scheme/boundary/applied_boundary.hpp"
 #include "common/scheme/boundary/node_vector.hpp"
 

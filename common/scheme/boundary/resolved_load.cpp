@@ -246,11 +246,11 @@ class ResolvedLoad : public PlacedField<Value> {
                std::span<const double> area,
                const std::vector<double>& areas)
       : at_nodes_(std::move(at_nodes)), missed_(std::move(missed)) {
-    constexpr double rounding = 1e-6;
+    if (area.empty()) return;
+    const double rounding = 1e-6 * *std::max_element(area.begin(), area.end());
     for (size_t a = 0; a < areas.size(); ++a) {
       excess_.push_back(area[a] - areas[a]);
-      per_area_.push_back(
-          area[a] > rounding * *std::max_element(area.begin(), area.end()) ? 1 / area[a] : 0);
+      per_area_.push_back(area[a] > rounding ? 1 / area[a] : 0);
     }
   }
 

@@ -1,5 +1,6 @@
 #include "common/scheme/boundary/rigid_wall.hpp"
 
+#include "common/parallel/reduction.hpp"
 #include "common/scheme/boundary/node_vector.hpp"
 #include "common/scheme/boundary/stage_begin.hpp"
 
@@ -37,8 +38,9 @@ void WallContacts::add(const RigidWall& wall, const WallCandidate& candidate) {
   const Vec3 free = candidate.keep * wall.normal;
   const double share = free.dot(wall.normal);  // cos^2 of the angle to the free directions
   if (share < 1e-12) return;
-  for (const WallNode& w : nodes_) {
-    if (w.body.node != candidate.node) continue;
+  const auto [place, is_new] = place_of_node_.emplace(candidate.node, nodes_.size());
+  if (!is_new) {
+    const WallNode& w = nodes_[place->second];
     if (w.wall.point == wall.point && w.wall.normal == wall.normal) return;  // groups share a node
     const Vec3& X = candidate.X;
     throw base::InputError(fmt::format(
@@ -261,9 +263,9 @@ double WallContacts::squared_forces(const Body<Dim>& body) const {
   return parallel::sum_over<double>(body.part(), chunks_, [&](std::int64_t k, double& sum) {
     const WallNode& w = nodes_[k];
     if (!w.closed) return;
-    const Vec3 T = vector_at<Dim>(body.T, w.body.node);
-    const Vec3 left = T - T.dot(w.push) * w.wall.normal;
-    sum += (T.squaredNorm() - left.squaredNorm()) / (body.options.rho_R * w.body.Omega);
+    // what it takes of the square of the part of T that other conditions leave free
+    const double push = vector_at<Dim>(body.T, w.body.node).dot(w.along());
+    sum += push * push / (body.options.rho_R * w.body.Omega);
   });
 }
 

@@ -22,6 +22,7 @@
 #include "common/scheme/boundary/boundary_condition.hpp"
 #include "common/scheme/budget/audit.hpp"
 
+#include <unordered_map>
 #include <vector>
 
 namespace diptych::scheme {
@@ -96,6 +97,7 @@ class WallContacts {
     Vec3 along() const { return push.normalized(); }
   };
   std::vector<WallNode> nodes_;
+  std::unordered_map<std::int32_t, size_t> place_of_node_;  // in nodes_, while they are added
   parallel::ChunksOfList chunks_;
   StageCombination last_;  ///< that ends the step
 

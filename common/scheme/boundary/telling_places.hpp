@@ -11,8 +11,8 @@ namespace diptych::scheme {
 
 using algebra::Vec3;
 
-/// Adds those of X that lie outermost along an axis, then sixteen of which each is farthest from
-/// all before it.
+/// Adds those of X that lie outermost along an axis, then ten of which each is farthest from all
+/// before it.
 void add_telling_places(std::span<const Vec3> X, std::vector<Vec3>& places);
 
 }  // namespace diptych::scheme

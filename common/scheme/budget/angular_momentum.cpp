@@ -1,5 +1,7 @@
 #include "common/scheme/budget/angular_momentum.hpp"
 
+#include "common/parallel/reduction.hpp"
+
 #include <algorithm>
 
 namespace diptych::scheme {
@@ -49,15 +51,7 @@ Projection project_angular_momentum(Body<Dim>& body, const Vec3& wanted) {
     parts[chunk].second += m * x * x.transpose();
     parts[chunk].angular_momentum += m * x.cross(v);
   });
-  body.part().complete(parts);
-  Moments sum;
-  for (const Moments& part : parts) {
-    sum.mass += part.mass;
-    sum.first += part.first;
-    sum.momentum += part.momentum;
-    sum.second += part.second;
-    sum.angular_momentum += part.angular_momentum;
-  }
+  const auto sum = parallel::sum_of_chunks(body.part(), parts);
   const Vec3 centre = sum.first / sum.mass;
   const Mat3 second = sum.second - sum.mass * centre * centre.transpose();
   Mat3 K = second.trace() * Mat3::Identity() - second;

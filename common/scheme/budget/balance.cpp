@@ -1,5 +1,7 @@
 #include "common/scheme/budget/balance.hpp"
 
+#include "common/parallel/reduction.hpp"
+
 #include <algorithm>
 
 namespace diptych::scheme {
@@ -56,6 +58,35 @@ DIPTYCH_CLONES void add_momenta(const Body<Dim>& body,
   sum.angular_scale += algebra::lane_sum(angular_scale);
 }
 
+/// Of all ranks, from what each chunk has.
+Balance total(const parallel::Part& part, const std::vector<Balance>& of_chunks) {
+  const auto column = [&](const auto& number_of) {
+    std::vector<double> numbers;
+    for (const Balance& of_chunk : of_chunks)
+      numbers.push_back(number_of(of_chunk));
+    return numbers;
+  };
+  const auto of = [&](double Balance::*member) {
+    return column([member](const Balance& balance) { return balance.*member; });
+  };
+  Balance total;
+  parallel::Reduction reduction(part);
+  for (double Balance::*member :
+       {&Balance::kinetic, &Balance::strain, &Balance::momentum_scale, &Balance::angular_scale})
+    reduction.sum(of(member), total.*member);
+  for (Vec3 Balance::*member : {&Balance::linear_momentum, &Balance::angular_momentum}) {
+    for (int i = 0; i < 3; ++i) {
+      reduction.sum(column([&](const Balance& balance) { return (balance.*member)[i]; }),
+                    (total.*member)[i]);
+    }
+  }
+  reduction.least(of(&Balance::least_J), total.least_J);
+  reduction.largest(of(&Balance::involution_H), total.involution_H);
+  reduction.largest(of(&Balance::involution_J), total.involution_J);
+  reduction.finish();
+  return total;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -84,21 +115,7 @@ Balance balance(const MaterialModel& material, const Body<Dim>& body) {
     for (size_t c = 0; c < parts.size(); ++c)
       parts[c].strain += energy[c];
   }
-  body.part().complete(parts);
-  Balance sum;
-  sum.least_J = 1e300;
-  for (const Balance& part : parts) {
-    sum.kinetic += part.kinetic;
-    sum.strain += part.strain;
-    sum.linear_momentum += part.linear_momentum;
-    sum.angular_momentum += part.angular_momentum;
-    sum.momentum_scale += part.momentum_scale;
-    sum.angular_scale += part.angular_scale;
-    sum.least_J = std::min(sum.least_J, part.least_J);
-    sum.involution_H = std::max(sum.involution_H, part.involution_H);
-    sum.involution_J = std::max(sum.involution_J, part.involution_J);
-  }
-  return sum;
+  return total(body.part(), parts);
 }
 
 template Balance balance(const MaterialModel&, const Body<2>&);

@@ -2,6 +2,7 @@
 
 #include "common/algebra/four.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/parallel/reduction.hpp"
 #include "common/scheme/body/body.hpp"
 #include "common/scheme/body/pointwise.hpp"
 #include "common/scheme/ranks/division.hpp"
@@ -247,8 +248,7 @@ double HourglassControl<Dim>::power(const Body<Dim>& body) const {
                            }
                          }
                        });
-  body.part().complete(parts);
-  return parallel::sum_in_order(parts);
+  return parallel::sum_of_chunks(body.part(), parts);
 }
 
 template <int Dim>

@@ -8,7 +8,7 @@
 /// with P_a sum_b C_ab taken out of the sum.
 ///
 /// The formulas of a pair are in pair_forces.hpp, the two forms of the sweep in momentum_rows.hpp
-/// and momentum_runs.hpp, what is compiled in compiled_momentum.hpp.
+/// and momentum_runs.hpp, what is compiled in compiled/momentum.hpp.
 ///
 /// Also per node: numerical dissipation 1/2 sum_b (v_b - v_a).D_ab, and on demand the graph CFL
 /// rate sum_b |C_ab| c_ab / (2 Omega_a) with c_ab = max(c_p,a, c_p,b) (notes 2.1).
@@ -47,7 +47,7 @@ using MomentumFunction = void (*)(const MomentumSweep<Dim>& sweep,
                                   std::int64_t chunk);
 
 /// The menu of compiled sweeps of one dimension and impedance, by reconstruction and limiter:
-/// compiled_momentum.hpp, compiled in a file of its own for each.
+/// compiled/momentum.hpp, compiled in a file of its own for each.
 template <int Dim, Impedance impedance, bool has_H>
 MomentumFunction<Dim> momentum_sweep_of(const DissipationKind& kind);
 

@@ -16,12 +16,6 @@ void for_blocks(const Body<Dim>& body, Share share, const Work& work) {
                 [&](std::int64_t begin, std::int64_t end, std::int64_t) { work(begin, end); });
 }
 
-/// The first n of these, which have an entry for each chunk, as their ranks have them.
-template <int Dim>
-void complete(const Body<Dim>& body, std::initializer_list<std::vector<double>*> arrays, size_t n) {
-  body.part().complete(std::span(arrays.begin(), n));
-}
-
 }  // namespace
 
 template <int Dim>
@@ -35,13 +29,9 @@ Sweeps<Dim>::Sweeps(const Body<Dim>& body,
       strain_rates_(strain_rate_function<Dim>()),
       face_(face_correction_sweeps<Dim>()),
       geometric_rate_(geometric_rate),
-      undeformed_speed_(material_->undeformed_speed()),
-      viscous_dissipation_(parallel::n_chunks_of(body.n_blocks)),
-      old_power_(viscous_dissipation_.size()),
-      least_J_(viscous_dissipation_.size()),
-      numerical_power_(viscous_dissipation_.size()),
-      largest_rate_(viscous_dissipation_.size()),
-      limited_pairs_(viscous_dissipation_.size()) {
+      undeformed_speed_(material_->undeformed_speed()) {
+  const std::vector<double> none(static_cast<size_t>(parallel::n_chunks_of(body.n_blocks)));
+  of_chunks_ = {none, none, none, none, none, none};
   if (options.dissipation.reconstruction == Reconstruction::symmetric)
     moments_ = moments_function<Dim>(options.dissipation.impedance, material_->has_H());
 }
@@ -51,9 +41,9 @@ MomentumSweep<Dim> Sweeps<Dim>::momentum_sweep(Body<Dim>& body, bool with_bound)
   return {body,
           options_.dissipation_factor,
           with_bound,
-          numerical_power_.data(),
-          largest_rate_.data(),
-          limited_pairs_.data()};
+          of_chunks_.numerical_power.data(),
+          of_chunks_.largest_rate.data(),
+          of_chunks_.limited_pairs.data()};
 }
 
 template <int Dim>
@@ -63,8 +53,9 @@ void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
     const auto sweep = momentum_sweep(body, wants_bound(with_step));
     sweep_with(body, {&Body<Dim>::records, &Body<Dim>::frames},
                [&](Share share) { scheme::sum_forces(sweep, momentum_, share); });
-    complete(body, {&numerical_power_, &limited_pairs_},
-             options_.dissipation.limiter == PairLimiter::none ? 1 : 2);
+    parallel::Reduction reduction(body.part());
+    sum_of_forces(reduction);
+    reduction.finish();
   }
   made_ = Following::nothing;
   if (body.bulk) {
@@ -74,11 +65,27 @@ void Sweeps<Dim>::sum_forces(Body<Dim>& body, bool with_step) {
   if (body.hourglass) body.hourglass->add_forces(body);
   if (with_step && speeds == Speeds::bound) {
     for_chunks_of(body, Share::whole, [&](auto begin, auto end, auto chunk) {
-      largest_rate_[chunk] = geometric_rate_ * largest_speed(body, begin, end);
+      of_chunks_.largest_rate[static_cast<size_t>(chunk)] =
+          geometric_rate_ * largest_speed(body, begin, end);
     });
   }
-  if (with_step && speeds != Speeds::linearised) complete(body, {&largest_rate_}, 1);
-  if (with_step) stable_dt_ = options_.time_step.limit() / rate();
+  if (with_step) results_.stable_dt = options_.time_step.limit() / largest_rate(body);
+}
+
+/// What is added up of the forces.
+template <int Dim>
+void Sweeps<Dim>::sum_of_forces(parallel::Reduction& reduction) {
+  reduction.sum(of_chunks_.numerical_power, results_.numerical_power);
+  if (options_.dissipation.limiter != PairLimiter::none)
+    reduction.sum(of_chunks_.limited_pairs, limited_pairs_);
+}
+
+/// The same of the strain rates.
+template <int Dim>
+void Sweeps<Dim>::sum_of_strain_rates(parallel::Reduction& reduction, bool with_old_power) {
+  reduction.least(of_chunks_.least_J, results_.least_J);
+  reduction.sum(of_chunks_.viscous_dissipation, results_.viscous_dissipation);
+  if (with_old_power) reduction.sum(of_chunks_.old_power, old_power_);
 }
 
 template <int Dim>
@@ -87,13 +94,14 @@ void Sweeps<Dim>::remember_forces(Body<Dim>& body) const {
   if (body.hourglass) body.hourglass->evaluate(body);
 }
 
-/// See scheme/time_step.hpp  [1/s]
+/// See scheme/time_step.hpp; NaN where a node has none  [1/s]
 template <int Dim>
-double Sweeps<Dim>::rate() const {
+double Sweeps<Dim>::largest_rate(const Body<Dim>& body) const {
   if (options_.time_step.speeds == Speeds::linearised) return geometric_rate_ * undeformed_speed_;
   double rate = 0;
-  for (const double r : largest_rate_)
-    rate = r >= rate || std::isnan(r) ? r : rate;
+  parallel::Reduction reduction(body.part());
+  reduction.largest(of_chunks_.largest_rate, rate);
+  reduction.finish();
   return rate;
 }
 
@@ -133,18 +141,17 @@ void Sweeps<Dim>::strain_rates(Body<Dim>& body,
                                    kappa_f,
                                    stage,
                                    drift,
-                                   viscous_dissipation_.data(),
-                                   least_J_.data(),
-                                   drift != 0 ? old_power_.data() : nullptr};
+                                   of_chunks_.viscous_dissipation.data(),
+                                   of_chunks_.least_J.data(),
+                                   drift != 0 ? of_chunks_.old_power.data() : nullptr};
+  parallel::Reduction reduction(body.part());
   made_ = is_one_pass(body) ? following : Following::nothing;
   if (made_ != Following::nothing) {
     sum_stage(body, wants_bound(following == Following::forces_and_step),
               [&](auto begin, auto end, auto chunk) { strain_rates_(sweep, begin, end, chunk); });
-    complete(body,
-             {&least_J_, &viscous_dissipation_, &numerical_power_, &old_power_, &limited_pairs_},
-             options_.dissipation.limiter != PairLimiter::none ? 5
-             : drift != 0                                      ? 4
-                                                               : 3);
+    sum_of_strain_rates(reduction, drift != 0);
+    sum_of_forces(reduction);
+    reduction.finish();
     return;
   }
   if (kappa_f != 0) {
@@ -154,7 +161,8 @@ void Sweeps<Dim>::strain_rates(Body<Dim>& body,
   }
   sweep_with(body, {kappa_f != 0 ? &Body<Dim>::gradients : &Body<Dim>::v},
              [&](Share share) { evaluate_strain_rates(sweep, share); });
-  complete(body, {&least_J_, &viscous_dissipation_, &old_power_}, drift != 0 ? 3 : 2);
+  sum_of_strain_rates(reduction, drift != 0);
+  reduction.finish();
   if (kappa_f != 0) {
     sweep_with(body, {&Body<Dim>::stresses}, [&](Share share) {
       for_blocks(body, share,
@@ -175,47 +183,20 @@ void Sweeps<Dim>::strain_rates(Body<Dim>& body,
 }
 
 template <int Dim>
-double Sweeps<Dim>::numerical_power() const {
-  return parallel::sum_in_order(numerical_power_);
-}
-
-template <int Dim>
 std::int64_t Sweeps<Dim>::limited_pairs() const {
-  return std::llround(parallel::sum_in_order(limited_pairs_));
+  return std::llround(limited_pairs_);
 }
 
 template <int Dim>
 double Sweeps<Dim>::old_numerical_power(const Body<Dim>& body, double loads) const {
   const double bulk = body.bulk ? body.bulk->power(body) : 0;
   const double hourglass = body.hourglass ? old_hourglass_power_ : 0;
-  return loads + bulk + hourglass - parallel::sum_in_order(old_power_);
-}
-
-template <int Dim>
-double Sweeps<Dim>::viscous_dissipation() const {
-  return parallel::sum_in_order(viscous_dissipation_);
-}
-
-template <int Dim>
-double Sweeps<Dim>::least_J() const {
-  double least = 1e300;
-  for (const double J : least_J_)
-    least = std::isnan(J) ? J : std::isnan(least) ? least : std::min(least, J);
-  return least;
-}
-
-template <int Dim>
-SweepResults Sweeps<Dim>::results() const {
-  return {stable_dt_, viscous_dissipation_, least_J_, numerical_power_, largest_rate_};
+  return loads + bulk + hourglass - old_power_;
 }
 
 template <int Dim>
 void Sweeps<Dim>::set_results(const SweepResults& results) {
-  stable_dt_ = results.stable_dt;
-  viscous_dissipation_ = results.viscous_dissipation;
-  least_J_ = results.least_J;
-  numerical_power_ = results.numerical_power;
-  largest_rate_ = results.largest_rate;
+  results_ = results;
   made_ = Following::nothing;
 }
 

@@ -3,6 +3,7 @@
 /// the step bound, and strain rates (18b-d) with relaxation (14), stress (9) and wave speeds. Which
 /// compiled sweeps these are was chosen once; a step knows neither material nor arrangement.
 
+#include "common/parallel/reduction.hpp"
 #include "common/scheme/body/material_model.hpp"
 #include "common/scheme/body/relaxation.hpp"
 #include "common/scheme/sweeps/face_correction.hpp"
@@ -25,9 +26,11 @@ struct SweepOptions {
 
 /// What the last sweeps summed up.
 struct SweepResults {
-  double stable_dt = 0;                               ///< s
-  std::vector<double> viscous_dissipation, least_J;   ///< [chunk] J, -
-  std::vector<double> numerical_power, largest_rate;  ///< [chunk] W, 1/s
+  double stable_dt = 0;            ///< s, of the last sum_forces with_step
+  double numerical_power = 0;      ///< W, of the last sum_forces
+  double viscous_dissipation = 0;  ///< J, of the step that the last strain_rates ended, 0: of none
+  double least_J =
+      0;  ///< of the last strain_rates; NaN where a node has not J > 0 and finite dF/dt
 };
 
 /// What sums over pairs follow strain rates before anything else changes the body.
@@ -58,23 +61,21 @@ class Sweeps {
                     double drift,
                     Following following = Following::nothing);
 
-  double stable_dt() const { return stable_dt_; }  ///< s, of the last sum_forces with_step
-  double numerical_power() const;                  ///< W, of the last sum_forces
+  double stable_dt() const { return results_.stable_dt; }
+  double numerical_power() const { return results_.numerical_power; }
+  double viscous_dissipation() const { return results_.viscous_dissipation; }
+  double least_J() const { return results_.least_J; }
   std::int64_t limited_pairs() const;  ///< whose jump the limiter changed in the last sum_forces
-  /// J, of the step that the last strain_rates ended; 0 where it ended none.
-  double viscous_dissipation() const;
   /// W, of the D_ab of the sum_forces before the last strain_rates with drift, with the velocities
   /// of that drift.  @param loads  power of the loads in T with them  [W]
   double old_numerical_power(const Body<Dim>& body, double loads) const;
-  /// Of the last strain_rates; NaN where a node has not J > 0 and finite dF/dt.
-  double least_J() const;
 
   /// Of a state that has been put back or loaded with its forces: what those of volumes and edges
   /// were, of which the next step takes the power.
   void remember_forces(Body<Dim>& body) const;
 
   /// To go back to a state whose sweeps are not to be made again.
-  SweepResults results() const;
+  const SweepResults& results() const { return results_; }
   void set_results(const SweepResults& results);
 
   const MaterialModel& material() const { return *material_; }
@@ -86,7 +87,9 @@ class Sweeps {
   }
 
  private:
-  double rate() const;
+  double largest_rate(const Body<Dim>& body) const;
+  void sum_of_forces(parallel::Reduction& reduction);
+  void sum_of_strain_rates(parallel::Reduction& reduction, bool with_old_power);
   bool is_one_pass(const Body<Dim>& body) const;
   bool wants_bound(bool with_step) const {
     return with_step && options_.time_step.speeds == Speeds::exact;
@@ -102,12 +105,18 @@ class Sweeps {
   FaceCorrectionSweeps<Dim> face_;
   double geometric_rate_;
   double undeformed_speed_;
-  double stable_dt_ = 0;
+  SweepResults results_;
+  double old_power_ =
+      0;  ///< W, of the D_ab of the sum_forces before, with the velocities of a drift
+  double limited_pairs_ = 0;
   Following made_ = Following::nothing;  ///< by the last strain_rates, which sum_forces is to use
   double old_hourglass_power_ = 0;  ///< W, leapfrog: as old_power_, of what holds unseen motions
-  // results of the sweeps, one per chunk
-  std::vector<double> viscous_dissipation_, old_power_, least_J_, numerical_power_, largest_rate_,
-      limited_pairs_;
+  /// What the sweeps find, [chunk]  [J, W, -, W, 1/s, -]
+  struct OfChunks {
+    std::vector<double> viscous_dissipation, old_power, least_J, numerical_power, largest_rate,
+        limited_pairs;
+  };
+  OfChunks of_chunks_;
 };
 
 extern template class Sweeps<2>;

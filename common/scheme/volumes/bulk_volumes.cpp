@@ -2,6 +2,7 @@
 
 #include "common/algebra/gather.hpp"
 #include "common/algebra/versions.hpp"
+#include "common/parallel/reduction.hpp"
 #include "common/scheme/ranks/division.hpp"
 #include "common/scheme/volumes/cell_volumes.hpp"
 #include "common/scheme/volumes/line_volumes.hpp"
@@ -96,8 +97,7 @@ double BulkVolumes<Dim>::power(const Body<Dim>& body) const {
                              parts[c] += body.v.at(a, i) * force_[a * stride + i];
                          }
                        });
-  body.part().complete(parts);
-  return parallel::sum_in_order(parts);
+  return parallel::sum_of_chunks(body.part(), parts);
 }
 
 template <int Dim>

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace diptych::run {
@@ -116,6 +117,36 @@ TEST_P(ExactSurveys, KnowTheFieldsOfAFewNodes) {
     EXPECT_NEAR(fields.v[k][0], 0.1 * std::sin(X[k][0]), 1e-15);
     EXPECT_NEAR(fields.u[k][1], 0.1 * fields.time * std::abs(X[k][1] - 0.2), 1e-15);
   }
+}
+
+/// F of a displacement without a derivative, of a body of a size.
+std::vector<Mat3> gradients(const std::string& displacement,
+                            const std::vector<Vec3>& X,
+                            double size) {
+  const cases::Case setup = cases::case_from_text(
+      square.substr(0, square.find("[exact]")) + "[exact]\ndisplacement = " + displacement,
+      "square", {});
+  return ExactFields(setup, X, size, [](const Mat3& F) { return F; }).at(0).F;
+}
+
+TEST(ExactGradients, HaveDifferencesOfTheSizeOfTheBody) {
+  for (const double size : {1e-3, 1.0, 1e3}) {
+    const std::vector<Vec3> X{{0.3 * size, 0.2 * size, 0}, {0.9 * size, 0.5 * size, 0}};
+    const auto F = gradients(
+        fmt::format("[\"{0}*0.1*sin(2*x/{0})*abs(1)\", \"{0}*0.1*cos(3*y/{0})\"]", size), X, size);
+    for (size_t a = 0; a < X.size(); ++a) {
+      EXPECT_NEAR(F[a](0, 0), 1 + 0.2 * std::cos(2 * X[a][0] / size), 1e-11) << size;
+      EXPECT_NEAR(F[a](1, 1), 1 - 0.3 * std::sin(3 * X[a][1] / size), 1e-11) << size;
+    }
+  }
+}
+
+TEST(ExactGradients, AreDifferencesWhereTheDerivativeIsNoNumber) {
+  const auto F =
+      gradients("[\"x*sqrt(x^2 + y^2)\", \"y*sqrt(x^2 + y^2)\"]", {{0, 0, 0}, {0.3, 0.4, 0}}, 1);
+  EXPECT_NEAR((F[0] - Mat3::Identity()).norm(), 0, 0.01);
+  EXPECT_NEAR(F[1](0, 0), 1 + 0.5 + 0.3 * 0.3 / 0.5, 1e-12);
+  EXPECT_NEAR(F[1](0, 1), 0.3 * 0.4 / 0.5, 1e-12);
 }
 
 }  // namespace

@@ -48,6 +48,26 @@ TEST(MomentumGuard, StopsWhereRotationIsBrakedAndNotWhereAMomentDoesIt) {
   }
 }
 
+TEST(MomentumGuard, TellsTheFigureThatItJudges) {
+  scheme::Balance initial, now;
+  initial.kinetic = now.kinetic = 1;
+  initial.angular_momentum.z() = 10;
+  initial.angular_scale = now.angular_scale = 12;
+  now.angular_momentum.z() = -200;
+  scheme::Audit audit;
+  audit.external_work = 50;
+  MomentumGuard guard(initial, 100, 0.2, 1e-9);  // sqrt(2 100 50) = 100 N m s of the loads
+  StepReport step;
+  step.step = 50;
+  try {
+    guard.at_check({step, now, audit});
+    ADD_FAILURE() << "not stopped";
+  } catch (const base::BreakdownError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("drifted by 2.1 of the moments of the loads so far, bound 0.2"));
+  }
+}
+
 TEST(MomentumGuard, DoesNotJudgeABodyAtRest) {
   scheme::Balance rest, now;
   MomentumGuard guard(rest, 0, 0.2, 1e-9);

@@ -28,6 +28,7 @@ class OneOf : public parallel::Communicator {
                       std::span<const parallel::Parcel>) override {}
   void finish_exchange() override {}
   void all_gather(std::byte*, std::span<const std::int64_t>) override {}
+  void reduce(std::span<std::int64_t>, std::span<std::int64_t>) override {}
   void broadcast(std::byte*, std::int64_t) override {}
   void meet() override {}
   parallel::CommunicationCost cost() const override { return {}; }

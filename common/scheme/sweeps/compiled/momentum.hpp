@@ -1,6 +1,6 @@
 #pragma once
 /// The momentum sweeps that are compiled, by instruction set and kind of dissipation: for the files
-/// that compile them (sweeps/momentum_*.cpp) and for tests.
+/// that compile them (momentum_*.cpp) and for tests.
 
 #include "common/scheme/sweeps/compiled/pair_sweep.hpp"
 #include "common/scheme/sweeps/momentum_rows.hpp"
