@@ -137,13 +137,13 @@ double fall_of(const RunResult& run, double io::EnergySummary::*dissipation) {
     if (!std::isfinite(change)) return std::numeric_limits<double>::quiet_NaN();
     fall = std::max(fall, -change);
   }
-  const double scale = largest_energy(history, run.summary.carried_energy);
+  const double scale = run.summary.largest_energy;
   return scale > 0 ? fall / scale : fall;
 }
 
 void add_quantities(const RunResult& run, const NaturalScales& natural, RegressFigures& figures) {
   const io::RunSummary& s = run.summary;
-  const double energy = largest_energy(run.history, s.carried_energy);
+  const double energy = s.largest_energy;
   const auto exact = [&](const char* name, std::int64_t n) {
     figures[name] = {static_cast<double>(n), static_cast<double>(n)};
   };
@@ -318,7 +318,7 @@ void add_asked(RegressCheck check, MethodMeasurement& now) {
 /// The bound of [bounds] on level 0.
 void ask_dissipation(const cases::Case& setup, const RunResult& run, MethodMeasurement& now) {
   if (!setup.bounds.numerical_dissipation) return;
-  add_asked(checked(dissipation_check, "numerical share", numerical_share(run.summary, run.history),
+  add_asked(checked(dissipation_check, "numerical share", numerical_share(run.summary),
                     *setup.bounds.numerical_dissipation),
             now);
 }

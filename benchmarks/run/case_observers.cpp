@@ -30,7 +30,9 @@ double largest_loss(const cases::Case& setup) {
 
 run::LossBound loss_bound(const cases::Case& setup) {
   constexpr double set_off = 0.1;  // part of the run, guards.numerical_dissipation
-  return {largest_loss(setup), set_off * setup.time.end};
+  run::LossBound bound{largest_loss(setup), set_off * setup.time.end};
+  if (setup.time.max_steps > 0) bound.from_step = setup.time.max_steps / 10;
+  return bound;
 }
 
 }  // namespace
@@ -56,22 +58,26 @@ CaseObservers::CaseObservers(const cases::Case& setup,
       n_cells_(scene.mesh.mesh.n_cells()),
       cells_([this] { return look(0).now; },
              [this](std::int64_t step) { return cell_watch_ ? cell_watch_->seen(step) : nullptr; }),
-      units_(run::energy_basis(setup, scene.graph, scene.solver->undeformed_speed())
-                 .at(scene.solver->balance())),
-      history_(
-          *scene.solver, probes_, cells_, units_, run::momentum_units(setup, scene.graph, units_)),
+      units_(run::energy_units(setup, scene.graph, scene.solver->undeformed_speed())),
+      rounding_(units_.rounding(units_.frame.carried(scene.solver->balance()))),
+      history_(*scene.solver,
+               probes_,
+               cells_,
+               units_,
+               run::momentum_units(setup, scene.graph, rounding_)),
       steps_(*scene.solver, probes_),
       exact_(setup, *scene.solver, survey_of_exact, probes_),
       fields_(scene.mesh.order, run::probe_columns(setup.probes, false), history_),
       progress_(setup, options, history_),
       walls_(setup, scene.mesh.mesh, spacing),
+      sliding_(setup, scene.mesh.mesh),
       energy_guard_(
           scene.solver->balance(), setup.guards.energy_residual, loss_bound(setup), units_),
       involution_guard_(*scene.solver, setup.guards.involution),
       momentum_guard_(scene.solver->balance(),
                       run::inertia_if_held(setup, scene.graph),
                       setup.guards.angular_drift,
-                      units_.rounding) {
+                      rounding_) {
   if (options.scales) scales_.emplace(scene.graph);
   if (options.shapes)
     shapes_.emplace(scene.mesh.mesh, static_cast<size_t>(setup.output.frames) + 1);
@@ -116,6 +122,7 @@ std::vector<run::Observer*> CaseObservers::all() {
   all.push_back(&steps_);
   all.push_back(&progress_);
   all.push_back(&walls_);
+  all.push_back(&sliding_);
   // last: what they stop at has been written
   all.push_back(&energy_guard_);
   all.push_back(&involution_guard_);

@@ -6,6 +6,7 @@
 #include "benchmarks/run/run_case.hpp"
 #include "benchmarks/run/scene.hpp"
 #include "benchmarks/run/shape_recorder.hpp"
+#include "benchmarks/run/sliding_watch.hpp"
 #include "benchmarks/run/wall_watch.hpp"
 #include "common/run/observers/cell_guard.hpp"
 #include "common/run/observers/cell_watch.hpp"
@@ -47,11 +48,12 @@ class CaseObservers {
   /// In the order in which they are to be told.
   std::vector<run::Observer*> all();
   /// J, what rounding makes of the energies of the body (run::EnergyUnits).
-  double energy_rounding() const { return units_.rounding; }
+  double energy_rounding() const { return rounding_; }
   /// Of the outputs so far.
   const std::vector<io::HistoryRow>& rows() const { return history_.rows(); }
   /// What is to be told of walls that the body went through.
   std::optional<std::string> notice_of_walls() const { return walls_.notice(); }
+  std::optional<std::string> notice_of_sliding() const { return sliding_.notice(); }
   /// What is to be told of the exact solution: nothing unless the run begins with another motion.
   std::optional<std::string> notice_of_exact() const;
   /// Path and time [s] of the last frame of fields; an empty path where there is none.
@@ -69,12 +71,14 @@ class CaseObservers {
   std::int64_t n_cells_;
   run::Cells cells_;
   run::EnergyUnits units_;
+  double rounding_;  // J, of the body as it begins
   run::History history_;
   run::StepProbes steps_;
   run::ExactComparison exact_;
   run::Fields fields_;
   ProgressObserver progress_;
   WallWatch walls_;
+  SlidingWatch sliding_;
   std::optional<run::FieldScales> scales_;
   std::optional<ShapeRecorder> shapes_;
   std::optional<run::CellWatch> cell_watch_;

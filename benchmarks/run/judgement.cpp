@@ -27,20 +27,16 @@ cases::BoundCase at_most(const std::string& figure, double value) {
 
 }  // namespace
 
-double largest_energy(const std::vector<io::HistoryRow>& history, double carried) {
+double largest_energy(const std::vector<io::HistoryRow>& history) {
   double largest = 0;
   for (const io::HistoryRow& row : history)
-    largest = std::max({largest, row.energy.kinetic - carried + std::abs(row.energy.strain),
+    largest = std::max({largest, row.energy.kinetic + std::abs(row.energy.strain),
                         std::abs(row.energy.external_work)});
   return largest;
 }
 
-double numerical_share(const io::RunSummary& run, const std::vector<io::HistoryRow>& history) {
-  const double energy = largest_energy(history, run.carried_energy);
-  const double rounding = run.precision == "single" ? 1e-5 : 1e-13;
-  return energy > rounding * run.carried_energy && energy > 0
-             ? history.back().energy.numerical_dissipation / energy
-             : 0;
+double numerical_share(const io::RunSummary& run) {
+  return run.largest_energy > 0 ? run.energy.numerical_dissipation / run.largest_energy : 0;
 }
 
 std::map<std::string, double> run_figures(const io::RunSummary& run,
@@ -56,7 +52,7 @@ std::map<std::string, double> run_figures(const io::RunSummary& run,
       {"external work", run.energy.external_work},
       {"viscous dissipation", run.energy.viscous_dissipation},
       {"numerical dissipation", run.energy.numerical_dissipation},
-      {"numerical share", numerical_share(run, history)},
+      {"numerical share", numerical_share(run)},
       {"linear momentum drift", run.linear_momentum_drift},
       {"angular momentum drift", run.angular_momentum_drift},
       {"steps", static_cast<double>(run.steps)}};

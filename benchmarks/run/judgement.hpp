@@ -13,12 +13,11 @@
 namespace diptych::harness {
 
 /// Largest energy that the body has held at any output time, or that was brought in.
-/// @param carried  J, taken off: RunSummary::carried_energy
-double largest_energy(const std::vector<io::HistoryRow>& history, double carried = 0);
+double largest_energy(const std::vector<io::HistoryRow>& history);
 
-/// What D_ab has dissipated at the end as a share of it without what the centre of mass of a free
-/// body carries; 0 of a body without energy.
-double numerical_share(const io::RunSummary& run, const std::vector<io::HistoryRow>& history);
+/// What D_ab has dissipated at the end as a share of RunSummary::largest_energy; 0 of a body
+/// without energy.
+double numerical_share(const io::RunSummary& run);
 
 /// Numbers of a run that bounds may be asked of, by name: "energy residual" (its magnitude at the
 /// end), "inverted cells" (the most at any output), "least cell J", "least J", "kinetic growth"

@@ -289,12 +289,13 @@ void CaseRun::note_dissipation() {
   io::RunSummary& s = result_.summary;
   const bool is_meant = setup_.scheme.limiter != "none" || setup_.guards.numerical_dissipation != 0;
   if (is_meant || result_.history.empty()) return;
-  const double share = numerical_share(s, result_.history);
-  if (share <= worth_telling) return;
+  const double share = numerical_share(s);
+  const double caught = s.largest_energy > 0 ? s.contact_loss / s.largest_energy : 0;
+  if (share + caught <= worth_telling) return;
   s.notices.push_back(fmt::format(
-      "numerical dissipation took {:.2g} of the largest energy: the mesh hardly resolves the "
+      "numerical dissipation took {:.2g} of the largest energy{}: the mesh hardly resolves the "
       "motion; see how much a finer one changes (--level, converge)",
-      share));
+      share, caught > 0.01 ? fmt::format(", walls {:.2g} as they caught nodes", caught) : ""));
   tell(s.notices.back());
 }
 
@@ -315,7 +316,8 @@ std::optional<std::string> CaseRun::notice_of_rounding() const {
 
 void CaseRun::note_contradictions() {
   for (const auto& notice :
-       {observers_->notice_of_walls(), observers_->notice_of_exact(), notice_of_rounding()}) {
+       {observers_->notice_of_walls(), observers_->notice_of_sliding(),
+        observers_->notice_of_exact(), notice_of_rounding()}) {
     if (!notice) continue;
     result_.summary.notices.push_back(*notice);
     tell(*notice);

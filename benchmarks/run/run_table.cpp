@@ -82,6 +82,7 @@ std::string run_table(const io::RunSummary& s, const ReferenceTimes& times) {
       "  energy: kinetic {:.4g}, strain {:.4g}, work {:.4g}, viscous {:.4g}, numerical {:.4g}",
       s.energy.kinetic, s.energy.strain, s.energy.external_work, s.energy.viscous_dissipation,
       s.energy.numerical_dissipation);
+  if (s.contact_loss != 0) text += fmt::format(", caught by walls {:.4g}", s.contact_loss);
   if (s.energy.projection_work != 0)
     text += fmt::format(", projection {:.4g}", s.energy.projection_work);
   text += fmt::format(" J; residual {:.1e}\n", s.energy.relative_residual);

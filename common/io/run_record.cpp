@@ -302,7 +302,8 @@ void read_quality(const Section& file, RunSummary& summary) {
   for (const std::string& name : measures.keys())
     summary.measures[name] = measures.number(name.c_str());
   summary.energy = read_energy(file.section("energy"));
-  summary.carried_energy = file.number("carried_energy");
+  summary.largest_energy = file.number("largest_energy");
+  summary.contact_loss = file.number("contact_loss");
   const Section momentum = file.section("momentum");
   summary.linear_momentum_drift = momentum.number("linear_drift");
   summary.angular_momentum_drift = momentum.number("angular_drift");
@@ -383,7 +384,8 @@ std::string to_json(const RunSummary& summary) {
       {"errors", errors},
       {"measures", measures},
       {"energy", energy_json(summary.energy)},
-      {"carried_energy", summary.carried_energy},
+      {"largest_energy", summary.largest_energy},
+      {"contact_loss", summary.contact_loss},
       {"momentum",
        {{"linear_drift", summary.linear_momentum_drift},
         {"angular_drift", summary.angular_momentum_drift}}},

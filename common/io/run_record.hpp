@@ -115,7 +115,11 @@ struct RunSummary {
       errors;                              ///< velocity, displacement, deformation_gradient, stress
   std::map<std::string, double> measures;  ///< asked for by who started the run, at its end
   EnergySummary energy;
-  double carried_energy = 0;  ///< J, of the centre of mass of a body that began without supports
+  /// J, that the body has held at any check, or that was brought in, in the frame of its centre of
+  /// mass where nothing holds it; 0 where it is no more than rounding
+  double largest_energy = 0;
+  double contact_loss =
+      0;  ///< J, of the external work: what walls took of nodes as they caught them
   double linear_momentum_drift = 0, angular_momentum_drift = 0;  ///< largest over the output times
   double involution_H = 0, involution_J = 0;  ///< largest |H - cof F|, |J - det F| over them
   double min_jacobian = 1;                    ///< at the nodes, of all steps
@@ -135,7 +139,8 @@ struct RunSummary {
 
 /// JSON text with the key names of the contract: method, case, level, ..., steps, stages,
 /// rejected_steps, restarts, interventions{projections,resynchronisations,limited_pairs}, ...,
-/// dt{min,max}, errors{field{l1,l2,linf}}, energy{...}, carried_energy,
+/// dt{min,max}, errors{field{l1,l2,linf}}, energy{...}, largest_energy,
+/// contact_loss,
 /// momentum{linear_drift,angular_drift}, involution{H,J}, min_jacobian,
 /// cells{least_J,most_inverted,inverted_from}, state_hash, provenance{...}; where the case has
 /// values from elsewhere references{name{probe,source,times,

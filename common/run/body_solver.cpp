@@ -271,7 +271,7 @@ void BodySolver<Dim>::keep_or_take(algebra::Archive& archive) {
   std::vector<double> start = start_ ? start_->numbers() : std::vector<double>();
   archive.reals("start/budget", "J", start);
   if (!archive.is_loading()) return;
-  if (!start.empty()) start_ = BudgetOfStart(start);
+  if (!start.empty()) start_ = BudgetOfStart(bounds_of_start_.energies, start);
   begun_.reset();
   begin_ = time::StepBegin<Dim>(moving_);  // which keeps nothing of the steps until then
   if (!time::is_sound(moving_)) {

@@ -29,30 +29,29 @@ class BudgetOfStart {
                          ///< energy
     /// A body that holds no more than rounding makes at t = 0 is at rest. It is not judged: what a
     /// load brings in its first steps is less than any step errs by.
-    EnergyBasis energies;
+    EnergyUnits energies;
   };
 
   /// @param first  steps made before
   BudgetOfStart(const scheme::Balance& initial, const Bounds& bounds, std::int64_t first = 0)
-      : units_(bounds.energies.at(initial)),
+      : units_(bounds.energies),
         first_(first),
-        is_at_rest_(!(held(initial) > units_.rounding)),
+        is_at_rest_(!(held(initial) > units_.rounding(units_.frame.carried(initial)))),
         share_(is_at_rest_ ? 0 : bounds.opening / static_cast<double>(n_steps)) {}
 
-  /// All that it knows, to make another one of.
+  /// What it knows beside the units, to make another one of.
   std::vector<double> numbers() const {
-    return {units_.rounding, units_.carried, static_cast<double>(first_), is_at_rest_ ? 1.0 : 0.0,
-            share_};
+    return {static_cast<double>(first_), is_at_rest_ ? 1.0 : 0.0, share_};
   }
-  explicit BudgetOfStart(const std::vector<double>& numbers)
-      : units_{numbers.at(0), numbers.at(1)},
-        first_(static_cast<std::int64_t>(numbers.at(2))),
-        is_at_rest_(numbers.at(3) != 0),
-        share_(numbers.at(4)) {}
+  BudgetOfStart(const EnergyUnits& units, const std::vector<double>& numbers)
+      : units_(units),
+        first_(static_cast<std::int64_t>(numbers.at(0))),
+        is_at_rest_(numbers.at(1) != 0),
+        share_(numbers.at(2)) {}
 
   /// What a body has of energies but for what its frame gives it  [J]
   double held(const scheme::Balance& balance) const {
-    return balance.kinetic - units_.carried + std::abs(balance.strain);
+    return balance.kinetic - units_.frame.carried(balance) + std::abs(balance.strain);
   }
   bool is_at_rest() const { return is_at_rest_; }
 

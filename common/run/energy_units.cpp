@@ -1,7 +1,10 @@
 #include "common/run/energy_units.hpp"
 
+#include "common/run/boundary_group.hpp"
 #include "common/scheme/boundary/boundary_condition.hpp"
 #include "common/scheme/graph/centroid.hpp"
+
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -10,16 +13,46 @@
 
 namespace diptych::run {
 
+using algebra::Mat3;
+using algebra::Vec3;
+
 namespace {
 
 constexpr double n_steps = 1e4;  // each of which rounds once, this way or that
 
-/// No velocity is prescribed, and no wall stops it.
-bool has_no_support(const cases::Case& setup) {
-  return std::all_of(
-      setup.boundaries.begin(), setup.boundaries.end(), [](const cases::BoundaryCase& boundary) {
-        return scheme::boundary_menu().at(boundary.type).acts == scheme::BoundaryKind::Acts::load;
-      });
+/// Prescribes velocities that the case gives.
+bool moves(const scheme::BoundaryKind& kind) {
+  return kind.takes == scheme::BoundaryKind::Takes::vector;
+}
+
+/// Projector on the directions that neither walls nor conditions without velocities of their own
+/// hold at any node.
+Mat3 free_directions(const cases::Case& setup, const scheme::PairGraph& graph) {
+  Mat3 held = Mat3::Zero();
+  for (const cases::BoundaryCase& boundary : setup.boundaries) {
+    const scheme::BoundaryKind& kind = scheme::boundary_menu().at(boundary.type);
+    if (kind.acts == scheme::BoundaryKind::Acts::load || moves(kind)) continue;
+    scheme::BoundaryValues values;
+    values.point = boundary.point;
+    values.normal = boundary.normal;
+    const auto condition = kind.make(values);
+    if (const auto wall = condition->wall()) held += wall->normal * wall->normal.transpose();
+    for (const std::string& group : boundary.groups) {
+      for (const auto& node :
+           condition->constraints(graph, boundary_group(graph, group, boundary.where))) {
+        for (const Vec3& direction : node.directions)
+          held += direction * direction.transpose();
+      }
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat3> found(held);
+  Mat3 free = Mat3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 direction = found.eigenvectors().col(k);
+    if (found.eigenvalues()[k] <= 1e-9 * found.eigenvalues()[2])
+      free += direction * direction.transpose();
+  }
+  return free;
 }
 
 /// Components of velocities are prescribed.
@@ -37,33 +70,27 @@ double volume_of(const scheme::PairGraph& graph) {
 
 }  // namespace
 
-EnergyUnits EnergyBasis::at(const scheme::Balance& initial) const {
-  EnergyUnits units{rounding};
-  if (free_mass == 0) return units;
-  units.carried = 0.5 * initial.linear_momentum.squaredNorm() / free_mass;
-  units.rounding = std::max(rounding, std::sqrt(n_steps) * eps * units.carried);
-  return units;
-}
-
-EnergyBasis energy_basis(const cases::Case& setup, const scheme::PairGraph& graph, double speed) {
+EnergyUnits energy_units(const cases::Case& setup, const scheme::PairGraph& graph, double speed) {
   constexpr double eps = std::numeric_limits<double>::epsilon();
   // H and J are rounded in every step, apart from F: 3 to 10 eps after 500 steps, as their root
   const double of_strain = setup.scheme.unknowns == "F" ? eps : std::sqrt(n_steps) * eps;
   const double mass = setup.material.density * volume_of(graph);
-  const bool is_single = setup.scheme.precision == "single";
-  return {of_strain * mass * speed * speed, has_no_support(setup) ? mass : 0,
-          is_single ? std::numeric_limits<float>::epsilon() : eps};
+  const double of_state =
+      setup.scheme.precision == "single" ? std::numeric_limits<float>::epsilon() : eps;
+  return {of_strain * mass * speed * speed,
+          {free_directions(setup, graph), mass},
+          std::sqrt(n_steps) * of_state};
 }
 
 MomentumUnits momentum_units(const cases::Case& setup,
                              const scheme::PairGraph& graph,
-                             const EnergyUnits& energies) {
+                             double energy) {
   const scheme::Vec3 centroid = scheme::centroid_of(graph);
   double reach = 0;
   for (const scheme::Vec3& X : graph.X)
     reach = std::max(reach, (X - centroid).norm());
   const double mass = setup.material.density * volume_of(graph);
-  const double momentum = std::sqrt(2 * mass * energies.rounding);
+  const double momentum = std::sqrt(2 * mass * energy);
   return {momentum, momentum * reach};
 }
 

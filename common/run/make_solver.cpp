@@ -133,7 +133,10 @@ std::vector<const scheme::BoundaryPatch*> patches_of(const cases::BoundaryCase& 
   return patches;
 }
 
-scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::PairGraph& graph) {
+/// @param speed  of waves in the undeformed body  [m/s]
+scheme::AppliedBoundary boundary_of(const cases::Case& setup,
+                                    const scheme::PairGraph& graph,
+                                    double speed) {
   std::vector<scheme::PlacedCondition> conditions;
   const std::vector<double> instants = telling_instants(setup);
   scheme::VectorFunction velocity;  // of the motion, one for all
@@ -156,7 +159,7 @@ scheme::AppliedBoundary boundary_of(const cases::Case& setup, const scheme::Pair
     for (const scheme::BoundaryPatch* patch : patches_of(boundary, graph))
       conditions.push_back({make(values), patch});
   }
-  scheme::check_shared_nodes(graph, conditions, instants);
+  scheme::check_shared_nodes(graph, conditions, instants, speed);
   scheme::VectorFunction body_force;
   if (!setup.body_force.is_zero()) body_force = field_of(setup.body_force, instants);
   return {graph, std::move(conditions), body_force, setup.body_force.depends_on_time()};
@@ -212,17 +215,16 @@ scheme::BodyOptions body_options_of(const cases::Case& setup,
 /// The parts of a solver that its case and its nodes give.
 struct Parts {
   Parts(const cases::Case& setup, const scheme::PairGraph& graph)
-      : boundary(boundary_of(setup, graph)),
+      : material(model_menu().at(setup.material.model).model(setup.material)),
+        boundary(boundary_of(setup, graph, material->undeformed_speed())),
         integrator(time::integrator_menu().at(setup.time.integrator)) {
-    const ModelMaker maker = model_menu().at(setup.material.model);
-    material = maker.model(setup.material);
     if (!setup.motion) return;
-    known = maker.known(*material, setup, graph);
+    known = model_menu().at(setup.material.model).known(*material, setup, graph);
     boundary.follow(known);
   }
+  std::shared_ptr<const scheme::MaterialModel> material;
   scheme::AppliedBoundary boundary;
   const time::Integrator& integrator;
-  std::shared_ptr<const scheme::MaterialModel> material;
   std::shared_ptr<exact::KnownState> known;
 };
 
@@ -241,7 +243,7 @@ std::unique_ptr<BodySolver<Dim>> assembled(const cases::Case& setup,
                                parts.integrator, setup.scheme.angular_momentum_projection};
   moving.clock.least_share = setup.guards.least_step;
   const BudgetOfStart::Bounds start{setup.guards.energy_residual / 2,
-                                    energy_basis(setup, graph, parts.material->undeformed_speed())};
+                                    energy_units(setup, graph, parts.material->undeformed_speed())};
   return std::make_unique<BodySolver<Dim>>(std::move(moving), std::move(parts.known),
                                            setup.time.max_retries, start);
 }

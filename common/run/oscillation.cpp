@@ -17,20 +17,27 @@ struct Crossing {
   double time = 0;  ///< s
 };
 
-/// @param band  the signal must have been below level - band before and come above level + band
-std::vector<Crossing> upward_crossings(Samples times, Samples values, double level, double band) {
+/// The signal must have been below level - band before and come above level + band: a band of a
+/// tenth of what it swung over since the crossing before, of its whole range at first, and never of
+/// less than a hundredth of that.
+std::vector<Crossing> upward_crossings(Samples times, Samples values, double level, double range) {
   std::vector<Crossing> crossings;
   bool was_below = false;
   Crossing last;
+  double band = 0.1 * range, least = level, greatest = level;  // since the crossing before
   for (size_t i = 0; i + 1 < values.size(); ++i) {
+    least = std::min(least, values[i]);
+    greatest = std::max(greatest, values[i]);
     if (values[i] < level - band) was_below = true;
     if (values[i] < level && values[i + 1] >= level) {
       const double share = (level - values[i]) / (values[i + 1] - values[i]);
       last = {i, times[i] + share * (times[i + 1] - times[i])};
     }
     if (was_below && values[i + 1] > level + band) {
+      if (!crossings.empty()) band = std::clamp(0.1 * (greatest - least), 0.01 * range, band);
       crossings.push_back(last);
       was_below = false;
+      least = greatest = level;
     }
   }
   return crossings;
@@ -101,20 +108,34 @@ double mean_of_damped(const Periods& periods) {
   return -B * w * std::expm1(-delta * periods.n) / (square * periods.n * periods.period);
 }
 
+/// Where a damped sine comes to rest: its successive extremes are from there by a constant ratio.
+/// Of the greatest and the least value, and the next extreme like the first of them.
+std::optional<double> rest_of_extremes(Samples values) {
+  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  const bool falls_first = greatest < least;
+  const auto first = falls_first ? greatest : least, second = falls_first ? least : greatest;
+  const auto third =
+      falls_first ? std::max_element(second, values.end()) : std::min_element(second, values.end());
+  if (third == second || third + 1 == values.end()) return std::nullopt;
+  const double rest = (*first * *third - *second * *second) / (*first + *third - 2 * *second);
+  return rest > *least && rest < *greatest ? std::optional(rest) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Oscillation> oscillation_of(Samples times, Samples values) {
   if (values.size() < 3) return std::nullopt;
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-  const double band = 0.1 * (*greatest - *least);
-  double level = 0.5 * (*least + *greatest);
+  const std::optional<double> rest = rest_of_extremes(values);
+  double level = rest.value_or(0.5 * (*least + *greatest));
   std::vector<Crossing> crossings;
   Periods periods;
   for (int pass = 0; pass < 5; ++pass) {
-    auto found = upward_crossings(times, values, level, band);
+    auto found = upward_crossings(times, values, level, *greatest - *least);
     if (found.size() < 2) break;
     crossings = std::move(found);
     periods = periods_of(times, values, crossings);
+    if (!periods.decrement && rest) break;  // the mean of one period is no place of rest
     level = mean_between(times, values, crossings.front(), crossings.back(), level) -
             mean_of_damped(periods);
   }

@@ -47,6 +47,7 @@ void archive_audit(scheme::Audit& audit, Archive& archive) {
   archive.real("audit/external work", "J", audit.external_work);
   archive.real("audit/numerical dissipation", "J", audit.numerical_dissipation);
   archive.real("audit/viscous dissipation", "J", audit.viscous_dissipation);
+  archive.real("audit/contact loss", "J", audit.contact_loss);
   archive.real("audit/projection work", "J", audit.projection_work);
   archive.vector("audit/linear impulse", "N s", audit.impulse.linear);
   archive.vector("audit/angular impulse", "N m s", audit.impulse.angular);

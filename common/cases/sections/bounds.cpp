@@ -7,7 +7,7 @@ SectionEntry bounds_section() {
       "numerical_dissipation", &BoundsCase::numerical_dissipation,
       {"-", Range{0, 1, false, true},
        "The most that D_ab may have dissipated at the end, as a share of the largest "
-       "energy (kinetic and strain, or external work) of any output time.",
+       "energy so far (as guards.energy_residual).",
        "0.01"});
   return plain_section({"bounds", false,
                         "What the regression asks of both methods at the size of the baseline. "

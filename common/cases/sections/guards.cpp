@@ -10,9 +10,9 @@ SectionEntry guards_section() {
               {"-", above(0),
                "The run is stopped (code 3) where the energy that the budget does not account for, "
                "or that numerical dissipation has given to the body, is more than this share of "
-               "the largest energy so far (of a body without supports without what its centre of "
-               "mass "
-               "begins with), at an output instant or "
+               "the largest energy so far (in the frame of the centre of mass along directions in "
+               "which nothing that stands still holds the body, so that flight, fall and supports "
+               "that move do not count), at an output instant or "
                "50 steps after the last judgement. For what the budget "
                "does not account for the bound is 8/n^2 or 0.5/n, where these are larger, in step "
                "n < 50 "
@@ -22,9 +22,11 @@ SectionEntry guards_section() {
                "0.02"})
           .key("numerical_dissipation", &GuardsCase::numerical_dissipation,
                optional({"-", Range{0, 1, false, true},
-                         "The run is stopped (code 3) where numerical dissipation has taken more "
+                         "The run is stopped (code 3) where numerical dissipation, and rigid walls "
+                         "as they catch nodes, have taken more "
                          "than this share of the same energy, at the same steps but for "
-                         "the first 20 after a state of rest and the first tenth of time.end, in "
+                         "the first 20 after a state of rest and the first tenth of time.end (or "
+                         "of time.max_steps), in "
                          "which loads may still bring what matters: what is left is no solution of "
                          "the equations. 1: no bound.",
                          "0.05",

@@ -26,12 +26,20 @@ void EnergyGuard::refuse_gain(const Check& check, double gained) const {
       gained / energy_.scale(), threshold_, instant_of(check.step)));
 }
 
-void EnergyGuard::refuse_loss(const Check& check, double lost) const {
+void EnergyGuard::refuse_loss(const Check& check) const {
+  const double numerical = check.audit.numerical_dissipation, caught = check.audit.contact_loss;
+  const double scale = scale_of_loss();
+  const std::string who = caught <= 0.1 * numerical
+                              ? "numerical dissipation has taken"
+                              : fmt::format(
+                                    "numerical dissipation ({:.3g}) and walls at the catch of "
+                                    "nodes ({:.3g}) have taken",
+                                    numerical / scale, caught / scale);
   throw base::BreakdownError(fmt::format(
-      "numerical dissipation has taken {:.3g} of the largest energy so far, bound {:g}, {}\n"
+      "{} {:.3g} of the largest energy so far, bound {:g}, {}\n"
       "  the mesh does not resolve the motion: use a finer one (--level); a limiter "
       "(scheme.limiter) says that shocks dissipate; guards.numerical_dissipation sets the bound",
-      lost / energy_.scale(), loss_.largest, instant_of(check.step)));
+      who, (numerical + caught) / scale, loss_.largest, instant_of(check.step)));
 }
 
 void EnergyGuard::refuse_residual(const Check& check, double residual, double bound) const {
@@ -67,31 +75,48 @@ double EnergyGuard::bound_at(std::int64_t step) const {
   return bound;
 }
 
+/// Where strain energy is what rounding leaves of it, what motion has of energy still has its
+/// digits.
+double EnergyGuard::scale_of_loss() const {
+  return energy_.scale() > energy_.rounding() ? energy_.scale() : energy_.motion();
+}
+
+void EnergyGuard::judge_loss(const Check& check) {
+  const double scale = scale_of_loss();
+  is_still_ = scale <= noise * energy_.rounding();
+  if (is_still_) still_until_ = check.step.step;
+  const bool sets_off = check.step.time < loss_.from && check.step.step < loss_.from_step;
+  if (sets_off || check.step.step - still_until_ < steps_of_any_loss) return;
+  const double lost = check.audit.numerical_dissipation + check.audit.contact_loss;
+  if (lost > loss_.largest * scale) refuse_loss(check);
+}
+
 void EnergyGuard::after_step(const StepReport& step) {
   constexpr double rounding = 1e-12;
-  is_at_rest_ = is_at_rest_ && std::abs(step.least_J - 1) <= rounding;
+  const bool has_moved = !(std::abs(step.least_J - 1) <= rounding);
+  is_at_rest_ = is_at_rest_ && !has_moved;
+  is_still_ = is_still_ && !has_moved;
   if (is_at_rest_) at_rest_until_ = step.step;
+  if (is_still_) still_until_ = step.step;
 }
 
 void EnergyGuard::at_check(const Check& check) {
   const io::EnergySummary energy = energy_.at(check.balance, check.audit);
   const double residual = energy.relative_residual;
-  const double held = std::max(energy.kinetic - units_.carried + std::abs(energy.strain),
-                               std::abs(energy.external_work));
-  const double lost = energy.numerical_dissipation, scale = energy_.scale();
-  if (-lost > threshold_ * scale + units_.rounding) refuse_gain(check, -lost);
+  const double held = std::max(energy_.held(), energy_.work()), rounding = energy_.rounding();
+  const double dissipated = energy.numerical_dissipation, scale = energy_.scale();
+  if (-dissipated > threshold_ * scale + rounding) refuse_gain(check, -dissipated);
   if (!std::isfinite(residual)) refuse_residual(check, residual, threshold_);
-  is_at_rest_ = held <= units_.rounding;
+  is_at_rest_ = held <= rounding;
   if (is_at_rest_) at_rest_until_ = check.step.step;
   note_growth(scale, check.step.step);
   const double bound = bound_at(check.step.step);
   // first what an unstable step does, which dissipates, too
   const double swing =
       residual > 0 ? std::min(check.balance.swing, most_of_swing * threshold_ * scale) : 0;
-  if (std::abs(residual) * scale - swing > bound * scale + units_.rounding)
+  if (std::abs(residual) * scale - swing > bound * scale + rounding)
     refuse_residual(check, residual - swing / scale, bound);
-  if (check.step.step - at_rest_until_ < steps_of_any_loss || check.step.time < loss_.from) return;
-  if (lost > loss_.largest * scale + units_.rounding) refuse_loss(check, lost);
+  judge_loss(check);
 }
 
 }  // namespace diptych::run

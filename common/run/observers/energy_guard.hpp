@@ -1,23 +1,26 @@
 #pragma once
 /// Stops a run whose energy budget does not close, or whose numerical dissipation gives energy in
 /// place of taking it: an unstable run makes energy of nothing long before a J or a value shows it.
-/// Stops one, too, whose numerical dissipation has taken most of the energy: what is left is no
-/// solution.
-/// Test: tests/common/run/guards_test.cpp
+/// Stops one, too, whose numerical dissipation and walls have taken most of the energy: what is
+/// left is no solution. Test: tests/common/run/guards_test.cpp
 
 #include "common/run/energy_record.hpp"
 #include "common/run/observers/observer.hpp"
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 namespace diptych::run {
 
-/// Of what numerical dissipation takes. What a body holds at first may be a trace of motion, which
-/// no mesh resolves, beside what its loads bring later: it is not judged before `from`.
+/// Of what numerical dissipation takes, and walls from nodes that they catch. What a body holds at
+/// first may be a trace of motion, which no mesh resolves, beside what its loads bring later: it is
+/// not judged before `from`.
 struct LossBound {
   double largest = 0;  ///< share of the largest energy so far; infinite: any
   double from = 0;     ///< s
+  /// From here on whatever the time is, since a limit of steps may end the run.
+  std::int64_t from_step = std::numeric_limits<std::int64_t>::max();
 };
 
 class EnergyGuard : public Observer {
@@ -32,11 +35,11 @@ class EnergyGuard : public Observer {
               double threshold,
               const LossBound& loss,
               const EnergyUnits& units)
-      : energy_(initial, {0, units.carried}), threshold_(threshold), loss_(loss), units_(units) {}
+      : energy_(initial, units), threshold_(threshold), loss_(loss) {}
 
-  /// A residual that is not finite is refused at once. Others, and what numerical dissipation took,
-  /// are not judged while the body is at rest; in the first steps after it the former has a bound
-  /// of its own, the latter none: see steps_of_start.
+  /// A residual that is not finite is refused at once. Others are not judged while the body is at
+  /// rest, and have a bound of their own in the first steps after it: see steps_of_start. Losses
+  /// are not judged while it stands still: see steps_of_any_loss.
   /// @throws base::BreakdownError
   void at_check(const Check& check) override;
   /// A body at rest stays so for as long as no J of a node moves: between two checks a load may set
@@ -49,9 +52,9 @@ class EnergyGuard : public Observer {
   void archive(algebra::Archive& archive) override {
     energy_.archive("energy guard", archive);
     archive.integer("energy guard/at rest until step", at_rest_until_);
-    std::int64_t at_rest = is_at_rest_ ? 1 : 0;
-    archive.integer("energy guard/at rest", at_rest);
-    is_at_rest_ = at_rest != 0;
+    archive.integer("energy guard/still until step", still_until_);
+    archive.integer("energy guard/at rest", is_at_rest_);
+    archive.integer("energy guard/still", is_still_);
     archive.real("energy guard/doubled energy", "J", doubled_);
     archive.integers("energy guard/doubled at step", doubled_at_);
   }
@@ -75,8 +78,10 @@ class EnergyGuard : public Observer {
   /// threshold: it comes back. A load that grows on a body that holds little brings less than that
   /// for many steps.
   static constexpr double most_of_swing = 10;
-  /// Steps from rest in which what numerical dissipation takes is not judged.
+  /// Steps from a standstill in which losses are not judged, and what a body stands still with, as
+  /// a share of what rounding makes of strain energies: strains of 1e-12.
   static constexpr std::int64_t steps_of_any_loss = 20;
+  static constexpr double noise = 1e-10;
 
  private:
   /// Notes where the largest energy so far has doubled.
@@ -85,15 +90,18 @@ class EnergyGuard : public Observer {
   double bound_at(std::int64_t step) const;
   /// @throws base::BreakdownError
   void refuse_gain(const Check& check, double gained) const;
-  void refuse_loss(const Check& check, double lost) const;
+  void refuse_loss(const Check& check) const;
+  double scale_of_loss() const;
+  void judge_loss(const Check& check);
   void refuse_residual(const Check& check, double residual, double bound) const;
 
   EnergyRecord energy_;
   double threshold_;
   LossBound loss_;
-  EnergyUnits units_;
   std::int64_t at_rest_until_ = -steps_of_start;  // step
   bool is_at_rest_ = false;                       // since the last check
+  std::int64_t still_until_ = -steps_of_start;    // step
+  bool is_still_ = false;                         // since the last check
   double doubled_ = 0;                            // J, the energy when it had last doubled
   std::vector<std::int64_t> doubled_at_;          // steps of the last n_doublings doublings
 };

@@ -91,7 +91,8 @@ double History::energy_residual() const {
 /// Largest change of momentum beyond the impulse of loads and constraints, relative to sum |p|.
 void History::fill(io::RunSummary& summary) const {
   summary.energy = rows_.back().energy;
-  summary.carried_energy = energy_.units().carried;
+  summary.largest_energy = energy_.scale() > energy_.rounding() ? energy_.scale() : 0;
+  summary.contact_loss = solver_.audit().contact_loss;
   summary.linear_momentum_drift = linear_drift_;
   summary.angular_momentum_drift = angular_drift_;
   for (const io::HistoryRow& row : rows_) {

@@ -31,7 +31,10 @@ class History : public Observer {
   void write_to(const std::string& path, const std::vector<std::string>& columns);
 
   void at_output(const Output& output) override;
-  void at_check(const Check& check) override { momenta_.note_scales(check.balance); }
+  void at_check(const Check& check) override {
+    momenta_.note_scales(check.balance);
+    energy_.at(check.balance, check.audit);
+  }
   void at_breakdown(const Output& output) override { at_output(output); }
   /// The file is on the disk.
   void end(Ending ending) override;

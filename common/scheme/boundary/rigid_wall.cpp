@@ -30,7 +30,8 @@ std::unique_ptr<BoundaryCondition> make_rigid_wall(const BoundaryValues& values)
 BoundaryKind rigid_wall_condition() {
   return {make_rigid_wall, BoundaryKind::Takes::plane, BoundaryKind::Acts::touch,
           "frictionless contact with a fixed rigid plane in space, which the group may touch and "
-          "leave; what a node loses as the wall catches it is negative external work, of the first "
+          "leave (a node has one wall at most); what a node loses as the wall catches it is "
+          "negative external work, of the first "
           "order in the spacing"};
 }
 

@@ -63,8 +63,8 @@ std::string place_text(const Vec3& X) {
 
 void check_shared_nodes(const PairGraph& graph,
                         std::span<const PlacedCondition> conditions,
-                        std::span<const double> instants) {
-  constexpr double rounding = 1e-9;  // of the largest velocity that is prescribed
+                        std::span<const double> instants,
+                        double speed) {
   // what part of a velocity may be along a normal: those of facets differ from those of a surface
   constexpr double along_normal = 0.1;
   OfNodes prescribed;
@@ -78,10 +78,11 @@ void check_shared_nodes(const PairGraph& graph,
       if (!is_new) again.emplace_back(node, of_node);
     }
   }
+  const double rounding = std::max(1e-9 * largest, 1e-12 * speed);  // 5*sin(pi*x) at x = 1
   for (const auto& [node, second] : again) {
     const Prescribed& first = prescribed.at(node);
     for (size_t i = 0; i < instants.size(); ++i) {
-      if (!((first.values[i] - second.values[i]).norm() > rounding * largest)) continue;
+      if (!((first.values[i] - second.values[i]).norm() > rounding)) continue;
       throw base::InputError(fmt::format(
           "two boundary conditions prescribe different velocities at the node at {}: those of "
           "groups '{}' and '{}' at t = {:g} s; let only one of them hold the nodes that they share",
@@ -97,14 +98,14 @@ void check_shared_nodes(const PairGraph& graph,
       for (size_t i = 0; i < instants.size(); ++i) {
         const Vec3& v = found->second.values[i];
         for (const Vec3& direction : c.directions) {
-          const double speed = std::abs(v.dot(direction.normalized()));
+          const double along = std::abs(v.dot(direction.normalized()));
           const double least = holds_all ? 0 : along_normal * v.norm();
-          if (!(speed > std::max(rounding * largest, least))) continue;
+          if (!(along > std::max(rounding, least))) continue;
           throw base::InputError(fmt::format(
               "groups '{}' and '{}' share the node at {}: the first holds it in a direction in "
               "which the second moves it with {:.6g} m/s at t = {:g} s; give the second a velocity "
               "that is zero in that direction there",
-              placed.patch->name, found->second.patch->name, place_text(graph.X[c.node]), speed,
+              placed.patch->name, found->second.patch->name, place_text(graph.X[c.node]), along,
               instants[i]));
         }
       }

@@ -16,11 +16,13 @@ struct PlacedCondition {
 };
 
 /// @param instants  at which prescribed velocities are looked at  [s]
+/// @param speed     of waves, of which rounding is a share  [m/s]
 /// @throws base::InputError where two of them differ at a node, or where one condition gives a node
 ///         a velocity along a direction in which another one holds it; beside what holds a normal
 ///         or a tangent alone, a tenth of it, as normals of facets are those of a surface
 void check_shared_nodes(const PairGraph& graph,
                         std::span<const PlacedCondition> conditions,
-                        std::span<const double> instants);
+                        std::span<const double> instants,
+                        double speed);
 
 }  // namespace diptych::scheme

@@ -88,7 +88,10 @@ BoundaryKind velocity_condition() {
   return {make_velocity, vector, hold};
 }
 BoundaryKind symmetry_condition() {
-  return {make_symmetry, nothing, constrain, "normal velocity zero, tangentially free"};
+  return {
+      make_symmetry, nothing, constrain,
+      "normal velocity zero, tangentially free; the normal is that of the undeformed side: along "
+      "curved ones for slides small beside the radius"};
 }
 BoundaryKind skew_symmetry_condition() {
   return {make_skew_symmetry, nothing, constrain, "tangential velocity zero, normally free"};

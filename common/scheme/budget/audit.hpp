@@ -51,8 +51,9 @@ struct Audit {
   double external_work = 0;          ///< J
   double numerical_dissipation = 0;  ///< J
   double viscous_dissipation = 0;    ///< J
-  double projection_work = 0;        ///< J, kinetic energy that the projection of notes 3.7 gave
-  Impulse impulse;                   ///< of loads and constraints
+  double contact_loss = 0;  ///< J, of external_work: what walls took of nodes as they caught them
+  double projection_work = 0;  ///< J, kinetic energy that the projection of notes 3.7 gave
+  Impulse impulse;             ///< of loads and constraints
 
   /// What the energy of the body has grown by, were the budget exact  [J]
   double gain() const {

@@ -60,6 +60,23 @@ TEST(EnergyGuard, DoesNotJudgeLossesBeforeLoadsHaveActed) {
   EXPECT_THROW(judge(150, 2.0), base::BreakdownError);
 }
 
+// At strains of 1e-7 strain energy is rounding, while velocities have all their digits.
+TEST(EnergyGuard, JudgesLossesOfAMotionTooSmallForItsStrainEnergy) {
+  scheme::Balance initial, now;
+  StepReport step;
+  step.step = 100;
+  const auto judge = [&](double size, double lost) {
+    initial.kinetic = size;
+    now.kinetic = size * (1 - lost);
+    scheme::Audit audit;
+    audit.numerical_dissipation = size * lost;
+    EnergyGuard(initial, 0.01, {0.5}, {1e-9}).at_check({step, now, audit});
+  };
+  EXPECT_NO_THROW(judge(1e-12, 0.49));
+  EXPECT_THROW(judge(1e-12, 0.51), base::BreakdownError);
+  EXPECT_NO_THROW(judge(1e-20, 0.9)) << "what rounding makes of velocities";
+}
+
 TEST(EnergyGuard, DoesNotJudgeLossesInTheFirstStepsOfABodyAtRest) {
   const scheme::Balance rest;
   EnergyGuard guard(rest, 0.01, {0.5}, {1e-9});

@@ -38,7 +38,7 @@ TEST(Oscillation, OfAShiftedCosineIsFoundToTheErrorOfTheSampling) {
 }
 
 TEST(Oscillation, OfADampedSineHasItsDecrementAndItsRest) {
-  for (const double delta : {-0.2, 0.2, 0.5}) {
+  for (const double delta : {-0.2, 0.2, 0.5, 0.65, 0.82}) {
     const auto found = Signal(4, 4000, [&](double t) {
                          return 3 + std::exp(-delta * t / period) * std::sin(omega * t + 1);
                        }).oscillation();
@@ -46,6 +46,18 @@ TEST(Oscillation, OfADampedSineHasItsDecrementAndItsRest) {
     EXPECT_NEAR(*found->decrement, delta, 1e-3);
     EXPECT_NEAR(found->period, period, 1e-4 * period) << delta << ": 7e-3 about the mean";
     EXPECT_NEAR(found->mean, 3, 1e-3);
+  }
+}
+
+TEST(Oscillation, OfOneDampedPeriodComesToRestWhereItsExtremesSay) {
+  for (const double delta : {0.1, 0.5, 0.82}) {
+    const auto found = Signal(2.3 * period, 2000, [&](double t) {
+                         return 3 + std::exp(-delta * t / period) * std::sin(omega * t);
+                       }).oscillation();
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->n_periods, 1);
+    EXPECT_NEAR(found->period, period, 1e-4 * period) << "3 % about the mean of the period";
+    EXPECT_NEAR(found->mean, 3, 1e-4);
   }
 }
 
