@@ -106,15 +106,15 @@ double largest_pressure(const std::vector<Expression>& load, const Corners& corn
   return largest_of(load, corners, end, [](const Vec3& t, const Vec3& N) { return -N.dot(t); });
 }
 
-/// Of body forces, over the body as far as it reaches  [Pa]
-double weight_of(const cases::Case& setup, const meshes::Mesh& mesh) {
+/// Of body forces, over the body as far as these places of it reach  [Pa]
+double weight_of(const cases::Case& setup, const std::vector<Vec3>& places) {
   if (setup.body_force.is_zero()) return 0;
-  Vec3 least = mesh.nodes.front(), most = least;
-  for (const Vec3& X : mesh.nodes) {
+  Vec3 least = places.front(), most = least;
+  for (const Vec3& X : places) {
     least = least.cwiseMin(X);
     most = most.cwiseMax(X);
   }
-  const Corners everywhere{mesh.nodes, std::vector<Vec3>(mesh.nodes.size(), Vec3::Zero())};
+  const Corners everywhere{places, std::vector<Vec3>(places.size(), Vec3::Zero())};
   const auto& force = setup.body_force.component;
   return (most - least).norm() * largest_of({force.begin(), force.end()}, everywhere,
                                             setup.time.end,
@@ -134,7 +134,8 @@ const meshes::BoundaryGroup* group_of(const meshes::Mesh& mesh, const std::strin
   return nullptr;
 }
 
-bool is_held_on_all_sides(const cases::Case& setup, const meshes::Mesh& mesh) {
+/// Of each face of the boundary, whether no support holds its normal.
+std::vector<char> free_faces(const cases::Case& setup, const meshes::Mesh& mesh) {
   std::vector<char> is_free(mesh.boundary_faces.size(), 1);
   for (const cases::BoundaryCase& boundary : setup.boundaries) {
     if (!holds_the_normal(boundary)) continue;
@@ -145,7 +146,76 @@ bool is_held_on_all_sides(const cases::Case& setup, const meshes::Mesh& mesh) {
         is_free[f] = 0;
     }
   }
+  return is_free;
+}
+
+bool is_held_on_all_sides(const cases::Case& setup, const meshes::Mesh& mesh) {
+  const std::vector<char> is_free = free_faces(setup, mesh);
   return std::find(is_free.begin(), is_free.end(), 1) == is_free.end();
+}
+
+/// A body that lies in its supports as a liquid in a vessel, so that its weight is a pressure.
+class Vessel {
+ public:
+  Vessel(const cases::Case& setup, const meshes::Mesh& mesh) : mesh_(mesh) {
+    const std::vector<char> is_free = free_faces(setup, mesh);
+    for (size_t f = 0; f < is_free.size(); ++f) {
+      Vec3 area = Vec3::Zero();
+      const meshes::BoundaryFace& face = mesh.boundary_faces[f];
+      const auto shares = meshes::face_area_shares(face, mesh.nodes, meshes::Quadrature::vertex);
+      for (int k = 0; k < face.n_nodes; ++k)
+        area += shares[k];
+      (is_free[f] != 0 ? free_ : held_).push_back(area.normalized());
+    }
+  }
+
+  /// Whether nothing is free but what faces against a force.
+  bool holds(const Vec3& direction) const {
+    constexpr double against = -0.5;  // cosine: 60 degrees
+    return !held_.empty() && std::all_of(free_.begin(), free_.end(),
+                                         [&](const Vec3& N) { return N.dot(direction) < against; });
+  }
+
+  /// Pressure at the lower end of a force that is so large in the mean: of what is held on all
+  /// sides, half of it hangs on the upper one.  [Pa]
+  double pressure(const Vec3& force) const {
+    const Vec3 direction = force.normalized();
+    double least = mesh_.nodes.front().dot(direction), most = least;
+    for (const Vec3& X : mesh_.nodes) {
+      least = std::min(least, X.dot(direction));
+      most = std::max(most, X.dot(direction));
+    }
+    return (free_.empty() ? 0.5 : 1) * force.norm() * (most - least);
+  }
+
+ private:
+  const meshes::Mesh& mesh_;
+  std::vector<Vec3> free_, held_;  ///< unit normals
+};
+
+/// The largest pressure that body forces make of a body in a vessel, at the instants of a run, by
+/// their mean over the nodes.  [Pa]
+double pressure_of_weight(const cases::Case& setup, const meshes::Mesh& mesh) {
+  if (setup.body_force.is_zero()) return 0;
+  const Vessel vessel(setup, mesh);
+  const auto& force = setup.body_force.component;
+  const functions::PlacedExpressions placed({force.begin(), force.end()}, mesh.nodes);
+  double largest = 0;
+  for (int i = 0; i <= n_intervals; ++i) {
+    std::vector<double> values;
+    try {
+      values = placed.at(setup.time.end * i / n_intervals);
+    } catch (const base::Error&) {
+      continue;
+    }
+    Vec3 mean = Vec3::Zero();
+    for (size_t k = 0; k + 2 < values.size(); k += 3)
+      mean += Vec3(values[k], values[k + 1], values[k + 2]);
+    mean *= 3 / static_cast<double>(values.size());
+    if (mean.norm() > 0 && vessel.holds(mean.normalized()))
+      largest = std::max(largest, vessel.pressure(mean));
+  }
+  return largest;
 }
 
 double bulk_of(const cases::MaterialCase& material) {
@@ -252,6 +322,12 @@ std::string strong_pressure_because(const cases::Case& setup,
     if (const std::string because = volume_because(setup, mesh); !because.empty()) return because;
   }
   const double most = borne_on(mesh);
+  const double weight = pressure_of_weight(setup, mesh) / setup.material.shear_modulus;
+  if (weight > most) {
+    return fmt::format(
+        "cells carry the pressure of the body's own weight, which comes to {:.3g} shear moduli",
+        weight);
+  }
   for (const cases::BoundaryCase& boundary : setup.boundaries) {
     const std::vector<Expression> load = load_of(boundary);
     if (load.empty()) continue;
@@ -275,7 +351,7 @@ bool can_press(const cases::Case& setup, const meshes::Mesh& mesh) {
     return true;
   for (const Vec3& v : functions::vectors_at(setup.initial.velocity, mesh.nodes, 0))
     if (setup.material.density * v.squaredNorm() > little) return true;
-  if (weight_of(setup, mesh) > little) return true;
+  if (weight_of(setup, mesh.nodes) > little) return true;
   for (const cases::BoundaryCase& boundary : setup.boundaries) {
     const std::vector<Expression> load = load_of(boundary);
     if (load.empty() && (!boundary.value.is_zero() || boundary.manufactured)) return true;
@@ -310,6 +386,9 @@ bool may_press_strongly(const cases::Case& setup) {
   const auto moves = [](const cases::BoundaryCase& boundary) {
     return boundary.type == "velocity" && !boundary.value.is_zero();
   };
+  if (setup.mesh.file.empty() && n_held + 1 >= n_sides &&
+      weight_of(setup, {setup.mesh.lower, setup.mesh.upper}) > borne * setup.material.shear_modulus)
+    return true;
   return n_held >= n_sides &&
          (is_nearly_incompressible(setup.material) ||
           std::any_of(setup.boundaries.begin(), setup.boundaries.end(), moves));

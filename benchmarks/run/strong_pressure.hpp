@@ -17,11 +17,13 @@ bool is_nearly_incompressible(const cases::MaterialCase& material);
 /// dead traction presses with more than 1.5 shear moduli (on moved nodes over the cells'
 /// length by width) at a node and one of 65 instants, or a
 /// nearly incompressible body is held on all sides, or another that is has no more room than leads
-/// to such a pressure, and the mesh has what bears it (finite volumes
-/// have no cells on faces that are no parallelograms). What walls,
-/// impacts, supports of a part of the boundary, manufactured velocities, body forces and
-/// manufactured tractions press is not seen, and loads on one group are not added. Empty where
-/// nothing presses so, or where the case says what carries the pressure (scheme.volumes).
+/// to such a pressure, or body forces (their mean over the nodes) make as much over the length of a
+/// body of which supports hold all sides but those that face against them, and the mesh has what
+/// bears it (finite volumes have no cells on faces that are no parallelograms). What walls,
+/// impacts, supports of a part of the boundary, manufactured velocities, body forces of bodies that
+/// may give way to a side and manufactured tractions press is not seen, and loads on one group are
+/// not added. Empty where nothing presses so, or where the case says what carries the pressure
+/// (scheme.volumes).
 std::string strong_pressure_because(const cases::Case& setup,
                                     const std::string& method,
                                     const meshes::Mesh& mesh);

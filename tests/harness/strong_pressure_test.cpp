@@ -139,6 +139,51 @@ value = ["-0.9", "0", "0"]
               IsEmpty());  // it gives way to the sides
 }
 
+// In a mould with an open top a column of 10 shear moduli turned inside out on tetrahedra, moved
+// hexahedra and with SPH.
+TEST(StrongPressure, IsThatOfTheOwnWeightInAMould) {
+  const auto under = [](const char* sides, const char* force,
+                        const std::vector<std::string>& overrides = {}) {
+    return because(overrides, fmt::format("[[boundary]]\ngroup = [{}]\ntype = \"symmetry\"\n"
+                                          "[load]\nbody_force = [{}]\n",
+                                          sides, force));
+  };
+  const char* walls = R"("x_min", "x_max", "y_min", "y_max", "z_min")";
+  EXPECT_THAT(under(walls, "0, 0, \"-10*min(1, 2*t)\""), HasSubstr("weight, which comes to 10 "));
+  EXPECT_THAT(under(walls, "0, 0, -1.4"), IsEmpty());
+  EXPECT_THAT(under(walls, "0, 0, -1.6"), HasSubstr("comes to 1.6 shear moduli"));
+  EXPECT_THAT(under(walls, "0, 0, -1.6", {"mesh.upper=[1, 1, 0.9]"}), IsEmpty());
+  EXPECT_THAT(under(walls, "0, 0, -0.5", {"mesh.upper=[1, 1, 4]", "mesh.cells=[4, 4, 16]"}),
+              HasSubstr("comes to 2 shear"))
+      << "as long as the body is";
+  EXPECT_THAT(under(walls, R"(0, 0, "-4*z")"), HasSubstr("comes to 2 shear")) << "the mean";
+  EXPECT_THAT(under(walls, "\"10*sin(2*pi*x)\", 0, 0"), IsEmpty()) << "no resultant";
+  EXPECT_THAT(under(walls, "0, 0, 10"), IsEmpty()) << "it hangs on its floor";
+  EXPECT_THAT(under(walls, "10, 0, 0"), IsEmpty()) << "it gives way to the open side";
+  EXPECT_THAT(under(R"("x_min", "x_max", "y_min", "z_min")", "0, 0, -10"), IsEmpty());
+  EXPECT_THAT(under(R"("z_min")", "0, 0, -10"), IsEmpty()) << "a column that stands free";
+  // on a corner, and without any side that is free
+  EXPECT_THAT(under(R"("x_min", "y_min", "z_min")", "-1, -1, -1"), HasSubstr("comes to 3 shear"));
+  const std::string all = std::string(walls) + R"(, "z_max")";
+  EXPECT_THAT(under(all.c_str(), "0, 0, -2.8"), IsEmpty());
+  EXPECT_THAT(under(all.c_str(), "0, 0, -3.2"), HasSubstr("comes to 1.6 shear moduli"));
+  EXPECT_THAT(under(walls, "0, 0, -10", {"scheme.volumes=nodes"}), IsEmpty());
+  EXPECT_THAT(because({}, "[load]\nbody_force = [0, 0, -10]\n"), IsEmpty()) << "it falls";
+}
+
+TEST(StrongPressure, MayBeThatOfTheOwnWeightBeforeThereIsAMesh) {
+  const auto may = [](const char* sides, const char* force) {
+    return may_press_strongly(block({}, fmt::format("[[boundary]]\ngroup = [{}]\n"
+                                                    "type = \"symmetry\"\n"
+                                                    "[load]\nbody_force = [0, 0, \"{}\"]\n",
+                                                    sides, force)));
+  };
+  const char* walls = R"("x_min", "x_max", "y_min", "y_max", "z_min")";
+  EXPECT_TRUE(may(walls, "-10*t"));
+  EXPECT_FALSE(may(walls, "-0.01*t"));
+  EXPECT_FALSE(may(R"("x_min", "z_min")", "-10*t"));
+}
+
 TEST(StrongPressure, IsLeftToNodesWhereNothingPresses) {
   const std::string press = "boundary.0.value=3", rubber = "material.lame=4",
                     moved = "mesh.perturbation=0.2";
