@@ -77,7 +77,8 @@ CaseObservers::CaseObservers(const cases::Case& setup,
       momentum_guard_(scene.solver->balance(),
                       run::inertia_if_held(setup, scene.graph),
                       setup.guards.angular_drift,
-                      rounding_) {
+                      rounding_),
+      volume_guard_(*scene.solver, setup.guards.volumes_apart) {
   if (options.scales) scales_.emplace(scene.graph);
   if (options.shapes)
     shapes_.emplace(scene.mesh.mesh, static_cast<size_t>(setup.output.frames) + 1);
@@ -127,6 +128,7 @@ std::vector<run::Observer*> CaseObservers::all() {
   all.push_back(&energy_guard_);
   all.push_back(&involution_guard_);
   all.push_back(&momentum_guard_);
+  all.push_back(&volume_guard_);
   if (cell_guard_) all.push_back(&*cell_guard_);
   return all;
 }

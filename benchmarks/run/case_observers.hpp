@@ -19,6 +19,7 @@
 #include "common/run/observers/involution_guard.hpp"
 #include "common/run/observers/momentum_guard.hpp"
 #include "common/run/observers/step_probes.hpp"
+#include "common/run/observers/volume_guard.hpp"
 
 #include <optional>
 #include <string>
@@ -56,6 +57,8 @@ class CaseObservers {
   std::optional<std::string> notice_of_sliding() const { return sliding_.notice(); }
   /// What is to be told of the exact solution: nothing unless the run begins with another motion.
   std::optional<std::string> notice_of_exact() const;
+  /// What is to be told of volumes that carry the pressure, where J of nodes has left them.
+  std::optional<std::string> notice_of_volumes() const { return volume_guard_.notice(); }
   /// Path and time [s] of the last frame of fields; an empty path where there is none.
   io::FrameEntry last_frame() const { return fields_.last_frame(); }
   /// Moves what was taken down, and what it comes to for the summary, into the result.
@@ -86,6 +89,7 @@ class CaseObservers {
   run::EnergyGuard energy_guard_;
   run::InvolutionGuard involution_guard_;
   run::MomentumGuard momentum_guard_;
+  run::VolumeGuard volume_guard_;
 };
 
 }  // namespace diptych::harness

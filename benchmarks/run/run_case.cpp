@@ -317,7 +317,7 @@ std::optional<std::string> CaseRun::notice_of_rounding() const {
 void CaseRun::note_contradictions() {
   for (const auto& notice :
        {observers_->notice_of_walls(), observers_->notice_of_sliding(),
-        observers_->notice_of_exact(), notice_of_rounding()}) {
+        observers_->notice_of_exact(), observers_->notice_of_volumes(), notice_of_rounding()}) {
     if (!notice) continue;
     result_.summary.notices.push_back(*notice);
     tell(*notice);

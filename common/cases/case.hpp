@@ -92,6 +92,7 @@ struct GuardsCase {
   double numerical_dissipation = 0;     ///< the same, 1: any; 0: 0.5, with a limiter of shocks any
   double involution = 0.01;             ///< > 0, |H - cof F| and |J - det F|
   double angular_drift = 0.2;           ///< > 0, share of the largest sum of |x||p| so far
+  double volumes_apart = 0.2;           ///< > 0, share of the body's volume
   double least_step = 1e-7;             ///< > 0, share of the first step
   std::string inverted_cells = "stop";  ///< stop or warn
 };

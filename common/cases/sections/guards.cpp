@@ -51,6 +51,13 @@ SectionEntry guards_section() {
                "of "
                "rotation.",
                "0.5"})
+          .key("volumes_apart", &GuardsCase::volumes_apart,
+               {"-", above(0),
+                "The run is stopped (code 3) where volumes of cells or lines that carry the "
+                "pressure (scheme.volumes) and J of the nodes differ, in the mean over the body, "
+                "by more than this share of its volume, at the same steps: the deviatoric stress "
+                "then belongs to another motion than the pressure.",
+                "0.5"})
           .key("least_step", &GuardsCase::least_step,
                {"-", Range{0, 1, false, true},
                 "The run is stopped (code 3) where the time step has become less than this share "

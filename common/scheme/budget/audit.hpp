@@ -7,6 +7,8 @@
 
 #include "common/algebra/vectors.hpp"
 
+#include <algorithm>
+
 namespace diptych::scheme {
 
 using algebra::Vec3;
@@ -87,7 +89,15 @@ struct Balance {
   double least_J = 1;
   double involution_H = 0;  ///< max |H - cof F|
   double involution_J = 0;  ///< max |J - det F|
-  double swing = 0;         ///< J, what leapfrog's energy is off by and comes back from (notes 5.6)
+  /// m^Dim, of the volumes that carry the pressure (notes 3.9, 3.10), and the sum of |J of the
+  /// nodes times their volume at rest - that volume|; zero where nodes carry it
+  double carried_volume = 0, volume_apart = 0;
+  double swing = 0;  ///< J, what leapfrog's energy is off by and comes back from (notes 5.6)
+
+  /// How far both volumes are apart, as a share of the body's.
+  double volumes_apart() const {
+    return volume_apart == 0 ? 0 : volume_apart / std::max(carried_volume, 0.0);
+  }
 };
 
 }  // namespace diptych::scheme

@@ -1,8 +1,10 @@
 #include "common/scheme/budget/balance.hpp"
 
 #include "common/parallel/reduction.hpp"
+#include "common/scheme/body/point_access.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace diptych::scheme {
 
@@ -100,8 +102,12 @@ Balance balance(const MaterialModel& material, const Body<Dim>& body) {
         add_energies(material, body, begin, end, parts[c]);
         add_momenta(body, begin, end, parts[c]);
         if (J.empty()) return;
-        for (std::int64_t a = begin * n_lanes; a < std::min(end * n_lanes, body.n_owned); ++a)
-          parts[c].strain += body.bulk->reference(a) * material.volumetric_energy(J[a]);
+        for (std::int64_t a = begin * n_lanes; a < std::min(end * n_lanes, body.n_owned); ++a) {
+          const double V = body.bulk->reference(a);
+          parts[c].strain += V * material.volumetric_energy(J[a]);
+          parts[c].carried_volume += V * J[a];
+          parts[c].volume_apart += V * std::abs(deformation_at(body, a).J - J[a]);
+        }
       });
   if (body.bulk) {
     std::vector<double> shear(parts.size());

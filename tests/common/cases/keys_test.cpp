@@ -53,6 +53,7 @@ TEST(CaseKeys, HaveTheDefaultsOfTheStructs) {
   EXPECT_EQ(read.guards.energy_residual, made.guards.energy_residual);
   EXPECT_EQ(read.guards.involution, made.guards.involution);
   EXPECT_EQ(read.guards.angular_drift, made.guards.angular_drift);
+  EXPECT_EQ(read.guards.volumes_apart, made.guards.volumes_apart);
   EXPECT_EQ(read.guards.least_step, made.guards.least_step);
   EXPECT_EQ(read.guards.inverted_cells, made.guards.inverted_cells);
 }
