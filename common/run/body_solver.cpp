@@ -45,10 +45,10 @@ BodySolver<Dim>::BodySolver(time::MovingBody<Dim> moving,
       bounds_of_start_(start) {}
 
 template <int Dim>
-void BodySolver<Dim>::begin(const cases::InitialCase& initial, double kappa_f) {
+void BodySolver<Dim>::begin(const cases::InitialCase& initial, double kappa_f, double start) {
   set_initial_state(initial, kappa_f, moving_.body);
   moving_.boundary.require_in_front_of_walls(moving_.body);
-  moving_.boundary.constrain(moving_.body, 0);
+  moving_.boundary.constrain(moving_.body, start);
   moving_.sweeps.strain_rates(moving_.body, {}, nullptr, 0);
   if (!time::is_sound(moving_)) throw scheme::breakdown_error(moving_.body, 0, 0, 0, "");
   if (moving_.integrator.is_leapfrog()) time::begin_leapfrog(moving_);

@@ -21,7 +21,8 @@ class BodySolver : public Solver {
              int max_retries,
              const BudgetOfStart::Bounds& start);
   /// Puts the body into its initial state.
-  void begin(const cases::InitialCase& initial, double kappa_f);
+  /// @param start  of which prescribed velocities are (step_ends.hpp)  [s]
+  void begin(const cases::InitialCase& initial, double kappa_f, double start = 0);
 
   StepReport step(double t_limit) override;
   bool take_back() override;

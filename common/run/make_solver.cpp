@@ -9,6 +9,7 @@
 #include "common/run/initial_check.hpp"
 #include "common/run/model_menu.hpp"
 #include "common/run/ranks/rank_set_up.hpp"
+#include "common/run/step_ends.hpp"
 #include "common/scheme/dissipation/limiters/limiter_menu.hpp"
 #include "common/scheme/option_menus.hpp"
 #include "common/scheme/ranks/share_graph.hpp"
@@ -276,7 +277,7 @@ std::unique_ptr<Solver> solver_in(const cases::Case& setup,
   if (!(cfl > 0)) cfl = default_cfl(setup, *parts.material, body, geometric_rate, parts.integrator);
   auto solver =
       assembled<Dim>(setup, graph, std::move(parts), std::move(body), cfl, geometric_rate);
-  solver->begin(setup.initial, setup.scheme.face_correction);
+  solver->begin(setup.initial, setup.scheme.face_correction, start_of(setup));
   return solver;
 }
 

@@ -2,6 +2,7 @@
 
 #include "common/base/error.hpp"
 #include "common/functions/resolving_times.hpp"
+#include "common/run/short_loads.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,9 @@ std::vector<functions::Expression> actions_of(const cases::Case& setup) {
 }
 
 using Actions = std::vector<functions::Expression>;
+
+constexpr double as_good_as_one = 1e-13;  // instants of a run, of its end
+
 using Place = std::optional<algebra::Vec3>;
 
 functions::BreakTimes breaks_of(const Actions& actions,
@@ -174,82 +178,6 @@ Instants seen_at(std::span<const algebra::Vec3> places,
       functions::most_per_step, dt));
 }
 
-/// How much an action changes between two instants, and the most that it is at them: at the place
-/// where that is most.
-struct Change {
-  double jump = 0, size = 0;
-};
-
-Change change_of(const functions::Expression& action,
-                 std::span<const algebra::Vec3> places,
-                 double before,
-                 double after) {
-  const algebra::Vec3 origin = algebra::Vec3::Zero();
-  const auto at = action.depends_on_position() ? places : std::span(&origin, 1);
-  Change most;
-  for (const algebra::Vec3& X : at) {
-    const double a = action(X, before), b = action(X, after);
-    most.jump = std::max(most.jump, std::abs(b - a));
-    most.size = std::max({most.size, std::abs(a), std::abs(b)});
-  }
-  return most;
-}
-
-/// Where an action sets in, stops or changes at once: indices of these ends, -1 for t = 0.
-std::vector<std::ptrdiff_t> jumps_of(const functions::Expression& action,
-                                     std::span<const algebra::Vec3> places,
-                                     const std::vector<StepEnd>& ends) {
-  constexpr double worth_following = 1e-3;
-  double largest = 0;
-  std::vector<std::pair<std::ptrdiff_t, double>> all;
-  all.emplace_back(-1, change_of(action, places, 0, 0).size);
-  for (size_t k = 0; k < ends.size(); ++k) {
-    const Change change = change_of(action, places, ends[k].before, ends[k].after);
-    largest = std::max(largest, change.size);
-    if (ends[k].is_jump) all.emplace_back(static_cast<std::ptrdiff_t>(k), change.jump);
-  }
-  largest = std::max(largest, all.front().second);
-  std::vector<std::ptrdiff_t> jumps;
-  for (const auto& [k, jump] : all)
-    if (jump > worth_following * largest) jumps.push_back(k);
-  return jumps;
-}
-
-/// Leapfrog's energy is off by dt^2/8 sum m |a|^2 while a load acts, and for good by what that
-/// differs by where the load sets in and stops (notes 5.6). A traction p brings p^2 t/(rho c) in a
-/// time t, and that term is dt^2 p^2/(4 rho h): they are as 1 to 200 where steps are no longer than
-/// sqrt(t dt/50), with the stable step dt for h/c. What joins place and time has steps of its own.
-void add_ends_between_jumps(std::vector<StepEnd>& ends,
-                            double dt,
-                            const Actions& actions,
-                            std::span<const algebra::Vec3> places) {
-  constexpr double steps_of_long_load = 50;
-  std::vector<double> longest(ends.size(), std::numeric_limits<double>::infinity());
-  for (const functions::Expression& action : actions) {
-    if (!action.depends_on_time() || action.joins_place_and_time()) continue;
-    const std::vector<std::ptrdiff_t> jumps = jumps_of(action, places, ends);
-    for (size_t j = 1; j < jumps.size(); ++j) {
-      const double begin = jumps[j - 1] < 0 ? 0 : ends[static_cast<size_t>(jumps[j - 1])].after;
-      const double end = ends[static_cast<size_t>(jumps[j])].before;
-      if (change_of(action, places, begin, end).size == 0) continue;
-      const double step = std::sqrt((end - begin) * dt / steps_of_long_load);
-      for (std::ptrdiff_t k = jumps[j - 1] + 1; k <= jumps[j] && step < dt; ++k)
-        longest[static_cast<size_t>(k)] = std::min(longest[static_cast<size_t>(k)], step);
-    }
-  }
-  std::vector<StepEnd> all;
-  double begin = 0;
-  for (size_t k = 0; k < ends.size(); ++k) {
-    const double part = ends[k].before - begin;
-    const double n = std::ceil(part / longest[k] * (1 - 1e-9));
-    for (double i = 1; i < n; ++i)
-      all.push_back({begin + part * i / n, begin + part * i / n});
-    all.push_back(ends[k]);
-    begin = ends[k].after;
-  }
-  ends = std::move(all);
-}
-
 }  // namespace
 
 std::vector<StepEnd> step_ends(const cases::Case& setup,
@@ -261,7 +189,7 @@ std::vector<StepEnd> step_ends(const cases::Case& setup,
   for (const functions::Expression& action : actions)
     if (action.joins_place_and_time()) travelling.push_back(action);
   Instants instants;
-  double near = 1e-13 * end;
+  double near = as_good_as_one * end;
   if (!travelling.empty()) {
     instants = seen_at(places, travelling, end, dt);
     near = std::max(near, 1e-5 * dt);  // one jump that places see one shortly after the other
@@ -292,8 +220,14 @@ std::vector<StepEnd> step_ends(const cases::Case& setup,
       ends.back().is_jump |= next.is_jump;
     }
   }
-  if (setup.time.integrator == "leapfrog") add_ends_between_jumps(ends, dt, actions, places);
+  add_ends_of_short_loads(ends, dt, end, actions, places, setup.time.integrator == "leapfrog");
   return ends;
+}
+
+double start_of(const cases::Case& setup) {
+  const std::vector<double> jumps =
+      functions::break_times(actions_of(setup), 0, as_good_as_one * setup.time.end).jumps;
+  return jumps.empty() ? 0 : jumps.back();
 }
 
 }  // namespace diptych::run

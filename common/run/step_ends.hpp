@@ -26,4 +26,8 @@ std::vector<StepEnd> step_ends(const cases::Case& setup,
                                double dt,
                                std::span<const algebra::Vec3> places);
 
+/// What a run begins with is of this instant: 0, or right behind a jump there, as of "t > 0 ? 1 :
+/// 0", whose value at 0 lasts for no time  [s]
+double start_of(const cases::Case& setup);
+
 }  // namespace diptych::run

@@ -17,7 +17,10 @@ double choose_dt(MovingBody<Dim>& moving, double t_limit) {
   const double stable = moving.sweeps.stable_dt();  // may be no number: then it is kept
   const double bound = clock.largest_dt < stable ? clock.largest_dt : stable;
   const double n = std::ceil(left / bound * (1 - 1e-12));
-  const double dt = left / std::max(n, 1.0);
+  double dt = left / std::max(n, 1.0);
+  // a load at the end of the step is that of before a jump, which may be a rounding behind it
+  while (n <= 1 && clock.time + dt > t_limit)
+    dt = std::nextafter(dt, 0);
   if (clock.step == 0) clock.first_dt = bound;
   // what is left before an instant may be as little as one likes
   if (!(bound > clock.least_share * clock.first_dt) || clock.time + dt == clock.time) {

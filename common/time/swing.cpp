@@ -46,7 +46,9 @@ double allowed_dt(const MovingBody<Dim>& moving) {
 template <int Dim>
 double swing_of(const MovingBody<Dim>& moving) {
   const double dt = std::min(moving.clock.largest_dt, moving.sweeps.stable_dt());
-  const double swing = dt * dt / 8 * squared_accelerations(moving.body, moving.boundary);
+  const double sum = squared_accelerations(moving.body, moving.boundary) -
+                     moving.boundary.power_gain_of_loads(moving.body);
+  const double swing = dt * dt / 8 * sum;
   return std::isfinite(swing) ? swing : 0;
 }
 

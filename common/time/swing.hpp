@@ -20,7 +20,8 @@ template <int Dim>
 double squared_accelerations(const scheme::Body<Dim>& body,
                              const scheme::AppliedBoundary& boundary);
 
-/// dt^2/8 sum m |a|^2 of the state with the step that it allows  [J]
+/// dt^2/8 sum (m a - f).a of the state with the step that it allows, of either sign: the work of
+/// loads f, which they do in kicks, has its own share (notes 6)  [J]
 template <int Dim>
 double swing_of(const MovingBody<Dim>& moving);
 

@@ -112,9 +112,10 @@ void EnergyGuard::at_check(const Check& check) {
   note_growth(scale, check.step.step);
   const double bound = bound_at(check.step.step);
   // first what an unstable step does, which dissipates, too
-  const double swing =
-      residual > 0 ? std::min(check.balance.swing, most_of_swing * threshold_ * scale) : 0;
-  if (std::abs(residual) * scale - swing > bound * scale + rounding)
+  const double most = most_of_swing * threshold_ * scale;
+  const double swing = residual > 0 ? std::clamp(check.balance.swing, 0.0, most)
+                                    : std::clamp(check.balance.swing, -most, 0.0);
+  if (std::abs(residual) * scale - std::abs(swing) > bound * scale + rounding)
     refuse_residual(check, residual - swing / scale, bound);
   judge_loss(check);
 }

@@ -74,9 +74,9 @@ class EnergyGuard : public Observer {
   /// makes all of what it grows by of nothing, and a residual that stays is judged later as any.
   static constexpr size_t n_doublings = 7;
   static constexpr double most_of_growth = 0.5;
-  /// Of a residual above zero what leapfrog's energy swings by is left out, up to as many times the
-  /// threshold: it comes back. A load that grows on a body that holds little brings less than that
-  /// for many steps.
+  /// What leapfrog's energy swings by to the side of the residual is left out, up to as many times
+  /// the threshold: it comes back. A body that vibrates under a load it hardly holds has that for
+  /// many steps.
   static constexpr double most_of_swing = 10;
   /// Steps from a standstill in which losses are not judged, and what a body stands still with, as
   /// a share of what rounding makes of strain energies: strains of 1e-12.

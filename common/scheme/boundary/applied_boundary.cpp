@@ -195,6 +195,7 @@ void AppliedBoundary::mark_loaded(const std::vector<char>& loaded) {
   for (const std::int32_t a : loaded_nodes_)
     chunks.push_back(chunk_of_node(a));
   chunks_of_loaded_ = parallel::ChunksOfList(chunks);
+  list_held_loads();
 }
 
 void AppliedBoundary::follow(std::shared_ptr<KnownLoads> known) {

@@ -121,6 +121,13 @@ class AppliedBoundary {
   template <int Dim>
   double power_of_loads(const Body<Dim>& body) const;
 
+  /// sum f.a over what directions are free, f: the loads that add_loads put in last, but for those
+  /// of a known motion, a: accelerations by the force field (loads included)  [W/s]. In a kick of
+  /// dt the load's power at the mean of the velocities before and after is that after it less
+  /// dt/2 times this.
+  template <int Dim>
+  double power_gain_of_loads(const Body<Dim>& body) const;
+
   /// Power with which the prescribed velocities, as they are, move against the force field (loads
   /// included)  [W]. Zero where all of them are.
   template <int Dim>
@@ -177,11 +184,18 @@ class AppliedBoundary {
   std::vector<Vec3> telling_places_;
   std::vector<Vec3> X_user_;                ///< [n_nodes] m, as functions see them
   std::vector<std::int32_t> slot_of_node_;  ///< [n_nodes] into loaded_nodes_, -1
+  /// Of nodes with loads that are constrained, too; ascending.
+  struct HeldLoad {
+    size_t loaded = 0, constrained = 0;  ///< into loaded_nodes_, constrained_
+  };
+  std::vector<HeldLoad> held_loads_;
+  parallel::ChunksOfList chunks_of_held_loads_;
 
   void place_velocities();
   void place_loads(const PairGraph& graph);
   void place_walls(const PairGraph& graph);
   void mark_loaded(const std::vector<char>& loaded);
+  void list_held_loads();
   std::vector<Vec3> prescribed(double t) const;
   template <int Dim>
   double kinetic_work(const Body<Dim>& body) const;

@@ -20,6 +20,37 @@ double AppliedBoundary::power_against_forces(const Body<Dim>& body) const {
                                     });
 }
 
+void AppliedBoundary::list_held_loads() {
+  held_loads_.clear();
+  std::vector<std::int64_t> chunks;
+  for (size_t k = 0; k < constrained_.size(); ++k) {
+    const std::int32_t slot = slot_of_node_[static_cast<size_t>(constrained_[k].node)];
+    if (slot < 0) continue;
+    held_loads_.push_back({static_cast<size_t>(slot), k});
+    chunks.push_back(chunk_of_node(constrained_[k].node));
+  }
+  chunks_of_held_loads_ = parallel::ChunksOfList(chunks);
+}
+
+template <int Dim>
+double AppliedBoundary::power_gain_of_loads(const Body<Dim>& body) const {
+  if (loaded_nodes_.empty()) return 0;
+  const double rho_R = body.options.rho_R;
+  const auto all =
+      parallel::sum_over<double>(body.part(), chunks_of_loaded_, [&](std::int64_t k, double& sum) {
+        const std::int32_t a = loaded_nodes_[k];
+        sum += forces_[k].dot(vector_at<Dim>(body.T, a)) / (rho_R * Omega_[a]);
+      });
+  const auto held = parallel::sum_over<double>(
+      body.part(), chunks_of_held_loads_, [&](std::int64_t k, double& sum) {
+        const HeldLoad& at = held_loads_[k];
+        const ConstrainedNode& c = constrained_[at.constrained];
+        const Vec3 T = vector_at<Dim>(body.T, c.node);
+        sum += forces_[at.loaded].dot(T - c.keep * T) / (rho_R * c.Omega);
+      });
+  return all - held - walls_.power_gain_withheld(body, forces_, slot_of_node_);
+}
+
 template <int Dim>
 double AppliedBoundary::squared_reactions(const Body<Dim>& body) const {
   return walls_.squared_forces(body) +
@@ -56,6 +87,7 @@ Vec3 AppliedBoundary::reaction(const Body<Dim>& body,
 #define DIPTYCH_INSTANTIATE(Dim)                                                         \
   template double AppliedBoundary::power_against_forces(const Body<Dim>&) const;         \
   template Vec3 AppliedBoundary::force_on(const Body<Dim>&, std::int64_t, double) const; \
+  template double AppliedBoundary::power_gain_of_loads(const Body<Dim>&) const;          \
   template double AppliedBoundary::squared_reactions(const Body<Dim>&) const;            \
   template Vec3 AppliedBoundary::reaction(const Body<Dim>&, const std::vector<std::int32_t>&) const;
 DIPTYCH_INSTANTIATE(2)

@@ -270,6 +270,21 @@ double WallContacts::squared_forces(const Body<Dim>& body) const {
   });
 }
 
+template <int Dim>
+double WallContacts::power_gain_withheld(const Body<Dim>& body,
+                                         const std::vector<Vec3>& loads,
+                                         const std::vector<std::int32_t>& slot_of_node) const {
+  if (nodes_.empty()) return 0;
+  return parallel::sum_over<double>(body.part(), chunks_, [&](std::int64_t k, double& sum) {
+    const WallNode& w = nodes_[k];
+    const std::int32_t slot = slot_of_node[static_cast<size_t>(w.body.node)];
+    if (!w.closed || slot < 0) return;
+    const double held = (w.body.keep * vector_at<Dim>(body.T, w.body.node)).dot(w.wall.normal);
+    sum +=
+        held * loads[static_cast<size_t>(slot)].dot(w.push) / (body.options.rho_R * w.body.Omega);
+  });
+}
+
 #define DIPTYCH_INSTANTIATE(Dim)                                                                 \
   template void WallContacts::require_in_front(const Body<Dim>&) const;                          \
   template void WallContacts::hold(Body<Dim>&, const StageCombination&, const StageCombination&, \
@@ -278,7 +293,9 @@ double WallContacts::squared_forces(const Body<Dim>& body) const {
   template Vec3 WallContacts::lag_of_moment(const Body<Dim>&, const StageCombination&) const;    \
   template void WallContacts::settle(Body<Dim>&, ConstraintAction&);                             \
   template Vec3 WallContacts::force(const Body<Dim>&, const std::vector<std::int32_t>&) const;   \
-  template double WallContacts::squared_forces(const Body<Dim>&) const;
+  template double WallContacts::squared_forces(const Body<Dim>&) const;                          \
+  template double WallContacts::power_gain_withheld(const Body<Dim>&, const std::vector<Vec3>&,  \
+                                                    const std::vector<std::int32_t>&) const;
 DIPTYCH_INSTANTIATE(2)
 DIPTYCH_INSTANTIATE(3)
 #undef DIPTYCH_INSTANTIATE

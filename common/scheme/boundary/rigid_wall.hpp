@@ -84,6 +84,14 @@ class WallContacts {
   template <int Dim>
   double squared_forces(const Body<Dim>& body) const;
 
+  /// What they take from sum f.a over nodes with loads f  [W/s]
+  /// @param loads           N
+  /// @param slot_of_node    [n_nodes] into loads, -1
+  template <int Dim>
+  double power_gain_withheld(const Body<Dim>& body,
+                             const std::vector<Vec3>& loads,
+                             const std::vector<std::int32_t>& slot_of_node) const;
+
  private:
   struct WallNode {
     WallCandidate body;

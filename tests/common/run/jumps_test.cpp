@@ -8,9 +8,11 @@
 #include "tests/common/scheme/scenes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <tuple>
 
 namespace diptych::run {
 namespace {
@@ -214,6 +216,84 @@ TEST_P(Jumps, RunsGoOnFromBesideThem) {
     reader.finish();
     EXPECT_EQ(simulation.run(), Ending::done);
     EXPECT_EQ(hash_of(scene), hash_of(whole.scene)) << "after " << steps << " steps";
+  }
+}
+
+/// Impulse and work are of the same forces: a body that a uniform force moves as a whole has the
+/// kinetic energy of its momentum, however few steps see the force change.
+TEST_P(Jumps, ForcesThatChangeBesideThemDoTheWorkOfTheirImpulse) {
+  const bool is_leapfrog = GetParam() == "leapfrog";
+  for (const auto& [load, impulse] : std::initializer_list<std::pair<const char*, double>>{
+           {"t < 0.003 ? 1e5*t/0.003 : 0", 150},
+           {"t < 0.02 ? 1e5*t/0.02 : 0", 1000},
+           {"t < 0.003 ? 1e5*(1 - t/0.003) : 0", 150},
+           {"t < 0.02 ? 1e5*(t/0.02)^2 : 2e4", 1e4 / 15 + 1600},
+           {"t >= 0.0123 ? 1e5*exp(-(t - 0.0123)/0.005) : 0", 500}}) {
+    tests::Scene scene =
+        tests::scene_of("sph", pulled(GetParam(), "0") +
+                                   fmt::format("[load]\nbody_force = [0, 0, \"{}\"]\n", load));
+    Simulation simulation(scene.setup, *scene.solver, {});
+    EXPECT_EQ(simulation.run(), Ending::done);
+    const double momentum = scene.solver->balance().linear_momentum[2], mass = 1000;
+    EXPECT_NEAR(momentum, impulse, 0.005 * impulse) << load;
+    const double kinetic = momentum * momentum / (2 * mass);
+    EXPECT_NEAR(scene.solver->audit().external_work, kinetic,
+                (is_leapfrog ? 1e-10 : 2e-3) * kinetic)
+        << load;
+  }
+}
+
+/// And of a body that the load deforms as it sets in: the budget closes, and its work is that of
+/// fine steps.
+TEST_P(Jumps, OfLoadsThatChangeCloseTheBudget) {
+  for (const char* load : {"t < 0.003 ? 1e4*t/0.003 : 0", "t < 0.02 ? 1e4*t/0.02 : 0",
+                           "t < 0.01 ? 1e4*(1 - t/0.01) : 0", "t < 0.02 ? 1e4*(t/0.02)^2 : 2e3",
+                           "t >= 0.0123 ? 1e4*exp(-(t - 0.0123)/0.005) : 0"}) {
+    const Ran ran(GetParam(), load);
+    tests::Scene fine = tests::scene_of("fvm", pulled("leapfrog", load), {"time.cfl=0.1"});
+    Simulation simulation(fine.setup, *fine.solver, {});
+    EXPECT_EQ(simulation.run(), Ending::done);
+    const scheme::Balance balance = ran.scene.solver->balance();
+    const scheme::Audit& audit = ran.scene.solver->audit();
+    const double work = fine.solver->audit().external_work;
+    EXPECT_NEAR(balance.kinetic + balance.strain + audit.numerical_dissipation, audit.external_work,
+                0.008 * work)
+        << load;
+    EXPECT_NEAR(audit.external_work, work, 0.02 * work) << load;
+  }
+}
+
+/// What holds at t = 0 alone is of no time: a run begins with what is right behind it.
+TEST_P(Jumps, AtTheStartAreBehindTheRun) {
+  const auto run = [&](const std::string& velocity, double initial) {
+    tests::Scene scene = tests::scene_of(
+        "fvm", pulled(GetParam(), "0") +
+                   fmt::format("[[boundary]]\ngroup = \"z_min\"\ntype = \"velocity\"\n"
+                               "value = [0, 0, \"{}\"]\n[initial]\n"
+                               "velocity = [0, 0, {}]\n",
+                               velocity, initial));
+    EnergyGuard guard(scene.solver->balance(), 0.01, {0.9}, {1e-9});
+    const double begun = scene.solver->balance().kinetic;
+    Simulation simulation(scene.setup, *scene.solver, {&guard});
+    EXPECT_EQ(simulation.run(), Ending::done) << velocity;
+    return std::array{begun, scene.solver->balance().kinetic, scene.solver->audit().external_work};
+  };
+  for (const auto& [velocity, constant, initial] :
+       std::initializer_list<std::tuple<const char*, const char*, double>>{
+           {"t > 0 ? 1 : 0", "1", 0}, {"sign(t)", "1", 0}, {"t > 0 ? 0 : 5", "0", 5}}) {
+    const auto jumps = run(velocity, initial), same = run(constant, initial);
+    for (size_t k = 0; k < same.size(); ++k)
+      EXPECT_NEAR(jumps[k], same[k], 1e-9 * same[1]) << velocity << ", " << k;
+  }
+}
+
+/// Nor does what holds at the end of a step alone act.
+TEST_P(Jumps, MayHaveAValueOfTheirOwn) {
+  for (const double t : {0.04, 0.0412345}) {
+    const Ran one(GetParam(), fmt::format("1e3*(1 + sign({} - t))", t));
+    EXPECT_NEAR(one.momentum(), 2e3 * t, 1e-9);
+    const Ran other(GetParam(), fmt::format("abs(t - {}) <= 0 ? 1e9 : 0", t));
+    EXPECT_NEAR(other.momentum(), 0, 1e-3);
   }
 }
 

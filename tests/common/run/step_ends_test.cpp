@@ -90,6 +90,56 @@ TEST(StepEnds, AreNotCloseWhereNothingSetsInAtOnce) {
                                .size());
 }
 
+/// The longest step between ends from `begin` to `end`.
+double longest_of(const std::vector<StepEnd>& ends, double begin, double end) {
+  double longest = 0, last = begin;
+  for (const StepEnd& at : ends) {
+    if (at.before <= begin) continue;
+    longest = std::max(longest, std::min(at.before, end) - last);
+    last = at.after;
+    if (at.before >= end) return longest;
+  }
+  return std::max(longest, end - last);
+}
+
+/// Beside one jump, of what fades away or grows: for as long as its square over the largest.
+TEST(StepEnds, AreCloseBesideAJumpOfALoadThatChanges) {
+  const auto of_traction = [](const std::string& load, const std::string& integrator) {
+    return ends_of("type = \"traction\"\nvalue = [0, 0, \"" + load + "\"]\n", integrator);
+  };
+  const auto fades = of_traction("t < 0.03 ? 0 : exp(-(t - 0.03)/2e-3)", "leapfrog");
+  EXPECT_NEAR(fades.front().after, 0.03, 1e-15) << "before it nothing acts";
+  EXPECT_NEAR(longest_of(fades, 0.03, 0.0365), dt / 8, 0.01 * dt) << "acts for one step";
+  EXPECT_LT(fades.back().before, 0.038);
+  EXPECT_LT(fades.back().before, fades.back().after) << "the next steps are those of a start";
+  const auto grows = of_traction("t < 0.03 ? t/0.03 : 0", "leapfrog");
+  EXPECT_NEAR(longest_of(grows, 0.0035, 0.03), dt * std::sqrt(10 / 50.), 0.01 * dt) << "for ten";
+  EXPECT_GT(longest_of(grows, 0, 0.0035), 1.5 * dt) << "a thousandth of it";
+  EXPECT_NEAR(grows.back().after, 0.03, 1e-15);
+  // of a start, too
+  const auto falls = of_traction("max(0, 1 - t/6e-3)", "leapfrog");
+  EXPECT_NEAR(longest_of(falls, 0, 5e-3), dt * std::sqrt(2 / 50.), 0.01 * dt);
+  // Runge-Kutta steps until the waves that the load has made have passed
+  const auto rk = of_traction("t < 0.03 ? 0 : exp(-(t - 0.03)/2e-3)", "ssp-rk3");
+  EXPECT_NEAR(longest_of(rk, 0.03, 0.0365), dt / 8, 0.01 * dt);
+  EXPECT_NEAR(longest_of(rk, 0.038, 0.1), dt / 4, 0.01 * dt);
+  // steps see these as they are
+  EXPECT_TRUE(of_traction("exp(-t/0.2)", "leapfrog").empty());
+  EXPECT_EQ(of_traction("t < 0.03 ? 0 : cos(100*(t - 0.03))", "ssp-rk3").size(), 1U);
+}
+
+TEST(StepEnds, BeginRightBehindAJumpAtTheStart) {
+  const auto start = [](const std::string& value) {
+    return start_of(with("type = \"velocity\"\nvalue = [0, 0, \"" + value + "\"]\n"));
+  };
+  for (const char* value : {"1", "t >= 0 ? 1 : 0", "t < 0.03 ? 1 : 0", "sin(t)", "min(1, t/1e-6)"})
+    EXPECT_EQ(start(value), 0) << value;
+  for (const char* value : {"t > 0 ? 1 : 0", "sign(t)", "sign(sin(2000*t))", "x*(t > 0 ? 0 : 5)"}) {
+    EXPECT_GT(start(value), 0) << value;
+    EXPECT_LT(start(value), 1e-14) << value;
+  }
+}
+
 TEST(StepEnds, AreNoneWhereNothingHappensInAStep) {
   EXPECT_TRUE(ends_of("type = \"traction\"\nvalue = [0, 0, \"sin(300*t)\"]\n").empty());
   EXPECT_TRUE(ends_of("type = \"fixed\"\n").empty());
@@ -139,8 +189,9 @@ TEST(StepEnds, DoNotMindWhereAPulseActs) {
       "type = \"pressure\"\nvalue = \"abs(t - 0.0251) < 1e-4 ? 1 : 0\"\n";
   const std::string somewhere =
       "type = \"pressure\"\nvalue = \"abs(t - 0.0251) < 1e-4 && x > 0.2 ? 1 : 0\"\n";
-  EXPECT_EQ(ends_of(everywhere, "ssp-rk3").size(), 3U) << "two jumps and a kink";
-  EXPECT_EQ(ends_of(somewhere, "ssp-rk3").size(), 3U);
+  EXPECT_EQ(jumps_of(everywhere).size(), 2U);
+  EXPECT_EQ(jumps_of(somewhere).size(), 2U);
+  EXPECT_EQ(ends_of(everywhere, "ssp-rk3").size(), ends_of(somewhere, "ssp-rk3").size());
   EXPECT_EQ(ends_of(everywhere).size(), 5U) << "and what keeps the budget of leapfrog";
   EXPECT_EQ(ends_of(somewhere).size(), 5U);
   // nor a delay of next to nothing: one jump from before the first place to behind the last
