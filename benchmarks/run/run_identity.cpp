@@ -3,22 +3,11 @@
 #include "common/cases/reader.hpp"
 #include "common/cases/settings.hpp"
 #include "common/io/checkpoint_file.hpp"
+#include "common/run/state_hash.hpp"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 namespace diptych::harness {
-
-namespace {
-
-std::string hash_of_nodes(const scheme::PairGraph& graph) {
-  const XXH64_hash_t of_places = XXH3_64bits(graph.X.data(), graph.X.size() * sizeof(graph.X[0]));
-  const XXH64_hash_t of_both = XXH3_64bits_withSeed(
-      graph.Omega.data(), graph.Omega.size() * sizeof(graph.Omega[0]), of_places);
-  return fmt::format("{:016x}", of_both);
-}
-
-}  // namespace
 
 void RunIdentity::archive(algebra::Archive& archive) {
   archive.text("identity/method", method);
@@ -39,7 +28,7 @@ RunIdentity identity_of(const cases::Case& setup,
   identity.level = summary.level;
   identity.settings = cases::settings_text(cases::lasting_settings(setup));
   identity.volumes = summary.volumes;
-  identity.nodes = hash_of_nodes(graph);
+  identity.nodes = run::hash_of_nodes(graph);
   identity.program = summary.provenance.program;
   identity.version = summary.provenance.version + " " + summary.provenance.commit;
   identity.instruction_set = summary.provenance.instruction_set;

@@ -1,10 +1,10 @@
 #pragma once
 /// Period, decrement and mean of an oscillation, from samples over time.
 /// Crossings of the mean, upwards, count the periods; a crossing counts once the signal has been a
-/// tenth of its last swing away from the mean on both sides, so that ripples do not. The mean is taken
-/// over whole periods, less that of a damped sine of the same amplitude and decrement: what is left
-/// is where the oscillation comes to rest. Amplitudes are half the way from the trough to the crest
-/// of a period, extremes by the parabola through three samples. Test:
+/// tenth of its last swing away from the mean on both sides, so that ripples do not. The mean is
+/// taken over whole periods, less that of a damped sine of the same amplitude and decrement: what
+/// is left is where the oscillation comes to rest. Amplitudes are half the way from the trough to
+/// the crest of a period, extremes by the parabola through three samples. Test:
 /// tests/common/run/oscillation_test.cpp
 
 #include <optional>

@@ -69,4 +69,11 @@ std::string state_hash(const scheme::Body<Dim>& body,
 template std::string state_hash(const scheme::Body<2>&, const std::vector<std::int32_t>&, double);
 template std::string state_hash(const scheme::Body<3>&, const std::vector<std::int32_t>&, double);
 
+std::string hash_of_nodes(const scheme::PairGraph& graph) {
+  const XXH64_hash_t of_places = XXH3_64bits(graph.X.data(), graph.X.size() * sizeof(graph.X[0]));
+  const XXH64_hash_t of_both = XXH3_64bits_withSeed(
+      graph.Omega.data(), graph.Omega.size() * sizeof(graph.Omega[0]), of_places);
+  return fmt::format("{:016x}", of_both);
+}
+
 }  // namespace diptych::run

@@ -17,4 +17,7 @@ std::string state_hash(const scheme::Body<Dim>& body,
                        const std::vector<std::int32_t>& order,
                        double time);
 
+/// XXH3 (64 bits) of places and volumes of the nodes, as 16 hexadecimal digits.
+std::string hash_of_nodes(const scheme::PairGraph& graph);
+
 }  // namespace diptych::run
