@@ -349,6 +349,9 @@ void require(const cases::Case& setup,
         "a smaller --level or fewer mesh.cells",
         setup.name, level, asked.nodes, most_nodes));
   }
+  const AvailableMemory available = available_memory();
+  if (asked.bytes > static_cast<double>(available.bytes))
+    refuse(setup, method, level, asked, available);
   constexpr auto most_cells = static_cast<double>(meshes::most_cells);
   if (asked.cells > most_cells) {
     throw base::InputError(fmt::format(
@@ -356,9 +359,6 @@ void require(const cases::Case& setup,
         "mesh.cells or hexahedra",
         setup.name, level, asked.cells, most_cells));
   }
-  const AvailableMemory available = available_memory();
-  if (asked.bytes > static_cast<double>(available.bytes))
-    refuse(setup, method, level, asked, available);
 }
 
 }  // namespace

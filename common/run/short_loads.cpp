@@ -1,5 +1,7 @@
 #include "common/run/short_loads.hpp"
 
+#include "common/base/error.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,6 +24,15 @@ Places places_of(const Expression& action, Places places) {
   return action.depends_on_position() ? places : Places(&origin, 1);
 }
 
+/// NaN where it has no value, of which a run that gets there tells.
+double value_of(const Expression& action, const algebra::Vec3& X, double t) {
+  try {
+    return action(X, t);
+  } catch (const base::Error&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 /// How much an action changes between two instants, and the most that it is at them: at the place
 /// where that is most.
 struct Change {
@@ -31,7 +42,8 @@ struct Change {
 Change change_of(const Expression& action, Places places, double before, double after) {
   Change most;
   for (const algebra::Vec3& X : places_of(action, places)) {
-    const double a = action(X, before), b = action(X, after);
+    const double a = value_of(action, X, before), b = value_of(action, X, after);
+    if (!std::isfinite(a) || !std::isfinite(b)) continue;
     most.jump = std::max(most.jump, std::abs(b - a));
     most.size = std::max({most.size, std::abs(a), std::abs(b)});
   }
@@ -87,7 +99,7 @@ class Beside {
         const double t = jump + std::copysign(first + (i + 0.5) * width, along);
         double square = 0;
         for (const algebra::Vec3& X : places_of(action, places)) {
-          const double value = action(X, t);
+          const double value = value_of(action, X, t);
           if (!std::isfinite(value)) continue;
           largest_ = std::max(largest_, std::abs(value));
           square += value * value;

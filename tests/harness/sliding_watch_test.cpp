@@ -70,9 +70,11 @@ end = {}
   RunOptions options;
   options.method = "fvm";
   options.quiet = true;
-  auto notices = run_case(setup, options).summary.notices;
+  std::vector<std::string> slides;
+  for (const std::string& notice : run_case(setup, options).summary.notices)
+    if (notice.find("slid along a curved side") != notice.npos) slides.push_back(notice);
   std::filesystem::remove_all(folder);
-  return notices;
+  return slides;
 }
 
 TEST(SlidingWatch, TellsOfNodesThatSlideAlongACurve) {

@@ -49,7 +49,9 @@ TEST(WallWatch, TellsOfSidesThatGoThroughAWall) {
 
 TEST(WallWatch, SaysNothingOfABodyThatStopsThere) {
   for (const char* method : {"sph", "fvm"})
-    EXPECT_TRUE(notices_of(R"(["x_min"])", method).empty()) << method;
+    EXPECT_THAT(notices_of(R"(["x_min"])", method),
+                testing::Each(testing::Not(testing::HasSubstr("went through"))))
+        << method;
 }
 
 }  // namespace

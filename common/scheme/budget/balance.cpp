@@ -74,7 +74,8 @@ Balance total(const parallel::Part& part, const std::vector<Balance>& of_chunks)
   Balance total;
   parallel::Reduction reduction(part);
   for (double Balance::*member :
-       {&Balance::kinetic, &Balance::strain, &Balance::momentum_scale, &Balance::angular_scale})
+       {&Balance::kinetic, &Balance::strain, &Balance::momentum_scale, &Balance::angular_scale,
+        &Balance::carried_volume, &Balance::volume_apart})
     reduction.sum(of(member), total.*member);
   for (Vec3 Balance::*member : {&Balance::linear_momentum, &Balance::angular_momentum}) {
     for (int i = 0; i < 3; ++i) {
