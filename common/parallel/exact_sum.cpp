@@ -39,6 +39,8 @@ void ExactSum::add(double x) {
   const auto high =
       shift == 0 ? 0 : static_cast<std::int64_t>(mantissa >> digit_bits >> (digit_bits - shift));
   const std::int64_t sign = is_negative ? -1 : 1;
+  first_ = std::min(first_, digit);
+  last_ = std::max(last_, digit + 2);
   words_[digit] += sign * low;
   words_[digit + 1] += sign * middle;
   words_[digit + 2] += sign * high;
@@ -50,16 +52,17 @@ double ExactSum::value() const {
   if (words_[infinity] != 0) return std::numeric_limits<double>::infinity();
   if (words_[minus_infinity] != 0) return -std::numeric_limits<double>::infinity();
 
-  int first = 0, top = n_digits - 1;
+  int first = first_, top = last_;
   while (first < top && words_[first] == 0)
     ++first;
   while (top > first && words_[top] == 0)
     --top;
-  top = std::min(std::max(top, 1) + 2, n_digits - 1);  // with what is carried, and a sign
+  if (top < first) return 0;
+  first = std::min(first, n_digits - 3);
+  top = std::min(std::max(top, first + 1) + 2, n_digits - 1);  // with what is carried, and a sign
   std::array<std::int64_t, n_digits> digits;
   std::copy(words_.begin() + first, words_.begin() + top + 1, digits.begin() + first);
   const std::span range(digits.data() + first, digits.data() + top + 1);
-  std::fill(digits.begin(), digits.begin() + first, 0);
   carry(range);
   const bool is_negative = range.back() < 0;
   if (is_negative) {
@@ -67,16 +70,16 @@ double ExactSum::value() const {
       digit = -digit;
     carry(range);
   }
-  while (top > 1 && digits[top] == 0)
+  while (top > first + 1 && digits[top] == 0)
     --top;
   // the leading 64 bits, the last of which says whether any is set behind them, too
   auto bits = static_cast<std::uint64_t>(digits[top]) << digit_bits |
               static_cast<std::uint64_t>(digits[top - 1]);
   if (bits == 0) return 0;
-  std::uint64_t rest = top >= 2 ? static_cast<std::uint64_t>(digits[top - 2]) : 0;
+  std::uint64_t rest = top >= first + 2 ? static_cast<std::uint64_t>(digits[top - 2]) : 0;
   const int shift = std::countl_zero(bits);
   int place = digit_bits * (top - 1);
-  if (shift > 0 && top >= 2) {
+  if (shift > 0) {
     rest <<= digit_bits;
     bits = bits << shift | rest >> (64 - shift);
     rest <<= shift;

@@ -16,8 +16,13 @@ class ExactSum {
   void add(double x);
   /// The sum, rounded to the nearest double; NaN and infinities as a sum in any order has them.
   double value() const;
-  /// Sums of several parts are sums of these, entry by entry.
-  std::span<std::int64_t> words() { return words_; }
+  /// Sums of several parts are sums of these, entry by entry, which whoever asks for them may
+  /// change.
+  std::span<std::int64_t> words() {
+    first_ = 0;
+    last_ = n_digits - 1;
+    return words_;
+  }
 
  private:
   /// Digits of 32 bits, the first one in units of the least double, 2^-1074; each has room for
@@ -25,6 +30,7 @@ class ExactSum {
   static constexpr int n_digits = 67;
   enum Special { not_a_number = n_digits, infinity, minus_infinity, n_words };
   std::array<std::int64_t, n_words> words_{};
+  int first_ = n_digits, last_ = -1;  // digits that are not all zero
 };
 
 }  // namespace diptych::parallel
