@@ -15,10 +15,7 @@ double largest_bend(const Mesh& mesh, const BoundaryGroup& group) {
   double largest = 0;
   for (const std::int32_t f : group.faces) {
     const BoundaryFace& face = mesh.boundary_faces[f];
-    Vec3 area = Vec3::Zero();
-    for (const Vec3& share : face_area_shares(face, mesh.nodes, Quadrature::exact))
-      area += share;
-    const Vec3 normal = area.normalized();
+    const Vec3 normal = face_area(face, mesh.nodes).normalized();
     for (int i = 0; i < face.n_nodes; ++i) {
       std::vector<Vec3>& others = normals_at[face.nodes[i]];
       for (const Vec3& other : others) {

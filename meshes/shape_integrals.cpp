@@ -228,4 +228,11 @@ std::array<Vec3, 4> face_area_shares(const BoundaryFace& face,
   return share;
 }
 
+Vec3 face_area(const BoundaryFace& face, const std::vector<Vec3>& X) {
+  Vec3 area = Vec3::Zero();
+  for (const Vec3& share : face_area_shares(face, X, Quadrature::exact))
+    area += share;
+  return area;
+}
+
 }  // namespace diptych::meshes

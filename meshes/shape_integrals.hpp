@@ -67,5 +67,7 @@ Mat3 cofactor(const Mat3& J);
 std::array<Vec3, 4> face_area_shares(const BoundaryFace& face,
                                      const std::vector<Vec3>& X,
                                      Quadrature quadrature);
+/// The sum of these: int N dA, outward.  [m^2, m in 2-D]
+Vec3 face_area(const BoundaryFace& face, const std::vector<Vec3>& X);
 
 }  // namespace diptych::meshes

@@ -1,11 +1,14 @@
 #include "benchmarks/run/sliding_watch.hpp"
 
 #include "common/cases/reader.hpp"
+#include "meshes/curved_groups.hpp"
+#include "meshes/shape_integrals.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <numbers>
 
 namespace diptych::harness {
 
@@ -25,13 +28,6 @@ struct SideNode {
   Mat3 turnings = Mat3::Zero();  // of the normal along them, times the way, m
 };
 
-Vec3 area_of(const meshes::Mesh& mesh, const meshes::BoundaryFace& face) {
-  const auto X = [&](int k) { return mesh.nodes[static_cast<size_t>(face.nodes[k])]; };
-  if (face.n_nodes == 2) return (X(1) - X(0)).cross(Vec3::UnitZ());
-  if (face.n_nodes == 3) return 0.5 * (X(1) - X(0)).cross(X(2) - X(0));
-  return 0.5 * (X(2) - X(0)).cross(X(3) - X(1));
-}
-
 template <class Use>
 void for_faces(const meshes::Mesh& mesh, const std::vector<std::string>& groups, const Use& use) {
   for (const std::string& group : groups)
@@ -39,9 +35,10 @@ void for_faces(const meshes::Mesh& mesh, const std::vector<std::string>& groups,
       use(mesh.boundary_faces[static_cast<size_t>(f)]);
 }
 
-/// Edges of the body are not curved: both of their normals are held.
+/// At edges between planes both normals are held.
 bool is_smooth(const SideNode& node) {
-  constexpr double least_cosine = 0.9;  // 26 degrees, facets of a circle in seven
+  static const double least_cosine =
+      std::cos(0.5 * meshes::edge_of_planes * std::numbers::pi / 180);
   return node.least_cosine > least_cosine;
 }
 
@@ -53,13 +50,14 @@ std::map<std::int32_t, SideNode> nodes_of(const meshes::Mesh& mesh,
       use(face.nodes[k], face.nodes[(k + 1) % face.n_nodes]);
   };
   for_faces(mesh, groups, [&](const meshes::BoundaryFace& face) {
-    for_corners(face,
-                [&](std::int32_t a, std::int32_t) { nodes[a].normal += area_of(mesh, face); });
+    for_corners(face, [&](std::int32_t a, std::int32_t) {
+      nodes[a].normal += face_area(face, mesh.nodes);
+    });
   });
   for (auto& entry : nodes)
     entry.second.normal.normalize();
   for_faces(mesh, groups, [&](const meshes::BoundaryFace& face) {
-    const Vec3 normal = area_of(mesh, face).normalized();
+    const Vec3 normal = face_area(face, mesh.nodes).normalized();
     for_corners(face, [&](std::int32_t a, std::int32_t) {
       SideNode& node = nodes[a];
       node.least_cosine = std::min(node.least_cosine, normal.dot(node.normal));

@@ -160,11 +160,7 @@ class Vessel {
   Vessel(const cases::Case& setup, const meshes::Mesh& mesh) : mesh_(mesh) {
     const std::vector<char> is_free = free_faces(setup, mesh);
     for (size_t f = 0; f < is_free.size(); ++f) {
-      Vec3 area = Vec3::Zero();
-      const meshes::BoundaryFace& face = mesh.boundary_faces[f];
-      const auto shares = meshes::face_area_shares(face, mesh.nodes, meshes::Quadrature::vertex);
-      for (int k = 0; k < face.n_nodes; ++k)
-        area += shares[k];
+      const Vec3 area = face_area(mesh.boundary_faces[f], mesh.nodes);
       (is_free[f] != 0 ? free_ : held_).push_back(area.normalized());
     }
   }

@@ -29,7 +29,7 @@ void for_own_chunks(const Part& part, std::int64_t n_chunks, const Use& use) {
 
 class Reduction {
  public:
-  explicit Reduction(const Part& part) : part_(part) {}
+  explicit Reduction(const Part& part) : part_(part) { sums_.reserve(usual_number); }
 
   /// @param of_chunks  [chunk], those of other parts are not read
   /// @param result     set by finish(), which it must outlive
@@ -47,6 +47,7 @@ class Reduction {
   void finish();
 
  private:
+  static constexpr size_t usual_number = 4;
   struct Sum {
     ExactSum exact;
     double* result;

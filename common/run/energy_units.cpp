@@ -20,18 +20,14 @@ namespace {
 
 constexpr double n_steps = 1e4;  // each of which rounds once, this way or that
 
-/// Prescribes velocities that the case gives.
-bool moves(const scheme::BoundaryKind& kind) {
-  return kind.takes == scheme::BoundaryKind::Takes::vector;
-}
-
 /// Projector on the directions that neither walls nor conditions without velocities of their own
 /// hold at any node.
 Mat3 free_directions(const cases::Case& setup, const scheme::PairGraph& graph) {
   Mat3 held = Mat3::Zero();
   for (const cases::BoundaryCase& boundary : setup.boundaries) {
     const scheme::BoundaryKind& kind = scheme::boundary_menu().at(boundary.type);
-    if (kind.acts == scheme::BoundaryKind::Acts::load || moves(kind)) continue;
+    const bool moves = kind.takes == scheme::BoundaryKind::Takes::vector;
+    if (kind.acts == scheme::BoundaryKind::Acts::load || moves) continue;
     scheme::BoundaryValues values;
     values.point = boundary.point;
     values.normal = boundary.normal;

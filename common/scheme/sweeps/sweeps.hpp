@@ -29,8 +29,8 @@ struct SweepResults {
   double stable_dt = 0;            ///< s, of the last sum_forces with_step
   double numerical_power = 0;      ///< W, of the last sum_forces
   double viscous_dissipation = 0;  ///< J, of the step that the last strain_rates ended, 0: of none
-  double least_J =
-      0;  ///< of the last strain_rates; NaN where a node has not J > 0 and finite dF/dt
+  /// Of the last strain_rates; NaN where a node has not J > 0 and finite dF/dt.
+  double least_J = 0;
 };
 
 /// What sums over pairs follow strain rates before anything else changes the body.
@@ -106,8 +106,7 @@ class Sweeps {
   double geometric_rate_;
   double undeformed_speed_;
   SweepResults results_;
-  double old_power_ =
-      0;  ///< W, of the D_ab of the sum_forces before, with the velocities of a drift
+  double old_power_ = 0;  ///< W, of the D_ab of the sum_forces before, with the drift's velocities
   double limited_pairs_ = 0;
   Following made_ = Following::nothing;  ///< by the last strain_rates, which sum_forces is to use
   double old_hourglass_power_ = 0;  ///< W, leapfrog: as old_power_, of what holds unseen motions

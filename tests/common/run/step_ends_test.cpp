@@ -192,6 +192,14 @@ TEST(StepEnds, DoNotMindWhereAPulseActs) {
   EXPECT_EQ(jumps_of(everywhere).size(), 2U);
   EXPECT_EQ(jumps_of(somewhere).size(), 2U);
   EXPECT_EQ(ends_of(everywhere, "ssp-rk3").size(), ends_of(somewhere, "ssp-rk3").size());
+  for (const std::string& load : {everywhere, somewhere}) {
+    for (const double instant : {0.025, 0.0251, 0.0252}) {  // two jumps and a kink
+      const auto ends = ends_of(load, "ssp-rk3");
+      EXPECT_TRUE(std::any_of(ends.begin(), ends.end(), [instant](const StepEnd& end) {
+        return std::abs(end.before - instant) < 1e-9;
+      })) << instant;
+    }
+  }
   EXPECT_EQ(ends_of(everywhere).size(), 5U) << "and what keeps the budget of leapfrog";
   EXPECT_EQ(ends_of(somewhere).size(), 5U);
   // nor a delay of next to nothing: one jump from before the first place to behind the last
