@@ -77,7 +77,7 @@ struct Results {
 void momentum(benchmark::State& run, const SceneChoice& choice, bool with_bound) {
   Scene scene(choice);
   Results results(scene);
-  scheme::evaluate_strain_rates<3>({scene.body, *scene.material, scene.frozen, true, 0, nullptr, 0,
+  scheme::evaluate_strain_rates<3>({scene.body, *scene.material, scene.frozen, 0, nullptr, 0,
                                     results.power.data(), results.other.data()});
   const auto sweep = scheme::momentum_function<3>({}, true);
   const auto kernel = [&] {
