@@ -4,7 +4,10 @@
 #include "meshes/gmsh.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace diptych::meshes {
 
@@ -48,26 +51,14 @@ Vec3 BlockMeasure::boundary_area(std::int64_t a) const {
 }
 
 PatchArea BlockMeasure::patch(const BoundaryGroup& group) const {
-  SummedPatch summed = summed_patch(group);
-  if (summed.is_exact()) return std::move(summed.patch);
-  throw base::InputError(fmt::format(
-      "boundary group '{}' ends within the first nodes of a side, where the weights of {} are not "
-      "those of its faces (area {:.6g} instead of {:.6g}): let it cover the whole side or end "
-      "farther from its edge, or use {}",
-      group.name, use_.asked, summed.sum.norm(), summed.whole.norm(), use_.instead));
-}
-
-std::string BlockMeasure::unfit_group() const {
-  for (const BoundaryGroup& group : mesh_.boundary_groups) {
-    if (!summed_patch(group).is_exact())
-      return fmt::format("group '{}' ends within the first nodes of a side", group.name);
+  if (const auto end = unfit_end(group)) {
+    throw base::InputError(fmt::format(
+        "boundary group '{}' ends within the first nodes of a side, where the weights of {} are "
+        "not those of its faces ({:.6g} spacings instead of {}): let it cover the whole side or "
+        "end farther from its edge, or use {}",
+        group.name, use_.asked, end->weights, end->node, use_.instead));
   }
-  return "";
-}
-
-BlockMeasure::SummedPatch BlockMeasure::summed_patch(const BoundaryGroup& group) const {
-  SummedPatch summed;
-  auto& [patch, sum, whole] = summed;
+  PatchArea patch;
   patch.name = group.name;
   patch.faces = corners_of(mesh_, group);
   std::vector<std::pair<std::int32_t, Vec3>> shares;
@@ -75,7 +66,6 @@ BlockMeasure::SummedPatch BlockMeasure::summed_patch(const BoundaryGroup& group)
     const BoundaryFace& face = mesh_.boundary_faces[f];
     const Side side = side_of(face);
     const double sign = side.is_far ? 1 : -1;
-    whole += sign * this->face(side.direction);
     for (int i = 0; i < face.n_nodes; ++i) {
       const std::int32_t a = face.nodes[i];
       shares.emplace_back(a, sign * area(a, side.direction) / n_faces_on_side(a, side));
@@ -89,16 +79,59 @@ BlockMeasure::SummedPatch BlockMeasure::summed_patch(const BoundaryGroup& group)
       patch.area.push_back(Vec3::Zero());
     }
     patch.area.back() += share;
-    sum += share;
   }
-  return summed;
+  return patch;
 }
 
-bool BlockMeasure::SummedPatch::is_exact() const {
-  double size = 0;
-  for (const Vec3& area : patch.area)
-    size += area.norm();
-  return (sum - whole).norm() <= 1e-12 * size;
+std::string BlockMeasure::unfit_group() const {
+  for (const BoundaryGroup& group : mesh_.boundary_groups) {
+    if (unfit_end(group))
+      return fmt::format("group '{}' ends within the first nodes of a side", group.name);
+  }
+  return "";
+}
+
+/// Of the whole weights of the nodes before it, and half of its own: what the faces up to there
+/// have.
+double BlockMeasure::weights_before(int direction, std::int32_t node) const {
+  const std::vector<double>& H = H_[static_cast<size_t>(direction)];
+  return std::accumulate(H.begin(), H.begin() + node, 0.5 * H[static_cast<size_t>(node)]);
+}
+
+/// End by end: sums over a group could be right while what is too much at one end is missing at
+/// another.
+std::optional<BlockMeasure::GroupEnd> BlockMeasure::unfit_end(const BoundaryGroup& group) const {
+  using Place = std::array<std::int32_t, 5>;  // direction, far, and those along the lines
+  const auto place_of = [&](const BoundaryFace& face) {
+    const Side side = side_of(face);
+    Place place{side.direction, side.is_far ? 1 : 0, 0, 0, 0};
+    for (int d = 0; d < block_.dimension; ++d) {
+      place[2 + d] = block_.place[face.nodes[0]][d];
+      for (int i = 1; i < face.n_nodes; ++i)
+        place[2 + d] = std::min(place[2 + d], block_.place[face.nodes[i]][d]);
+    }
+    return place;
+  };
+  std::vector<Place> covered;
+  covered.reserve(group.faces.size());
+  for (const std::int32_t f : group.faces)
+    covered.push_back(place_of(mesh_.boundary_faces[f]));
+  std::sort(covered.begin(), covered.end());
+  for (const Place& face : covered) {
+    for (int d = 0; d < block_.dimension; ++d) {
+      if (d == face[0]) continue;
+      for (const int step : {-1, 1}) {
+        Place next = face;
+        next[2 + d] += step;
+        if (next[2 + d] < 0 || next[2 + d] > block_.n_nodes[d] - 2) continue;
+        if (std::binary_search(covered.begin(), covered.end(), next)) continue;
+        const std::int32_t node = std::max(face[2 + d], next[2 + d]);
+        const double weights = weights_before(d, node);
+        if (std::abs(weights - node) > 1e-12 * block_.n_nodes[d]) return GroupEnd{node, weights};
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 /// @pre the face is of the boundary, so of a side

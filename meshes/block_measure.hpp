@@ -11,6 +11,7 @@
 #include "meshes/dual_measure.hpp"
 #include "meshes/structured_block.hpp"
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,16 +47,17 @@ class BlockMeasure {
     bool is_far = false;
   };
 
-  /// A patch with the sum of its areas and what its faces add up to, which it has to be.
-  struct SummedPatch {
-    PatchArea patch;
-    Vec3 sum = Vec3::Zero(), whole = Vec3::Zero();
-    bool is_exact() const;
+  /// Where a group ends inside a side, and what weights make of the way to there.
+  struct GroupEnd {
+    std::int32_t node = 0;  ///< along the lines
+    double weights = 0;     ///< in spacings
   };
 
   Side side_of(const BoundaryFace& face) const;
   double n_faces_on_side(std::int32_t a, const Side& side) const;
-  SummedPatch summed_patch(const BoundaryGroup& group) const;
+  /// The first end of the group where the weights before it are not the spacings before it.
+  std::optional<GroupEnd> unfit_end(const BoundaryGroup& group) const;
+  double weights_before(int direction, std::int32_t node) const;
 
   const Mesh& mesh_;
   StructuredBlock block_;

@@ -34,9 +34,42 @@ T volume_by_faces(CellType type, const T (&x)[max_cell_nodes][3]) {
   return volume;
 }
 
-/// @param place  place(node): where the node is, m
-template <class Place>
-double volume_of_one(const Mesh& mesh, std::int64_t cell, const Place& place) {
+template <class T>
+T least_corner_of(CellType type, const T (&x)[max_cell_nodes][3]) {
+  const bool is_plane = dimension_of(type) == 2;
+  T least{};
+  bool is_first = true;
+  for (const LocalCorner& corner : corners_of(type)) {
+    const auto& next = corner.neighbours;
+    T a[3], b[3], c[3], jacobian;
+    for (int i = 0; i < 3; ++i) {
+      a[i] = x[next[0]][i] - x[corner.node][i];
+      b[i] = x[next[1]][i] - x[corner.node][i];
+      c[i] = x[next[2]][i] - x[corner.node][i];
+    }
+    if (is_plane) {
+      jacobian = a[0] * b[1] - a[1] * b[0];
+    } else {
+      jacobian = (a[1] * b[2] - a[2] * b[1]) * c[0] + (a[2] * b[0] - a[0] * b[2]) * c[1] +
+                 (a[0] * b[1] - a[1] * b[0]) * c[2];
+    }
+    least = is_first ? jacobian : algebra::smaller(jacobian, least);
+    is_first = false;
+  }
+  return least;
+}
+
+/// What is known of a cell in its place.
+struct Measures {
+  double volume;      // m^3, m^2 in 2-D: the integral of the Jacobian
+  double corner = 0;  // its least at a corner, where that is asked for
+};
+
+enum class Of { volume, volume_and_corners };
+
+/// Corners of a cell, from the first one. @param place  place(node): where the node is, m
+template <Of of, class Place>
+Measures measures_of_one(const Mesh& mesh, std::int64_t cell, const Place& place) {
   double x[max_cell_nodes][3] = {};
   const auto nodes = mesh.cell(cell);
   const Vec3 origin = place(nodes[0]);
@@ -45,13 +78,16 @@ double volume_of_one(const Mesh& mesh, std::int64_t cell, const Place& place) {
     for (int i = 0; i < 3; ++i)
       x[a][i] = edge[i];
   }
-  return volume_by_faces(mesh.cell_types[cell], x);
+  const CellType type = mesh.cell_types[cell];
+  Measures measures{volume_by_faces(type, x)};
+  if constexpr (of == Of::volume_and_corners) measures.corner = least_corner_of(type, x);
+  return measures;
 }
 
 /// The same of eight cells of one type.
 /// @param cell  the first of them
-template <class Place>
-void volumes_of_eight(const Mesh& mesh, std::int64_t cell, const Place& place, double* volumes) {
+template <Of of, class Place>
+void measure_eight(const Mesh& mesh, std::int64_t cell, const Place& place, Measures* measures) {
   Lanes x[max_cell_nodes][3];
   for (int i = 0; i < 3; ++i)
     x[0][i] = Lanes{};
@@ -64,15 +100,21 @@ void volumes_of_eight(const Mesh& mesh, std::int64_t cell, const Place& place, d
         x[a][i][lane] = edge[i];
     }
   }
-  const Lanes volume = volume_by_faces(mesh.cell_types[cell], x);
+  const CellType type = mesh.cell_types[cell];
+  Lanes corner{};
+  if constexpr (of == Of::volume_and_corners) corner = least_corner_of(type, x);
+  const Lanes volume = volume_by_faces(type, x);
   for (int lane = 0; lane < n_lanes; ++lane)
-    volumes[lane] = volume[lane];
+    measures[lane] = {volume[lane], corner[lane]};
 }
 
 /// Of cells [begin, end).
-template <class Place>
-void put_volumes(
-    const Mesh& mesh, std::int64_t begin, std::int64_t end, const Place& place, double* volumes) {
+template <Of of, class Place>
+void measure(const Mesh& mesh,
+             std::int64_t begin,
+             std::int64_t end,
+             const Place& place,
+             Measures* measures) {
   const auto are_alike = [&](std::int64_t first) {
     for (std::int64_t c = first + 1; c < first + n_lanes; ++c) {
       if (mesh.cell_types[c] != mesh.cell_types[first]) return false;
@@ -81,10 +123,10 @@ void put_volumes(
   };
   for (std::int64_t c = begin; c < end;) {
     if (c + n_lanes <= end && are_alike(c)) {
-      volumes_of_eight(mesh, c, place, volumes + (c - begin));
+      measure_eight<of>(mesh, c, place, measures + (c - begin));
       c += n_lanes;
     } else {
-      volumes[c - begin] = volume_of_one(mesh, c, place);
+      measures[c - begin] = measures_of_one<of>(mesh, c, place);
       ++c;
     }
   }
@@ -93,6 +135,8 @@ void put_volumes(
 /// The least of all and of `next`, whose cells come after.
 void add(const DeformedCells::Least& next, DeformedCells::Least& all) {
   all.n_inverted += next.n_inverted;
+  all.n_folded += next.n_folded;
+  if (all.folded < 0) all.folded = next.folded;
   // what is not finite is the worst of all
   const bool is_worse = std::isnan(next.J) ? !std::isnan(all.J) : next.J < all.J;
   if (!is_worse) return;
@@ -100,20 +144,28 @@ void add(const DeformedCells::Least& next, DeformedCells::Least& all) {
   all.cell = next.cell;
 }
 
-constexpr DeformedCells::Least none{std::numeric_limits<double>::infinity(), 0, 0};
+constexpr DeformedCells::Least none{std::numeric_limits<double>::infinity(), 0, 0, 0, -1};
 
 }  // namespace
 
 double signed_volume(const Mesh& mesh, std::int64_t cell, std::span<const Vec3> x) {
-  return volume_of_one(mesh, cell, [&](std::int32_t a) -> const Vec3& { return x[a]; });
+  const auto place = [&](std::int32_t a) -> const Vec3& { return x[a]; };
+  return measures_of_one<Of::volume>(mesh, cell, place).volume;
+}
+
+double least_corner_jacobian(const Mesh& mesh, std::int64_t cell, std::span<const Vec3> x) {
+  const auto place = [&](std::int32_t a) -> const Vec3& { return x[a]; };
+  return measures_of_one<Of::volume_and_corners>(mesh, cell, place).corner;
 }
 
 DeformedCells::DeformedCells(const Mesh& mesh)
     : mesh_(mesh), volume_(static_cast<size_t>(mesh.n_cells())) {
   parallel::for_chunks(mesh.n_cells(), [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-    put_volumes(
-        mesh, begin, end, [&](std::int32_t a) -> const Vec3& { return mesh.nodes[a]; },
-        volume_.data() + begin);
+    Measures measures[parallel::chunk_size];
+    measure<Of::volume>(
+        mesh, begin, end, [&](std::int32_t a) -> const Vec3& { return mesh.nodes[a]; }, measures);
+    for (std::int64_t c = begin; c < end; ++c)
+      volume_[c] = measures[c - begin].volume;
   });
 }
 
@@ -125,20 +177,21 @@ DeformedCells::Outlook DeformedCells::outlook(std::span<const Vec3> u,
   std::vector<Outlook> parts(n_chunks, {none, never});
   parallel::for_chunks(
       mesh_.n_cells(), [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
-        double now[parallel::chunk_size], next[parallel::chunk_size];
-        put_volumes(
+        Measures now[parallel::chunk_size], next[parallel::chunk_size];
+        measure<Of::volume_and_corners>(
             mesh_, begin, end, [&](std::int32_t a) -> Vec3 { return mesh_.nodes[a] + u[a]; }, now);
         if (!v.empty()) {
-          put_volumes(
+          measure<Of::volume>(
               mesh_, begin, end,
               [&](std::int32_t a) -> Vec3 { return mesh_.nodes[a] + u[a] + dt * v[a]; }, next);
         }
         Outlook& part = parts[chunk];
         for (std::int64_t c = begin; c < end; ++c) {
-          const double volume = now[c - begin], J = volume / volume_[c];
-          add({J, J > 0 ? 0 : 1, c}, part.now);
-          if (v.empty() || !(next[c - begin] < volume)) continue;
-          part.steps_left = std::min(part.steps_left, volume / (volume - next[c - begin]));
+          const double volume = now[c - begin].volume, J = volume / volume_[c];
+          const bool is_folded = J > 0 && now[c - begin].corner <= 0;
+          add({J, J > 0 ? 0 : 1, c, is_folded ? 1 : 0, is_folded ? c : -1}, part.now);
+          if (v.empty() || !(next[c - begin].volume < volume)) continue;
+          part.steps_left = std::min(part.steps_left, volume / (volume - next[c - begin].volume));
         }
       });
   Outlook all{none, never};

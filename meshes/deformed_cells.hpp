@@ -17,6 +17,10 @@ namespace diptych::meshes {
 /// @param x  [n_nodes of the mesh] m
 double signed_volume(const Mesh& mesh, std::int64_t cell, std::span<const Vec3> x);
 
+/// Least Jacobian of the cell's corners (as cell_checks.hpp has it) with its nodes at x, m^3 or
+/// m^2: not above 0 where the cell is folded there, whatever the sign of its volume.
+double least_corner_jacobian(const Mesh& mesh, std::int64_t cell, std::span<const Vec3> x);
+
 /// Of all cells, the deformed volume over the volume in the mesh: the mean J of a cell.
 class DeformedCells {
  public:
@@ -27,6 +31,8 @@ class DeformedCells {
     double J = 1;                 ///< least ratio of all cells; NaN where a displacement is
     std::int64_t n_inverted = 0;  ///< cells with a ratio <= 0
     std::int64_t cell = 0;        ///< that with the least ratio, the first one of NaN
+    std::int64_t n_folded = 0;    ///< cells with a ratio > 0 that have a corner inside out
+    std::int64_t folded = -1;     ///< the first of them
   };
   struct Outlook {
     Least now;

@@ -14,6 +14,7 @@ std::string united_name(const std::vector<std::string>& names);
 
 /// Adds this group to the mesh, once, where two of them have faces in common; names of groups that
 /// the mesh does not have are passed over.
+/// @throws base::InputError where a group of the mesh has its name and other faces
 void unite_overlapping(const std::vector<std::string>& names, Mesh& mesh);
 
 }  // namespace diptych::meshes

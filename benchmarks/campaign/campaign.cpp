@@ -7,6 +7,7 @@
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/parallel/ranks.hpp"
 #include "common/parallel/thread_count.hpp"
 
 #include <fmt/format.h>
@@ -36,7 +37,9 @@ std::optional<RunResult> finished_before(const CampaignRun& run, TakeOver take_o
   if (finished) renew_references(*run.setup, run.options.directory, *finished);
   if (!finished || take_over != TakeOver::timed) return finished;
   parallel::set_threads(run.options.threads);
+  const parallel::Communicator* ranks = parallel::all_ranks();
   const bool same = finished->summary.threads == parallel::running_threads() &&
+                    finished->summary.ranks == (ranks == nullptr ? 1 : ranks->size()) &&
                     finished->summary.provenance.cpu == provenance("").cpu;
   return same ? std::move(finished) : std::nullopt;
 }

@@ -29,6 +29,8 @@ struct ScalarRow {
   std::string finest, extrapolated = "-", order = "-", index = "-", bar = "-", remark;
 };
 
+constexpr const char* of_two_grids = "two grids";
+
 ScalarRow row_of(const ColumnConvergence& study, const Quantity& quantity) {
   const size_t last = quantity.values.size() - 1;
   ScalarRow row;
@@ -41,8 +43,8 @@ ScalarRow row_of(const ColumnConvergence& study, const Quantity& quantity) {
     if (g->kind != report::Convergence::monotone) row.remark = report::convergence_name(g->kind);
   } else if (const double bar = error_bar(study, quantity, last); std::isfinite(bar)) {
     row.bar = number_text(bar, bar_format);
-    row.index = quantity.values[1] != 0 ? percent(bar / std::abs(quantity.values[1])) : "-";
-    row.remark = "two grids";
+    row.index = quantity.values[last] != 0 ? percent(bar / std::abs(quantity.values[last])) : "-";
+    row.remark = of_two_grids;
   }
   return row;
 }
@@ -213,6 +215,9 @@ std::string convergence_csv(const std::vector<ColumnConvergence>& studies) {
             text += fmt::format(",{},{},{},{},{}\n", csv_number(g->order),
                                 csv_number(g->extrapolated), csv_number(g->error_bar),
                                 csv_number(g->index), report::convergence_name(g->kind));
+          } else if (const double bar = error_bar(study, quantity, i); std::isfinite(bar)) {
+            text += fmt::format(",,,{},{},{}\n", csv_number(bar),
+                                csv_number(bar / std::abs(quantity.values[i])), of_two_grids);
           } else {
             text += ",,,,,\n";
           }

@@ -1,5 +1,6 @@
 #include "benchmarks/cost/local_steps.hpp"
 
+#include "benchmarks/terminal/text.hpp"
 #include "common/scheme/time_step.hpp"
 
 #include <algorithm>
@@ -96,7 +97,7 @@ std::string local_steps_csv(const std::vector<LocalSteps>& rows) {
       "variant,method,nodes,largest over smallest step [-],levels [-],nodes at the smallest step "
       "[-],ideal speed-up by pairs [-],ideal speed-up by nodes [-]\n";
   for (const LocalSteps& row : rows) {
-    csv += fmt::format("\"{}\",{},{},{:.6g},{},{:.6g},{:.6g},{:.6g}\n", row.variant, row.method,
+    csv += fmt::format("{},{},{},{:.6g},{},{:.6g},{:.6g},{:.6g}\n", quoted(row.variant), row.method,
                        row.nodes, row.rate_ratio, row.shares.size(), row.shares.front(),
                        row.of_pairs, row.of_nodes);
   }

@@ -1,6 +1,7 @@
 #include "benchmarks/cost/stability.hpp"
 
 #include "benchmarks/run/interruption.hpp"
+#include "benchmarks/terminal/text.hpp"
 #include "common/base/error.hpp"
 #include "common/run/default_cfl.hpp"
 #include "common/run/solver.hpp"
@@ -182,7 +183,7 @@ std::string stability_csv(const std::vector<StabilityLimit>& limits) {
   std::string csv =
       "variant,method,integrator,nodes,limit [-],dt at limit [s],default [-],default/limit [-]\n";
   for (const StabilityLimit& row : limits) {
-    csv += fmt::format("\"{}\",{},{},{},{:.6g},{:.6g},{:.6g},{:.6g}\n", row.variant, row.method,
+    csv += fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g}\n", quoted(row.variant), row.method,
                        row.integrator, row.nodes, row.limit, row.dt, row.default_cfl, row.ratio());
   }
   return csv;

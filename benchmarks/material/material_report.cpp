@@ -51,11 +51,17 @@ std::string path_table(const cases::Case& setup,
         p.state.F(0, 0), p.state.F(0, 1), p.P(0, 0), p.P(0, 1), p.P(1, 1), p.energy, p.dissipation);
   }
   const PathPoint& end = points.back();
+  const double residual =
+      std::abs(end.work - (end.energy - points.front().energy) - end.dissipated) /
+      std::max({std::abs(end.work), end.energy, end.dissipated, 1e-300});
   text += fmt::format(
       "work {:.6g}, stored {:.6g}, dissipated {:.6g} J/m^3; residual {:.1e} of the largest\n",
-      end.work, end.energy - points.front().energy, end.dissipated,
-      std::abs(end.work - (end.energy - points.front().energy) - end.dissipated) /
-          std::max({std::abs(end.work), end.energy, end.dissipated, 1e-300}));
+      end.work, end.energy - points.front().energy, end.dissipated, residual);
+  if (residual > 1e-2) {
+    text +=
+        "  the path does NOT conserve energy: take more --steps; if that changes little, the\n"
+        "  stress of the material is no derivative of its energy\n";
+  }
   const double cycles = path.end * path.angular_frequency / (2 * 3.14159265358979323846);
   if (path.course == Course::oscillation && cycles >= 1 - 1e-9) {
     const DynamicModuli G = dynamic_moduli(points, path);

@@ -395,12 +395,12 @@ RegressMeasurement measure_regress(const std::string& case_file,
     records.push_back(record_of(setup, run));
     if (s.level + 1 == size.levels) ask_references(run, now);
     if (s.level > 0) return;
-    const double rounding = field_rounding(natural[s.method], largest_energy(run.history));
+    const double rounding = field_rounding(natural[s.method], s.largest_energy);
     add_errors(s, rounding, now.figures.errors);
     add_quantities(run, natural[s.method], now.figures.quantities);
     now.conservation = conservation_of(setup, run);
     ask_dissipation(setup, run, now);
-    energy = std::max(energy, largest_energy(run.history));
+    energy = std::max(energy, s.largest_energy);
   };
   if (!make_runs(plan, TakeOver::nothing, add)) return measurement;
   if (size.levels < 2) {

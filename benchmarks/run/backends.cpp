@@ -4,6 +4,7 @@
 #include "common/base/error.hpp"
 #include "common/run/solver.hpp"
 #include "common/scheme/option_menus.hpp"
+#include "common/scheme/volumes/bulk_volumes.hpp"
 #include "fvm/fvm_graph.hpp"
 #include "meshes/cell_widths.hpp"
 #include "meshes/structured_block.hpp"
@@ -55,8 +56,8 @@ scheme::Operators fvm_operators(const meshes::Mesh& mesh,
 /// (notes 10.1).
 constexpr const char* pressure_notice =
     "nodes carry the bulk pressure, which can be strong here; above some shear moduli it turns "
-    "cells inside out (the run is then stopped), which scheme.volumes = \"cells\" bears where the "
-    "mesh and the operators have them (notes 3.9)";
+    "cells inside out (the run is then stopped), which scheme.volumes = \"cells\", or \"lines\" "
+    "with SPH on boxes, bears where the mesh and the operators have them (notes 3.9)";
 
 /// Of those that sum by parts: jumps that lose their sign were found to harm bodies under such
 /// pressure alone.
@@ -69,6 +70,10 @@ constexpr const char* sign_notice =
 constexpr const char* hourglass_notice =
     "scheme.hourglass has no effect: it is for operators that sum by parts off boxes and curved "
     "blocks (notes 3.12)";
+
+constexpr const char* cell_shear_notice =
+    "scheme.cell_shear has no effect: volumes of cells do not carry the pressure here "
+    "(scheme.volumes = \"cells\" asks for them)";
 
 /// Part of an area by which forces of a constant stress may be out of balance.
 constexpr double closed = 1e-9;
@@ -108,9 +113,10 @@ scheme::Operators finished(scheme::Operators operators,
   scheme::PairGraph& graph = operators.graph;
   const bool presses = !strong_pressure.empty();
   const bool may_press = presses || is_nearly_incompressible(setup.material);
-  if (setup.scheme.volumes == "auto" && !may_press) {
-    graph.lines = {};  // they err as nodes do in smooth motion and cost a sixth more
-    if (!takes_cells(operators, mesh, setup)) graph.cells = {};
+  if (setup.scheme.volumes == "auto" && !presses) {
+    // they err as nodes do in smooth motion and cost a sixth more, or come apart in tension
+    if (!holds_with_lines(setup.material)) graph.lines = {};
+    if (!may_press && !takes_cells(operators, mesh, setup)) graph.cells = {};
   }
   if (operators.loses_sign && presses && leaves_jumps(setup.scheme))
     operators.notices.emplace_back(sign_notice);
@@ -120,6 +126,9 @@ scheme::Operators finished(scheme::Operators operators,
   if (setup.scheme.hourglass != cases::SchemeCase().hourglass && setup.scheme.hourglass != 0 &&
       graph.edges.empty())
     operators.notices.emplace_back(hourglass_notice);
+  if (setup.scheme.cell_shear != cases::SchemeCase().cell_shear && setup.scheme.volumes == "auto" &&
+      scheme::safe_volumes(graph) != scheme::Volumes::cells)
+    operators.notices.emplace_back(cell_shear_notice);
   if (asks_for_closure) note_open_rows(graph, operators.notices);
   set_precision(graph, scheme::precision_menu().at(setup.scheme.precision));
   return operators;

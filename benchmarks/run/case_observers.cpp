@@ -66,7 +66,11 @@ CaseObservers::CaseObservers(const cases::Case& setup,
                units_,
                run::momentum_units(setup, scene.graph, rounding_)),
       steps_(*scene.solver, probes_),
-      exact_(setup, *scene.solver, survey_of_exact, probes_),
+      exact_(setup,
+             *scene.solver,
+             survey_of_exact,
+             probes_,
+             run::natural_sizes(setup, scene.graph, scene.solver->undeformed_speed())),
       fields_(scene.mesh.order, run::probe_columns(setup.probes, false), history_),
       progress_(setup, options, history_),
       walls_(setup, scene.mesh.mesh, spacing),
@@ -142,7 +146,7 @@ std::optional<std::string> CaseObservers::notice_of_exact() const {
         "{:.0f} % of its largest norm, so that errors say how far two motions are apart",
         field, 100 * error);
   }
-  return std::nullopt;
+  return exact_.notice();
 }
 
 void CaseObservers::give(RunResult& result) {

@@ -54,8 +54,10 @@ class CaseObservers {
   const std::vector<io::HistoryRow>& rows() const { return history_.rows(); }
   /// What is to be told of walls that the body went through.
   std::optional<std::string> notice_of_walls() const { return walls_.notice(); }
+  std::optional<std::string> notice_of_cells() const { return cells_.notice(); }
   std::optional<std::string> notice_of_sliding() const { return sliding_.notice(); }
-  /// What is to be told of the exact solution: nothing unless the run begins with another motion.
+  /// What is to be told of the exact solution: that the run begins with another motion, or that
+  /// some of its fields are zero.
   std::optional<std::string> notice_of_exact() const;
   /// What is to be told of volumes that carry the pressure, where J of nodes has left them.
   std::optional<std::string> notice_of_volumes() const { return volume_guard_.notice(); }

@@ -69,7 +69,22 @@ void share_nodes(const Mesh* whole, parallel::Communicator& ranks, OwnCells& own
 }
 
 /// The order of an answer.
-enum Place { J, n_inverted, cell, node, x, y, z, steps_left, n_places };
+enum Place {
+  J,
+  n_inverted,
+  cell,
+  node,
+  x,
+  y,
+  z,
+  steps_left,
+  n_folded,
+  folded,
+  folded_x,
+  folded_y,
+  folded_z,
+  n_places
+};
 
 }  // namespace
 
@@ -97,23 +112,32 @@ std::vector<double> CellSurvey::answer(const run::Solver& solver,
   if (mesh_.n_cells() == 0) return {};
   const auto outlook = deformed_.outlook(motion.u, motion.v, question[0]);
   const bool is_whole = own_.cells.empty();
+  const auto in_body = [&](std::int64_t c) {
+    return static_cast<double>(is_whole ? c : own_.cells[static_cast<size_t>(c)]);
+  };
   const auto c = outlook.now.cell;
   const std::int32_t first = mesh_.cell(c)[0];
   const meshes::Vec3 centre = meshes::centre_of(mesh_, c);
   std::vector<double> answer(n_places);
   answer[J] = outlook.now.J;
   answer[n_inverted] = static_cast<double>(outlook.now.n_inverted);
-  answer[cell] = static_cast<double>(is_whole ? c : own_.cells[static_cast<size_t>(c)]);
+  answer[cell] = in_body(c);
   answer[node] = is_whole ? first : reads_.nodes[static_cast<size_t>(first)];
   for (int i = 0; i < 3; ++i)
     answer[x + i] = centre[i];
   answer[steps_left] = outlook.steps_left;
+  if (outlook.now.n_folded == 0) return answer;
+  answer[n_folded] = static_cast<double>(outlook.now.n_folded);
+  answer[folded] = in_body(outlook.now.folded);
+  const meshes::Vec3 fold = meshes::centre_of(mesh_, outlook.now.folded);
+  for (int i = 0; i < 3; ++i)
+    answer[folded_x + i] = fold[i];
   return answer;
 }
 
 run::CellOutlook outlook_of(const run::Answers& answers, std::int64_t n_cells) {
   run::CellOutlook all{{}, std::numeric_limits<double>::infinity()};
-  const std::vector<double>* least = nullptr;
+  const std::vector<double>*least = nullptr, *fold = nullptr;
   // what is not finite is the worst of all
   const auto is_worse = [](const std::vector<double>& one, const std::vector<double>& other) {
     const bool nan = std::isnan(one[J]), other_nan = std::isnan(other[J]);
@@ -126,8 +150,12 @@ run::CellOutlook outlook_of(const run::Answers& answers, std::int64_t n_cells) {
     all.now.n_inverted += static_cast<std::int64_t>(answer[n_inverted]);
     all.steps_left = std::min(all.steps_left, answer[steps_left]);
     if (least == nullptr || is_worse(answer, *least)) least = &answer;
+    all.now.n_folded += static_cast<std::int64_t>(answer[n_folded]);
+    if (answer[n_folded] > 0 && (fold == nullptr || answer[folded] < (*fold)[folded]))
+      fold = &answer;
   }
   all.now.n_cells = n_cells;
+  if (fold != nullptr) all.now.folded = {(*fold)[folded_x], (*fold)[folded_y], (*fold)[folded_z]};
   if (least == nullptr) return all;
   all.now.J = (*least)[J];
   all.now.centre = {(*least)[x], (*least)[y], (*least)[z]};

@@ -41,7 +41,11 @@ bool is_overridden(const VariantCase& variant, const cases::Case& setup) {
     return keys;
   };
   const std::set<std::string> set = keys_of(setup.overrides), own = keys_of(variant.set);
-  return std::any_of(own.begin(), own.end(), [&](const auto& key) { return set.contains(key); });
+  const auto is_set = [&](const std::string& key) {
+    return std::any_of(set.begin(), set.end(),
+                       [&](const auto& other) { return cases::are_of_one_value(key, other); });
+  };
+  return std::any_of(own.begin(), own.end(), is_set);
 }
 
 Column column_of(const cases::Case& setup, const VariantCase& variant, const std::string& method) {

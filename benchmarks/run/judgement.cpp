@@ -1,5 +1,6 @@
 #include "benchmarks/run/judgement.hpp"
 
+#include "benchmarks/run/run_quantities.hpp"
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
 
@@ -27,14 +28,6 @@ cases::BoundCase at_most(const std::string& figure, double value) {
 
 }  // namespace
 
-double largest_energy(const std::vector<io::HistoryRow>& history) {
-  double largest = 0;
-  for (const io::HistoryRow& row : history)
-    largest = std::max({largest, row.energy.kinetic + std::abs(row.energy.strain),
-                        std::abs(row.energy.external_work)});
-  return largest;
-}
-
 double numerical_share(const io::RunSummary& run) {
   return run.largest_energy > 0 ? run.energy.numerical_dissipation / run.largest_energy : 0;
 }
@@ -42,26 +35,18 @@ double numerical_share(const io::RunSummary& run) {
 std::map<std::string, double> run_figures(const io::RunSummary& run,
                                           const std::vector<io::HistoryRow>& history) {
   std::map<std::string, double> figures{
-      {"energy residual", std::abs(run.energy.relative_residual)},
       {"inverted cells", static_cast<double>(run.most_inverted_cells)},
       {"least cell J", run.least_cell_J},
-      {"least J", run.min_jacobian},
       {"kinetic growth", kinetic_growth(history)},
-      {"kinetic energy", run.energy.kinetic},
-      {"strain energy", run.energy.strain},
-      {"external work", run.energy.external_work},
-      {"viscous dissipation", run.energy.viscous_dissipation},
-      {"numerical dissipation", run.energy.numerical_dissipation},
       {"numerical share", numerical_share(run)},
       {"linear momentum drift", run.linear_momentum_drift},
-      {"angular momentum drift", run.angular_momentum_drift},
-      {"steps", static_cast<double>(run.steps)}};
+      {"angular momentum drift", run.angular_momentum_drift}};
+  for (const RunQuantity& q : common_quantities(run))
+    figures[q.name] = q.value;
+  figures["energy residual"] = std::abs(run.energy.relative_residual);
   for (const io::QuantitySummary& probe : run.quantities) {
-    figures[probe.name + ", final"] = probe.final_value;
-    figures[probe.name + ", least"] = probe.least;
-    figures[probe.name + ", greatest"] = probe.greatest;
-    figures[probe.name + ", period"] =
-        probe.n_periods > 0 ? probe.period : std::numeric_limits<double>::quiet_NaN();
+    for (const RunQuantity& q : quantities_of_probe(probe))
+      figures[q.name] = q.value;
   }
   return figures;
 }
@@ -137,6 +122,15 @@ void check_figures(const cases::Case& setup) {
   for (const cases::ProbeCase& probe : setup.probes)
     run.quantities.emplace_back().name = probe.name;
   asked_of(run, {}, setup.expect.holds);
+  for (const cases::BoundCase& bound : setup.expect.holds) {
+    for (const cases::ProbeCase& probe : setup.probes) {
+      const bool is_of_swing =
+          bound.figure == probe.name + ", period" || bound.figure == probe.name + ", amplitude";
+      if (is_of_swing && !probe.oscillation)
+        throw base::InputError(fmt::format("{}'{}' asks for oscillation = true in the probe",
+                                           functions::prefix(bound.where), bound.figure));
+    }
+  }
 }
 
 const char* word_of(Outcome outcome) {

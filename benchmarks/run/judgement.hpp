@@ -12,9 +12,6 @@
 
 namespace diptych::harness {
 
-/// Largest energy that the body has held at any output time, or that was brought in.
-double largest_energy(const std::vector<io::HistoryRow>& history);
-
 /// What D_ab has dissipated at the end as a share of RunSummary::largest_energy; 0 of a body
 /// without energy.
 double numerical_share(const io::RunSummary& run);
@@ -22,8 +19,8 @@ double numerical_share(const io::RunSummary& run);
 /// Numbers of a run that bounds may be asked of, by name: "energy residual" (its magnitude at the
 /// end), "inverted cells" (the most at any output), "least cell J", "least J", "kinetic growth"
 /// (the greatest kinetic energy of any output over that of the start: noise on a body at rest must
-/// not exceed 1), "numerical share" (numerical_share), energies at the end, drifts of the momenta,
-/// "steps", and of each probe "NAME, final", "NAME, least", "NAME, greatest", "NAME, period".
+/// not exceed 1), "numerical share" (numerical_share), drifts of the momenta, and what
+/// run_quantities.hpp has of a run and its probes.
 std::map<std::string, double> run_figures(const io::RunSummary& run,
                                           const std::vector<io::HistoryRow>& history);
 

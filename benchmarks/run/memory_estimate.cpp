@@ -9,6 +9,7 @@
 #include "common/closure/sbp_operator.hpp"
 #include "common/run/solver.hpp"
 #include "meshes/gmsh.hpp"
+#include "sph/kernels/kernel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -29,8 +30,7 @@ constexpr double most_nodes = std::numeric_limits<std::int32_t>::max();
 struct Costs {
   double node, branch, pair, stored_pair;
 };
-/// node, branch: the state; pair: a row of the graph; stored_pair: geometry, where rows are no
-/// translates.
+/// node, branch: the state; pair: a row of the graph; stored_pair: geometry of rows of their own.
 constexpr Costs in_double{1220, 220, 29, 90}, in_single{750, 100, 29, 57};
 constexpr double graph_node = 900;
 constexpr double of_plane = 0.64;        ///< of the nodes of 3-D
@@ -159,7 +159,7 @@ double reach_of(const cases::Case& setup) {
 
 /// Of the support of the kernel, in spacings of a cube of the same volume.
 double support_radius(const cases::SphCase& sph) {
-  return (sph.kernel == "quintic-spline" ? 3 : 2) * sph.kappa;
+  return sph::kernels().at(sph.kernel).support * sph.kappa;
 }
 
 /// Whether operators sum by parts on nodes that are no lattice (notes 4.5).
@@ -277,7 +277,9 @@ double bytes_of(const cases::Case& setup,
   const bool commutes = method != "sph" && !is_simplex(setup.mesh.element) &&
                         setup.mesh.perturbation == 0 && setup.fvm.stencil != "integral";
   const bool on_lines = method == "sph" && sums_on_lattice(setup);
-  const bool wants_volumes = may_press_strongly(setup) || is_nearly_incompressible(setup.material);
+  const bool wants_volumes =
+      may_press_strongly(setup) ||
+      (on_lines ? holds_with_lines(setup.material) : is_nearly_incompressible(setup.material));
   const bool errs_less_with_cells =
       !is_lattice(setup.mesh) && scheme.face_correction == 0 &&
       (method == "sph" || setup.fvm.stencil == "integral" || is_simplex(setup.mesh.element));

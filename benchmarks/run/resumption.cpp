@@ -5,9 +5,11 @@
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 #include "common/run/references.hpp"
+#include "meshes/geo/geo_scan.hpp"
 
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 
 namespace diptych::harness {
 
@@ -33,12 +35,31 @@ std::vector<io::StepRow> steps_in(const std::string& directory, const cases::Cas
   return rows;
 }
 
+/// What the file of a mesh says, with all that it takes in. Where it may not be read the run says
+/// so.
+std::string text_of_mesh(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return "";
+  if (fs::path(path).extension() != ".geo") return io::read_file(path);
+  std::string all;
+  try {
+    for (const std::string& file : meshes::files_read(path)) {
+      const std::string text = io::read_file(file);
+      all += fmt::format("{} {} ", fs::relative(file, fs::path(path).parent_path()).string(),
+                         text.size()) +
+             text;
+    }
+  } catch (const base::InputError&) {
+    return io::read_file(path);
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string input_hash(const cases::Case& setup, const std::vector<NodeMeasure>& measures) {
   std::string all = setup.hash;
-  std::error_code error;
-  if (fs::is_regular_file(setup.mesh.file, error)) all += io::read_file(setup.mesh.file);
+  all += text_of_mesh(setup.mesh.file);
   for (const NodeMeasure& measure : measures)
     all += '\0' + measure.text;
   return cases::case_hash(all, {});

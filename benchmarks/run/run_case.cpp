@@ -58,7 +58,7 @@ double spacing_of(const CaseGraph& scene) {
     return std::pow(volume / n, 1.0 / graph.dimension);
   }
   for (std::int64_t a = 0; a < graph.n_nodes(); ++a) {
-    if (!graph.boundary_area[a].isZero()) continue;
+    if (!graph.boundary_area[a].isZero(0)) continue;
     volume += graph.Omega[a];
     ++n;
   }
@@ -291,11 +291,24 @@ void CaseRun::note_dissipation() {
   if (is_meant || result_.history.empty()) return;
   const double share = numerical_share(s);
   const double caught = s.largest_energy > 0 ? s.contact_loss / s.largest_energy : 0;
-  if (share + caught <= worth_telling) return;
-  s.notices.push_back(fmt::format(
-      "numerical dissipation took {:.2g} of the largest energy{}: the mesh hardly resolves the "
-      "motion; see how much a finer one changes (--level, converge)",
-      share, caught > 0.01 ? fmt::format(", walls {:.2g} as they caught nodes", caught) : ""));
+  const double of_mobile =
+      s.mobile_energy > 0 ? s.energy.numerical_dissipation / s.mobile_energy : 0;
+  std::string took;
+  if (share + caught > worth_telling) {
+    took = fmt::format(
+        "{:.2g} of the largest energy{}", share,
+        caught > 0.01 ? fmt::format(", walls {:.2g} as they caught nodes", caught) : "");
+  } else if (of_mobile > worth_telling) {
+    took = fmt::format(
+        "{:.2g} of what the body moves with ({:.3g} J; strain energy that was there "
+        "all the time apart)",
+        of_mobile, s.mobile_energy);
+  }
+  if (took.empty()) return;
+  s.notices.push_back(
+      fmt::format("numerical dissipation took {}: the mesh hardly resolves the "
+                  "motion; see how much a finer one changes (--level, converge)",
+                  took));
   tell(s.notices.back());
 }
 
@@ -315,9 +328,9 @@ std::optional<std::string> CaseRun::notice_of_rounding() const {
 }
 
 void CaseRun::note_contradictions() {
-  for (const auto& notice :
-       {observers_->notice_of_walls(), observers_->notice_of_sliding(),
-        observers_->notice_of_exact(), observers_->notice_of_volumes(), notice_of_rounding()}) {
+  for (const auto& notice : {observers_->notice_of_walls(), observers_->notice_of_sliding(),
+                             observers_->notice_of_cells(), observers_->notice_of_exact(),
+                             observers_->notice_of_volumes(), notice_of_rounding()}) {
     if (!notice) continue;
     result_.summary.notices.push_back(*notice);
     tell(*notice);

@@ -15,6 +15,7 @@ void RunIdentity::archive(algebra::Archive& archive) {
   archive.text("identity/settings", settings);
   archive.text("identity/volumes", volumes);
   archive.text("identity/nodes", nodes);
+  archive.text("identity/groups", groups);
   archive.text("identity/program", program);
   archive.text("identity/version", version);
   archive.text("identity/instruction set", instruction_set);
@@ -29,6 +30,7 @@ RunIdentity identity_of(const cases::Case& setup,
   identity.settings = cases::settings_text(cases::lasting_settings(setup));
   identity.volumes = summary.volumes;
   identity.nodes = run::hash_of_nodes(graph);
+  identity.groups = run::hash_of_groups(graph);
   identity.program = summary.provenance.program;
   identity.version = summary.provenance.version + " " + summary.provenance.commit;
   identity.instruction_set = summary.provenance.instruction_set;
@@ -53,6 +55,10 @@ std::string difference_of(const RunIdentity& before, const RunIdentity& now) {
   }
   if (before.nodes != now.nodes)
     return "is of other nodes: the mesh file, or the gmsh that meshed it, has changed";
+  if (before.groups != now.groups)
+    return "is of other boundary groups: those of the mesh file, or of the gmsh that meshed it, "
+           "have "
+           "changed";
   return "";
 }
 

@@ -16,6 +16,7 @@ struct RunIdentity {
   int level = 0;
   std::string settings;         ///< cases::lasting_settings, a line each
   std::string nodes;            ///< hash of their places and volumes
+  std::string groups;           ///< hash of the boundary groups
   std::string volumes;          ///< what scheme.volumes came to
   std::string program;          ///< hash of the executable
   std::string version;          ///< of it, with the commit

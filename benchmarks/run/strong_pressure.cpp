@@ -307,6 +307,12 @@ bool is_nearly_incompressible(const cases::MaterialCase& material) {
   return bulk_of(material) > least_bulk * material.shear_modulus;
 }
 
+bool holds_with_lines(const cases::MaterialCase& material) {
+  constexpr double least_of_areas = 0.25;  // of the shear modulus, as xi + zeta
+  return is_nearly_incompressible(material) && material.model == "mooney-rivlin" &&
+         material.zeta_ratio >= least_of_areas;
+}
+
 std::string strong_pressure_because(const cases::Case& setup,
                                     const std::string& method,
                                     const meshes::Mesh& mesh) {

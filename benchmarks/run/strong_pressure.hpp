@@ -13,6 +13,11 @@ namespace diptych::harness {
 /// is then the shear modulus.
 bool is_nearly_incompressible(const cases::MaterialCase& material);
 
+/// Whether volumes of lines may carry the pressure where nothing presses: of a nearly
+/// incompressible material whose resistance to changes of areas (zeta) is a quarter of the shear
+/// modulus and more. With less, rows of nodes along free edges come apart in tension (notes 3.10).
+bool holds_with_lines(const cases::MaterialCase& material);
+
 /// Why `auto` takes operators that bear any bulk pressure, for the record: a follower pressure or a
 /// dead traction presses with more than 1.5 shear moduli (on moved nodes over the cells'
 /// length by width) at a node and one of 65 instants, or a

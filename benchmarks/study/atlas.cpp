@@ -135,8 +135,16 @@ std::string make_atlas(const AtlasRequest& request) {
   const Atlas& atlas = map.atlas;
   const std::string directory =
       request.directory.empty() ? (fs::path("results") / atlas.name).string() : request.directory;
-  const std::string before = request.before.empty() ? "" : io::read_file(request.before);
+  const bool has_before = !request.before.empty();
+  const std::string before = has_before ? io::read_file(request.before) : "";
   AtlasPlan plan = plan_of(atlas, request, directory);
+  if (has_before) {  // what is wrong with it is told of before the runs
+    AtlasMap planned;
+    planned.atlas = atlas;
+    planned.points = plan.points;
+    if (set_before(planned, before, request.before) == 0)
+      throw base::InputError(request.before + ": has no point of the atlas " + atlas.name);
+  }
   OutputFolder output(directory, plan.cases.front(), OutputKind::atlas, request.force,
                       files_of(plan));
   output.prepare();
@@ -164,7 +172,7 @@ std::string make_atlas(const AtlasRequest& request) {
   map.program = p.program;
   map.commit = p.commit;
   map.date = p.date;
-  if (!before.empty()) set_before(map, before, request.before);
+  if (has_before) set_before(map, before, request.before);
   print(atlas_text(map));
   write_output(directory, "atlas.csv", atlas_csv(map));
   write_output(directory, "atlas.json", atlas_json(map));

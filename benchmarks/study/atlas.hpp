@@ -84,8 +84,9 @@ std::string atlas_html(const AtlasMap& map);
 
 /// Gives the points of a map what an earlier one says of them.
 /// @param json  of atlas_json
-/// @throws base::InputError where it is none, or has no point in common
-void set_before(AtlasMap& map, const std::string& json, const std::string& path);
+/// @return how many it knows
+/// @throws base::InputError where it is none
+size_t set_before(AtlasMap& map, const std::string& json, const std::string& path);
 
 struct AtlasRequest {
   std::string atlas, cases_folder;  ///< see find_atlas, find_case

@@ -322,7 +322,7 @@ std::string atlas_html(const AtlasMap& map) {
                             atlas_text(map));
 }
 
-void set_before(AtlasMap& map, const std::string& json, const std::string& path) {
+size_t set_before(AtlasMap& map, const std::string& json, const std::string& path) {
   std::map<std::pair<std::string, std::map<std::string, std::string>>, Outcome> earlier;
   try {
     const Json document = Json::parse(json);
@@ -330,12 +330,12 @@ void set_before(AtlasMap& map, const std::string& json, const std::string& path)
       const auto word = point.at("outcome").get<std::string>();
       const auto found = std::find_if(outcomes.begin(), outcomes.end(),
                                       [&](Outcome outcome) { return word == word_of(outcome); });
-      if (found == outcomes.end()) throw base::InputError("'" + word + "' is no outcome");
+      if (found == outcomes.end()) throw base::InputError(path + ": '" + word + "' is no outcome");
       earlier[{point.at("method").get<std::string>(),
                point.at("settings").get<std::map<std::string, std::string>>()}] = *found;
     }
-  } catch (const Json::exception& error) {
-    throw base::InputError(path + ": is no atlas.json: " + error.what());
+  } catch (const Json::exception&) {
+    throw base::InputError(path + ": is no atlas.json that study --atlas has written");
   }
   size_t n_found = 0;
   for (AtlasPoint& point : map.points) {
@@ -348,8 +348,7 @@ void set_before(AtlasMap& map, const std::string& json, const std::string& path)
     point.before = found->second;
     ++n_found;
   }
-  if (n_found == 0 && !map.points.empty())
-    throw base::InputError(path + ": has no point of the atlas " + map.atlas.name);
+  return n_found;
 }
 
 }  // namespace diptych::harness

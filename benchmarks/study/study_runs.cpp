@@ -9,6 +9,7 @@
 #include "benchmarks/terminal/status_line.hpp"
 #include "common/base/error.hpp"
 #include "common/base/text.hpp"
+#include "common/run/exact_survey.hpp"
 #include "postprocess/report/orders.hpp"
 
 #include <algorithm>
@@ -84,10 +85,6 @@ void add_breakdown(const io::RunSummary& run, const std::string& variant, StudyR
 
 }  // namespace
 
-bool has_exact(const cases::Case& setup) {
-  return setup.motion || setup.exact.displacement || setup.exact.velocity;
-}
-
 StudyRuns runs_of_study(const StudyRequest& request,
                         const std::vector<Variant>& variants,
                         const std::vector<cases::Case>& cases,
@@ -104,7 +101,7 @@ StudyRuns runs_of_study(const StudyRequest& request,
   std::vector<CampaignRun> plan = plan_of(request, of_curves, runs.curves);
   // of an exact solution the first run tells whether what was asked makes sense: nothing is
   // written before
-  const bool is_asked_first = has_exact(cases.front());
+  const bool is_asked_first = run::ExactSurvey::is_for(cases.front());
   if (is_asked_first) {
     plan.front().options.directory.clear();
   } else {

@@ -12,6 +12,7 @@
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
 #include "common/io/atomic_file.hpp"
+#include "common/run/exact_survey.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -32,9 +33,10 @@ namespace {
 
 /// What holds for a study whatever the case has. @return with its defaults
 StudyRequest checked(StudyRequest request, const cases::Case& setup) {
-  if (request.repeats == StudyRequest::by_default) request.repeats = has_exact(setup) ? 3 : 1;
+  if (request.repeats == StudyRequest::by_default)
+    request.repeats = run::ExactSurvey::is_for(setup) ? 3 : 1;
   if (request.repeats < 1) throw base::InputError("--repeats must be 1 or more");
-  if (!has_exact(setup) && !request.field.empty()) {
+  if (!run::ExactSurvey::is_for(setup) && !request.field.empty()) {
     throw base::InputError(setup.name +
                            " has no exact solution to measure errors against: --field has no "
                            "effect; --quantity chooses what is shown");
@@ -72,7 +74,7 @@ void show_quantities(const StudyRequest& request,
   const std::string title =
       fmt::format("Quantities: {}", setup.title.empty() ? setup.name : setup.title);
   print(fmt::format("{}{}: quantities of each variant, method and level\n",
-                    has_exact(setup) ? "\n" : "", setup.name));
+                    run::ExactSurvey::is_for(setup) ? "\n" : "", setup.name));
   print(quantities_table(study));
   write_output(request.run.directory, "quantities.csv", quantities_csv(study));
   write_output(request.run.directory, "quantities.html", quantities_html(title, study));
@@ -92,8 +94,8 @@ StudyRuns study_variants(const StudyRequest& asked) {
   OutputFolder output(request.run.directory, base_case, OutputKind::study, request.run.force);
   const StudyRuns runs = runs_of_study(request, variants, cases, output);
   if (!runs.curves.empty()) {  // else interrupted in the first run, or none came to its end
-    if (has_exact(setup)) show_errors(request, setup, runs);
-    if (!has_exact(setup) || !request.quantities.empty())
+    if (run::ExactSurvey::is_for(setup)) show_errors(request, setup, runs);
+    if (!run::ExactSurvey::is_for(setup) || !request.quantities.empty())
       show_quantities(request, setup, variants, runs);
   }
   print(cut_short_table(runs.cut_short, true) + breakdown_table(runs.breakdowns));

@@ -49,8 +49,6 @@ struct StudyRuns {
 /// @throws base::InputError before the first run
 StudyRuns study_variants(const StudyRequest& request);
 
-bool has_exact(const cases::Case& setup);
-
 /// All are read, and what they ask of the machine is known, before the first is run.
 /// @throws base::InputError
 std::vector<cases::Case> cases_of_study(const StudyRequest& request,

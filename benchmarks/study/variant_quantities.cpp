@@ -20,30 +20,11 @@ std::string probe_of(const std::string& name) {
   return name.substr(0, name.rfind(", "));
 }
 
-std::vector<RunQuantity> quantities_of_probe(const io::QuantitySummary& probe) {
-  const bool swings = probe.n_periods > 0;
-  return {{probe.name + ", end", probe.unit, probe.final_value},
-          {probe.name + ", least", probe.unit, probe.least},
-          {probe.name + ", greatest", probe.unit, probe.greatest},
-          {probe.name + ", period", "s", swings ? probe.period : nothing},
-          {probe.name + ", amplitude", probe.unit, swings ? probe.amplitude : nothing}};
-}
-
-/// What every run has, whatever its case.
-std::vector<RunQuantity> common_quantities(const WorkPoint& point) {
-  const io::RunSummary& run = point.run;
-  const std::string joule = run.dimension == 2 ? "J/m" : "J";
-  return {{"kinetic energy", joule, run.energy.kinetic},
-          {"strain energy", joule, run.energy.strain},
-          {"external work", joule, run.energy.external_work},
-          {"viscous dissipation", joule, run.energy.viscous_dissipation},
-          {"numerical dissipation", joule, run.energy.numerical_dissipation},
-          {"projection work", joule, run.energy.projection_work},
-          {"energy residual", "-", run.energy.relative_residual},
-          {"least J", "-", run.min_jacobian},
-          {"seconds", "s", point.least},
-          {"steps", "-", static_cast<double>(run.steps)},
-          {"nodes", "-", static_cast<double>(run.nodes)}};
+/// What every run has, whatever its case, and what it took.
+std::vector<RunQuantity> quantities_and_cost(const WorkPoint& point) {
+  std::vector<RunQuantity> all = common_quantities(point.run);
+  all.insert(all.end() - 2, {"seconds", "s", point.least});  // before the counts
+  return all;
 }
 
 /// Names that --quantity may give, without those of whole probes.
@@ -57,7 +38,7 @@ std::vector<std::string> names_of_case(const cases::Case& setup) {
       if (probe.oscillation || !of_oscillation) names.push_back(q.name);
     }
   }
-  for (const RunQuantity& q : common_quantities({}))
+  for (const RunQuantity& q : quantities_and_cost({}))
     names.push_back(q.name);
   return names;
 }
@@ -85,7 +66,7 @@ std::vector<RunQuantity> quantities_of_run(const WorkPoint& point) {
     for (const RunQuantity& q : quantities_of_probe(probe))
       all.push_back(q);
   }
-  for (const RunQuantity& q : common_quantities(point))
+  for (const RunQuantity& q : quantities_and_cost(point))
     all.push_back(q);
   return all;
 }

@@ -3,18 +3,13 @@
 /// cost, for every variant, method and level; as text for a terminal, CSV, and a page of plots
 /// against the parameter that varies. Test: tests/harness/variant_quantities_test.cpp
 
+#include "benchmarks/run/run_quantities.hpp"
 #include "benchmarks/study/study_verb.hpp"
 
 #include <string>
 #include <vector>
 
 namespace diptych::harness {
-
-/// A number of a run: "tip displacement x, greatest" in m, "kinetic energy" in J, "seconds" in s.
-struct RunQuantity {
-  std::string name, unit;
-  double value = 0;
-};
 
 /// All of a run: of each probe the value at the end, extremes and, where it oscillates, period and
 /// amplitude; energies at the end; least J, energy residual, steps, nodes, seconds of the time

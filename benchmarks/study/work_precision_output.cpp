@@ -2,6 +2,7 @@
 
 #include "benchmarks/probes/work_counts.hpp"
 #include "benchmarks/study/work_precision.hpp"
+#include "benchmarks/terminal/text.hpp"
 #include "postprocess/report/curve_page.hpp"
 #include "postprocess/report/html.hpp"
 #include "postprocess/report/line_plot.hpp"
@@ -164,10 +165,10 @@ std::string work_precision_csv(const std::vector<WorkCurve>& curves) {
   csv += "\n";
   for (const WorkCurve& curve : curves) {
     for (const WorkPoint& p : curve.points) {
-      csv += fmt::format("\"{}\",{},{},{:.8g},{},{},{},{},{:.10g},{:.6g},{:.6g},{:.6g}",
-                         curve.variant, curve.method, p.run.level, p.run.spacing, p.run.nodes,
-                         p.run.pairs, p.run.steps, p.run.stages, p.pair_updates(), p.least, p.most,
-                         p.run.nanoseconds_per_node_stage);
+      csv += fmt::format("{},{},{},{:.8g},{},{},{},{},{:.10g},{:.6g},{:.6g},{:.6g}",
+                         quoted(curve.variant), curve.method, p.run.level, p.run.spacing,
+                         p.run.nodes, p.run.pairs, p.run.steps, p.run.stages, p.pair_updates(),
+                         p.least, p.most, p.run.nanoseconds_per_node_stage);
       for (const std::string& field : fields)
         csv += fmt::format(",{:.8g}", p.error(field));
       csv += "\n";

@@ -172,7 +172,7 @@ std::string columns_block(const std::vector<RunSummary>& runs,
     const auto probe = [&](const std::string& name, double io::QuantitySummary::*value) {
       line(name, [&](const RunSummary& run) { return probe_cell(run, quantity.name, value); });
     };
-    probe(fmt::format("{} [{}], end", quantity.name.substr(0, 18), quantity.unit),
+    probe(fmt::format("{} [{}], final", quantity.name.substr(0, 18), quantity.unit),
           &io::QuantitySummary::final_value);
     probe("  least", &io::QuantitySummary::least);
     probe("  greatest", &io::QuantitySummary::greatest);
@@ -196,7 +196,7 @@ std::string convergence_block(const std::vector<RunSummary>& runs,
   std::string head =
       fmt::format("{:>5}{:>12}{:>11}{:>10}", "level", "spacing [m]", "nodes", "loop [s]");
   for (const std::string& field : fields) {
-    head += fmt::format("{:>10}{:>5}", short_name(field, 9), "ord.");
+    head += fmt::format("{:>9}{:>6}", short_name(field, 8), "ord.");
   }
   std::string text = head + "\n" + rule(head.size());
   for (size_t i = 0; i < runs.size(); ++i) {
@@ -208,8 +208,8 @@ std::string convergence_block(const std::vector<RunSummary>& runs,
                                ? nothing
                                : observed_order(error_of(runs[i - 1], field), error_of(run, field),
                                                 runs[i - 1].spacing, run.spacing);
-      text += fmt::format("{:>10}{:>5}", scientific(error_of(run, field)),
-                          number_text(order, "{:.2f}"));
+      text +=
+          fmt::format("{:>9}{:>6}", scientific(error_of(run, field)), number_text(order, "{:.2f}"));
     }
     text += "\n";
   }
@@ -257,7 +257,7 @@ std::string comparison_table(const RunSummary& sph,
                               ratio(of_a, of_b), apart);
     };
     const auto apart = history_difference.find(a.name);
-    line(fmt::format("{} [{}], end", a.name, a.unit), a.final_value, b.final_value,
+    line(fmt::format("{} [{}], final", a.name, a.unit), a.final_value, b.final_value,
          apart == history_difference.end() ? "" : scientific(apart->second));
     line("  least", a.least, b.least);
     line("  greatest", a.greatest, b.greatest);

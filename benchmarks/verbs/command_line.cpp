@@ -9,6 +9,15 @@
 
 namespace diptych::verbs {
 
+namespace {
+
+/// A name or path that a shell variable without a value leaves empty.
+std::string what_is_empty(const std::string& text) {
+  return text.empty() ? "is empty; give it a value or leave it out" : "";
+}
+
+}  // namespace
+
 void CommandLine::word(const char* name, std::string& value, const char* help) {
   verb_.add_option(name, value, help)->required();
 }
@@ -16,7 +25,7 @@ void CommandLine::words(const char* name, std::vector<std::string>& values, cons
   verb_.add_option(name, values, help);
 }
 void CommandLine::option(const char* name, std::string& value, const char* help) {
-  verb_.add_option(name, value, help);
+  verb_.add_option(name, value, help)->check(what_is_empty);
 }
 void CommandLine::option(const char* name, int& value, const char* help) {
   verb_.add_option(name, value, help);

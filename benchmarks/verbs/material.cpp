@@ -3,8 +3,11 @@
 #include "benchmarks/material/material_report.hpp"
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
+#include "common/base/error.hpp"
 #include "common/base/registry.hpp"
 
+#include <cmath>
+#include <fmt/format.h>
 #include <memory>
 
 namespace diptych::verbs {
@@ -26,6 +29,13 @@ int strain_material(const MaterialArguments& arguments) {
                     .at(arguments.update);
   const auto material = run::make_material_point(setup.material);
   const auto points = harness::follow(material, path);
+  for (const harness::PathPoint& point : points) {
+    if (std::isfinite(point.energy) && point.P.allFinite()) continue;
+    throw base::InputError(fmt::format(
+        "at {:.6g} s of the path the energy or the stress is no finite number; take a smaller "
+        "--amplitude, --rate or --end",
+        point.time));
+  }
   print(
       harness::path_table(setup, path, points, harness::scan_hyperbolicity(material, points, 200)));
   const std::string folder = arguments.output_folder(setup);

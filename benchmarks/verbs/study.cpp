@@ -9,6 +9,8 @@
 #include "benchmarks/verbs/case_arguments.hpp"
 #include "benchmarks/verbs/table.hpp"
 #include "common/base/error.hpp"
+#include "common/base/text.hpp"
+#include "common/time/integrator.hpp"
 
 #include <memory>
 
@@ -120,9 +122,13 @@ Action declare_study(CommandLine& line) {
                 "what is shown of each variant: a probe ('tip'), a part of it ('tip, greatest'), "
                 "'kinetic energy', 'least J', 'seconds', ..., or 'all'; repeatable");
   line.flag("--stability", arguments->stability, "find the largest stable time step by bisection");
-  line.list("--integrators", request.integrators,
-            "with --stability: leapfrog,ssp-rk2,ssp-rk3,ssp-rk43 (default all)");
+  line.list(
+      "--integrators", request.integrators,
+      ("with --stability: " + base::joined(time::integrator_menu().names(), ",") + " (default all)")
+          .c_str());
   line.option("--steps", request.stability.n_steps, "with --stability: of a trial (default 1000)");
+  line.only_with("--integrators", "--stability");
+  line.only_with("--steps", "--stability");
   line.flag("--local-steps", arguments->local_steps,
             "what steps of powers of two, each node's by its own bound, would save");
   line.flag("--atlas", arguments->atlas,

@@ -254,6 +254,10 @@ Value parse_document(const std::string& text, const std::string& file) {
   }
 }
 
+bool are_of_one_value(const std::string& key, const std::string& other) {
+  return key == other || key.starts_with(other + ".") || other.starts_with(key + ".");
+}
+
 std::string key_of(const std::string& assignment) {
   const size_t equals = assignment.find('=');
   const std::string key = equals == std::string::npos ? "" : trimmed(assignment.substr(0, equals));

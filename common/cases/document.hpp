@@ -55,4 +55,7 @@ void override_value(Value& document, const std::string& assignment);
 /// Key of "key=value", blanks removed. @throws base::InputError where '=' or the key is missing
 std::string key_of(const std::string& assignment);
 
+/// Whether two keys say something of the same: one of a list and one of its entries, too.
+bool are_of_one_value(const std::string& key, const std::string& other);
+
 }  // namespace diptych::cases

@@ -97,6 +97,11 @@ void apply_overrides(Value& document, const std::vector<std::string>& overrides)
     if (find_key(known) == nullptr)
       throw base::InputError(where + "unknown key '" + shown(key) + "'" + key_suggestion(known));
     if (!seen.insert(key).second) throw base::InputError(where + "'" + key + "' is set twice");
+    for (const std::string& other : seen) {
+      if (key == other || !are_of_one_value(key, other)) continue;
+      throw base::InputError(where + "'" + std::max(key, other) + "' is a part of '" +
+                             std::min(key, other) + "', which is set too; set the whole once");
+    }
     check_user_name(document, key, where);
     override_value(document, assignment);
   }

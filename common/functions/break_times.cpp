@@ -26,6 +26,8 @@ std::vector<Switch> switches_of(const Program& program) {
     switch (operation.op) {
       case Operator::less:
       case Operator::less_equal:
+      case Operator::equal:
+      case Operator::differs:
         switches.push_back({k, operation.first, operation.second});
         break;
       case Operator::sign:
@@ -46,6 +48,14 @@ std::vector<Switch> switches_of(const Program& program) {
     }
   }
   return switches;
+}
+
+/// Places of angles of time (atan2), which jump at some of the zeros of their arguments.
+std::vector<int> angles_of(const Program& program) {
+  std::vector<int> angles;
+  for (int k = 0; k < program.size(); ++k)
+    if (program[k].is_of_time() && program[k].op == Operator::atan2) angles.push_back(k);
+  return angles;
 }
 
 /// A function of time that is looked at for its changes: the sign of a difference, or a result.
@@ -92,6 +102,12 @@ void add_changes(const Changing& changing,
   }
 }
 
+/// Takes out the instants at which a function does not jump by more than 1.
+void keep_jumps_of(const Changing& angle, std::vector<double>& times) {
+  std::erase_if(
+      times, [&](double t) { return std::abs(angle.at(t) - angle.at(std::nextafter(t, 0))) <= 1; });
+}
+
 /// With the doubles on both sides of each.
 void refine(std::vector<double>& grid, const std::vector<double>& changes) {
   const double begin = grid.front(), end = grid.back();
@@ -116,7 +132,8 @@ BreakTimes break_times(const std::vector<Expression>& expressions,
     place ? program->append(expression, *place) : program->append(expression);
   }
   const std::vector<Switch> switches = switches_of(*program);
-  if (switches.empty() || !(begin < end)) return {};
+  const std::vector<int> angles = angles_of(*program);
+  if ((switches.empty() && angles.empty()) || !(begin < end)) return {};
   std::vector<double> grid;
   for (int i = 0; i <= n_samples; ++i)
     grid.push_back(i == n_samples ? end : begin + (end - begin) * i / n_samples);
@@ -136,6 +153,13 @@ BreakTimes break_times(const std::vector<Expression>& expressions,
   }
   for (const Switch& of : switches)
     if (of.result >= 0) add_changes(Changing(program, {of.result}), grid, breaks.jumps);
+  for (const int angle : angles) {
+    std::vector<double> zeros;
+    for (const int argument : {(*program)[angle].first, (*program)[angle].second})
+      add_changes(Changing(program, {argument, zero}), grid, zeros);
+    keep_jumps_of(Changing(program, {angle}), zeros);
+    breaks.jumps.insert(breaks.jumps.end(), zeros.begin(), zeros.end());
+  }
   for (std::vector<double>* times : {&breaks.jumps, &breaks.kinks}) {
     std::sort(times->begin(), times->end());
     times->erase(std::unique(times->begin(), times->end()), times->end());

@@ -1,7 +1,8 @@
 #pragma once
-/// Instants at which expressions of time jump: where a comparison, a sign or a rounding of what
-/// depends on time alone has another result. Steps that end there lose no pulse, however short, and
-/// see each load on one side of its jump only. Test: tests/common/functions/break_times_test.cpp
+/// Instants at which expressions of time jump: where a comparison, a sign, a rounding or a turn of
+/// what depends on time alone has another result. Steps that end there lose no pulse, however
+/// short, and see each load on one side of its jump only. Test:
+/// tests/common/functions/break_times_test.cpp
 
 #include "common/functions/expressions.hpp"
 

@@ -16,7 +16,7 @@
 namespace diptych::io {
 
 /// Of what is in the file and where. A file of another format is refused.
-constexpr std::int64_t checkpoint_format = 3;
+constexpr std::int64_t checkpoint_format = 4;
 
 class CheckpointWriter : public algebra::Archive {
  public:

@@ -303,6 +303,7 @@ void read_quality(const Section& file, RunSummary& summary) {
     summary.measures[name] = measures.number(name.c_str());
   summary.energy = read_energy(file.section("energy"));
   summary.largest_energy = file.number("largest_energy");
+  summary.mobile_energy = file.number("mobile_energy");
   summary.contact_loss = file.number("contact_loss");
   const Section momentum = file.section("momentum");
   summary.linear_momentum_drift = momentum.number("linear_drift");
@@ -385,6 +386,7 @@ std::string to_json(const RunSummary& summary) {
       {"measures", measures},
       {"energy", energy_json(summary.energy)},
       {"largest_energy", summary.largest_energy},
+      {"mobile_energy", summary.mobile_energy},
       {"contact_loss", summary.contact_loss},
       {"momentum",
        {{"linear_drift", summary.linear_momentum_drift},

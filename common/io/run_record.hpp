@@ -118,6 +118,9 @@ struct RunSummary {
   /// J, that the body has held at any check, or that was brought in, in the frame of its centre of
   /// mass where nothing holds it; 0 where it is no more than rounding
   double largest_energy = 0;
+  /// J, the same less the least strain energy of any check: what has moved of a body that is
+  /// stretched to begin with; 0 where it is no more than rounding
+  double mobile_energy = 0;
   double contact_loss =
       0;  ///< J, of the external work: what walls took of nodes as they caught them
   double linear_momentum_drift = 0, angular_momentum_drift = 0;  ///< largest over the output times
@@ -139,7 +142,7 @@ struct RunSummary {
 
 /// JSON text with the key names of the contract: method, case, level, ..., steps, stages,
 /// rejected_steps, restarts, interventions{projections,resynchronisations,limited_pairs}, ...,
-/// dt{min,max}, errors{field{l1,l2,linf}}, energy{...}, largest_energy,
+/// dt{min,max}, errors{field{l1,l2,linf}}, energy{...}, largest_energy, mobile_energy,
 /// contact_loss,
 /// momentum{linear_drift,angular_drift}, involution{H,J}, min_jacobian,
 /// cells{least_J,most_inverted,inverted_from}, state_hash, provenance{...}; where the case has

@@ -23,7 +23,8 @@ class EnergyRecord {
         initially_carried_(units.frame.carried(initial)),
         rounding_(units.rounding(initially_carried_)),
         scale_(std::max(0.0, initial_ - initially_carried_)),
-        motion_(std::max(0.0, initial.kinetic - initially_carried_)) {}
+        motion_(std::max(0.0, initial.kinetic - initially_carried_)),
+        least_strain_(initial.strain) {}
 
   io::EnergySummary at(const scheme::Balance& now, const scheme::Audit& audit) {
     io::EnergySummary e;
@@ -39,6 +40,7 @@ class EnergyRecord {
     rounding_ = std::max(rounding_, units_.rounding(carried));
     scale_ = std::max({scale_, now.kinetic - carried + now.strain, work_});
     motion_ = std::max({motion_, now.kinetic - carried, work_});
+    least_strain_ = std::min(least_strain_, now.strain);
     const double residual = now.kinetic + now.strain - initial_ - audit.gain();
     e.relative_residual = scale_ > rounding_ || !std::isfinite(residual) ? residual / scale_ : 0;
     return e;
@@ -51,6 +53,12 @@ class EnergyRecord {
   /// The largest energy so far without strain energy, of which rounding leaves less than of speeds
   /// [J]
   double motion() const { return motion_; }
+  /// The largest energy so far without the strain energy that has been there all the time, as of a
+  /// body that is stretched to begin with: what has moved  [J]
+  double mobile() const {
+    const double above = std::max(scale_ - std::max(0.0, least_strain_), motion_);
+    return above > std::max(rounding_, 1e-9 * scale_) ? above : 0;
+  }
   /// At the last instant: what the body holds, and what was brought in so far  [J]
   double held() const { return held_; }
   double work() const { return work_; }
@@ -62,12 +70,13 @@ class EnergyRecord {
     archive.real(group + "/rounding", "J", rounding_);
     archive.real(group + "/largest energy", "J", scale_);
     archive.real(group + "/largest energy of motion", "J", motion_);
+    archive.real(group + "/least strain energy", "J", least_strain_);
   }
 
  private:
   double initial_;
   EnergyUnits units_;
-  double initially_carried_, rounding_, scale_, motion_;
+  double initially_carried_, rounding_, scale_, motion_, least_strain_;
   double held_ = 0, work_ = 0;
 };
 

@@ -26,7 +26,8 @@ struct CentreFrame {
 
 struct EnergyUnits {
   /// J, what rounding makes of the energies of a body in place: 100 eps of rho c_p^2 a volume, that
-  /// of a strain of 2e-7 (with F alone 1 eps and 2e-8). A body that has held no more is at rest.
+  /// of a strain of 2e-7 (with F alone 1 eps and 2e-8; in single precision 10 eps of it
+  /// and 1.5e-3). A body that has held no more is at rest.
   double in_place = 0;
   CentreFrame frame{};
   double of_carried = 0;  ///< the same as a share of what the frame carries

@@ -26,8 +26,8 @@ ExactFields::ExactFields(const cases::Case& setup,
   };
   of_v_ = place_of(exact.velocity);
   of_u_ = place_of(exact.displacement);
-  of_F_ = exact.displacement ? place_of(exact.deformation_gradient) : all.size();
-  of_P_ = exact.displacement ? place_of(exact.stress) : all.size();
+  of_F_ = place_of(exact.deformation_gradient);
+  of_P_ = place_of(exact.stress);
   n_values_ = all.size();
   values_.emplace(std::move(all), X_);
   if (!exact.displacement || exact.deformation_gradient) {
@@ -112,9 +112,12 @@ scheme::Snapshot ExactFields::at(double t, std::int64_t begin, std::int64_t end)
   scheme::Snapshot s;
   s.time = t;
   if (exact.velocity) s.v = vectors(of_v_);
-  if (!exact.displacement) return s;
-  s.u = vectors(of_u_);
-  s.F = exact.deformation_gradient ? tensors(of_F_) : deformation_gradients(t, begin, end);
+  if (exact.displacement) s.u = vectors(of_u_);
+  if (exact.deformation_gradient) {
+    s.F = tensors(of_F_);
+  } else if (exact.displacement) {
+    s.F = deformation_gradients(t, begin, end);
+  }
   for (const Mat3& F : s.F) {
     const auto X = physics::deformation_of(algebra::to_tensor(F));
     s.H.push_back(algebra::to_eigen(X.H));

@@ -43,7 +43,9 @@ class ExactSurvey : public Survey {
  public:
   /// Whether a case has an exact solution at all.
   static bool is_for(const cases::Case& setup) {
-    return setup.motion || setup.exact.displacement || setup.exact.velocity;
+    const cases::ExactCase& exact = setup.exact;
+    return setup.motion || exact.displacement || exact.velocity || exact.deformation_gradient ||
+           exact.stress;
   }
 
   /// Nodes of the chunks of this rank, chunk after chunk.

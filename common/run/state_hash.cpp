@@ -69,11 +69,42 @@ std::string state_hash(const scheme::Body<Dim>& body,
 template std::string state_hash(const scheme::Body<2>&, const std::vector<std::int32_t>&, double);
 template std::string state_hash(const scheme::Body<3>&, const std::vector<std::int32_t>&, double);
 
+namespace {
+
+/// Of several arrays, one after the other.
+class Hash {
+ public:
+  template <class T>
+  void add(const std::vector<T>& values) {
+    hash_ = XXH3_64bits_withSeed(values.data(), values.size() * sizeof(T), hash_);
+  }
+  void add(const std::string& text) {
+    hash_ = XXH3_64bits_withSeed(text.data(), text.size(), hash_);
+  }
+  std::string text() const { return fmt::format("{:016x}", hash_); }
+
+ private:
+  XXH64_hash_t hash_ = 0;
+};
+
+}  // namespace
+
 std::string hash_of_nodes(const scheme::PairGraph& graph) {
-  const XXH64_hash_t of_places = XXH3_64bits(graph.X.data(), graph.X.size() * sizeof(graph.X[0]));
-  const XXH64_hash_t of_both = XXH3_64bits_withSeed(
-      graph.Omega.data(), graph.Omega.size() * sizeof(graph.Omega[0]), of_places);
-  return fmt::format("{:016x}", of_both);
+  Hash hash;
+  hash.add(graph.X);
+  hash.add(graph.Omega);
+  return hash.text();
+}
+
+std::string hash_of_groups(const scheme::PairGraph& graph) {
+  Hash hash;
+  for (const scheme::BoundaryPatch& patch : graph.patches) {
+    hash.add(patch.name);
+    hash.add(patch.nodes);
+    hash.add(patch.area);
+    hash.add(patch.faces);
+  }
+  return hash.text();
 }
 
 }  // namespace diptych::run

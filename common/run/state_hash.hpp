@@ -19,5 +19,7 @@ std::string state_hash(const scheme::Body<Dim>& body,
 
 /// XXH3 (64 bits) of places and volumes of the nodes, as 16 hexadecimal digits.
 std::string hash_of_nodes(const scheme::PairGraph& graph);
+/// The same of names, nodes, areas and faces of the boundary groups.
+std::string hash_of_groups(const scheme::PairGraph& graph);
 
 }  // namespace diptych::run

@@ -45,7 +45,7 @@ void book(MovingBody<Dim>& moving, const scheme::ConstraintAction& action) {
   moving.audit.impulse.linear += action.impulse.linear;
   moving.audit.impulse.angular += action.impulse.angular;
   moving.audit.external_work += action.work;
-  moving.audit.contact_loss -= action.work;
+  moving.audit.contact_loss += action.caught;
 }
 
 template <int Dim>

@@ -205,6 +205,8 @@ class Scan {
     });
   }
 
+  std::vector<std::string> files_read() const { return {read_.begin(), read_.end()}; }
+
  private:
   struct File {
     std::string shown;  ///< as messages name it
@@ -214,6 +216,7 @@ class Scan {
   void add(const fs::path& path) {
     const fs::path whole = fs::weakly_canonical(fs::absolute(path));
     if (!known_.insert(whole.string()).second) return;
+    read_.insert(whole.string());
     files_.push_back({path.string(), whole});
     add_options(path);
   }
@@ -307,6 +310,7 @@ class Scan {
       return fmt::format("{} \"{}\": there is no such file", word.text, msh::shown(name.text, 200));
     }
     for (const fs::path& path : found) {
+      read_.insert(path.string());
       const std::string reason = word.rule == Rule::read ? take_in(word, path) : "";
       if (!reason.empty()) return reason;
     }
@@ -334,7 +338,7 @@ class Scan {
   }
 
   fs::path folder_;
-  std::set<std::string> known_;
+  std::set<std::string> known_, read_;
   std::vector<File> files_;
 };
 
@@ -342,6 +346,10 @@ class Scan {
 
 void check_geo(const std::string& path) {
   Scan{path};
+}
+
+std::vector<std::string> files_read(const std::string& path) {
+  return Scan(path).files_read();
 }
 
 bool uses_name(const std::string& path, std::string_view name) {

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace diptych::meshes {
 
@@ -17,6 +18,11 @@ namespace diptych::meshes {
 /// @throws base::InputError "file:line: ..." on the first offence, a file that is not there or no
 ///         regular one
 void check_geo(const std::string& path);
+
+/// The file and all that a mesh of it hangs on: what it takes in, and that in turn; in the order of
+/// their paths.
+/// @throws base::InputError as check_geo
+std::vector<std::string> files_read(const std::string& path);
 
 /// Whether the file, or one that it takes in, uses this name outside comments and strings: other
 /// than to give it a value.

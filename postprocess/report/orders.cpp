@@ -1,5 +1,7 @@
 #include "postprocess/report/orders.hpp"
 
+#include "common/time/integrator.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -45,7 +47,7 @@ FormalOrder formal_order(const io::RunSummary& run) {
     return run.graph_operators.find(order) != std::string::npos;
   };
   const double in_space = has("order 4") && !has("order 2") ? 3 : 2;  // the lowest of all lines
-  const double in_time = run.integrator == "ssp-rk3" || run.integrator == "ssp-rk43" ? 3 : 2;
+  const double in_time = time::integrator_menu().at(run.integrator).order;
   return {std::min(in_space, in_time), in_space};
 }
 

@@ -280,6 +280,30 @@ TEST_F(Restarted, IsRefusedForAnotherRun) {
   EXPECT_EQ(text_of(out("fvm") / "summary.json"), summary) << "a refusal changes nothing";
 }
 
+/// Two squares, held at one end and pulled at the other.
+TEST_F(Restarted, IsRefusedWhereGroupsOfTheMeshHaveChanged) {
+  const auto mesh = [](const char* first, const char* second) {
+    return fmt::format(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"{}\"\n1 2 \"{}\"\n"
+        "$EndPhysicalNames\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 2 0 0\n4 0 1 0\n5 1 1 0\n6 2 1 0\n"
+        "$EndNodes\n$Elements\n4\n1 1 2 1 1 1 4\n2 1 2 2 2 3 6\n3 3 2 3 3 1 2 5 4\n"
+        "4 3 2 3 3 2 3 6 5\n$EndElements\n",
+        first, second);
+  };
+  folder.write("body.msh", mesh("held", "pulled"));
+  folder.write("case.toml",
+               "[mesh]\nfile = \"body.msh\"\nelement = \"quadrilateral\"\n[material]\n"
+               "model = \"neo-hookean\"\ndensity = 1\nyoungs_modulus = 1\npoissons_ratio = 0.3\n"
+               "[[boundary]]\ngroup = \"held\"\ntype = \"fixed\"\n[[boundary]]\n"
+               "group = \"pulled\"\ntype = \"traction\"\nvalue = [1e-3, 0]\n[time]\nend = 10\n");
+  fs::remove_all(folder.path() / "out");
+  end_after(7, 5, "--method fvm");
+  folder.write("body.msh", mesh("pulled", "held"));
+  const auto again = command(run + "out --method fvm --restart latest");
+  EXPECT_EQ(again.exit_code, 2) << again.text;
+  EXPECT_THAT(again.text, HasSubstr("is of other boundary groups"));
+}
+
 TEST_F(Restarted, OfBothMethodsTakesOverWhatIsFinished) {
   const auto first = command(run + "out --method sph");
   ASSERT_EQ(first.exit_code, 0) << first.text;

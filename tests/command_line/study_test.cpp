@@ -31,7 +31,7 @@ TEST(StudyWithoutExactSolution, ShowsTheQuantitiesOfEachVariant) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_THAT(outcome.text,
               AllOf(HasSubstr("level 0 done: 4 runs, 0 of them taken over"),
-                    HasSubstr("\ntip displacement x, end [m]\n"),
+                    HasSubstr("\ntip displacement x, final [m]\n"),
                     HasSubstr("\nviscous dissipation [J]\n"), HasSubstr("\nleast J\n"),
                     HasSubstr("\nseconds [s]\n"), Not(HasSubstr("external work"))));
   const std::regex row("De=0\\.1 +[-0-9.e]+ +[-0-9.e]+\nDe=10 +[-0-9.e]+ +[-0-9.e]+\n");
@@ -39,7 +39,7 @@ TEST(StudyWithoutExactSolution, ShowsTheQuantitiesOfEachVariant) {
   const auto out = folder.path() / "out";
   EXPECT_THAT(text_of(out / "quantities.csv"),
               StartsWith("variant,parameters.De,method,level,spacing [m],"
-                         "\"tip displacement x, end [m]\""));
+                         "\"tip displacement x, final [m]\""));
   EXPECT_THAT(text_of(out / "quantities.html"),
               AllOf(HasSubstr("Each quantity against parameters.De"), HasSubstr("</html>")));
   EXPECT_FALSE(std::filesystem::exists(out / "work_precision.csv"));

@@ -178,6 +178,40 @@ TEST(SbpGraph, TakesPartsOfASideThatEndOutsideTheBlocks) {
   }
 }
 
+/// Of two ends of a group what one has too much may be what the other misses, on one side or as
+/// vectors on two: sums do not show it.
+TEST(SbpGraph, LooksAtEachEndOfAGroup) {
+  const auto group_of = [](const meshes::Mesh& mesh, const auto& is_in) {
+    meshes::BoundaryGroup part{"part", {}};
+    for (const char* side : {"x_min", "x_max"}) {
+      for (const std::int32_t f : mesh.group(side).faces) {
+        const auto& nodes = mesh.boundary_faces[f].nodes;
+        const double y = 0.5 * (mesh.nodes[nodes[0]][1] + mesh.nodes[nodes[2]][1]) - 0.1;
+        if (is_in(side == std::string("x_max"), std::lround(10 * y - 0.5))) part.faces.push_back(f);
+      }
+    }
+    return part;
+  };
+  // rows of faces along y, of 12: weights 17/48, 59/48, 43/48, 49/48, 1
+  const std::pair<const char*, std::function<bool(bool, long)>> unfit[] = {
+      {"the first row of both sides", [](bool, long row) { return row == 0; }},
+      {"one row at one end of a side, two at the other",
+       [](bool is_far, long row) { return !is_far && (row < 1 || row > 9); }},
+      {"what is left between them",
+       [](bool is_far, long row) { return is_far && row > 0 && row < 10; }},
+      {"a hole of one row", [](bool is_far, long row) { return is_far && row != 2; }}};
+  for (const auto& [what, is_in] : unfit) {
+    meshes::Mesh mesh = block({8, 12, 8});
+    mesh.boundary_groups.push_back(group_of(mesh, is_in));
+    EXPECT_THROW(fvm::sbp_graph(mesh, 4), base::InputError) << what;
+    EXPECT_THAT(fvm::unsure_because(mesh, 4), HasSubstr("'part' ends within")) << what;
+  }
+  meshes::Mesh mesh = block({8, 12, 8});
+  mesh.boundary_groups.push_back(
+      group_of(mesh, [](bool is_far, long row) { return is_far ? row > 6 : row < 5; }));
+  EXPECT_EQ(fvm::unsure_because(mesh, 4), "");
+}
+
 TEST(SbpGraph, FallsToTheWidestPairThatFitsAndSaysSo) {
   const meshes::Mesh mesh = block({12, 8, 1});
   const auto lines = fvm::sbp_lines(mesh, 6);

@@ -172,5 +172,37 @@ TEST(Differences, AreRelativeToTheLargestNormOverTime) {
   EXPECT_GE(between, 0.999999 * std::abs(a - b));
 }
 
+/// No ratio to zero, nor to what rounding leaves of it, nor a figure in m/s among relative ones.
+TEST(ExactRecord, OfFieldsAtRestIsRelativeToTheirNaturalSizes) {
+  const std::string rest = R"toml([mesh]
+element = "quadrilateral"
+upper = [4, 1]
+cells = [8, 2]
+[material]
+model = "neo-hookean"
+density = 3
+shear_modulus = 4
+lame = 4
+[initial]
+velocity = [1e-3, 0]
+[time]
+end = 1
+[exact]
+displacement = ["1e-3*t", 0]
+velocity = [0, "1e-17*sin(x)"]
+stress = [[0, 0, 0], [0, 0, 0], [0, 0, 0]]
+)toml";
+  RunOptions options;
+  options.threads = 1;
+  options.quiet = true;
+  const auto summary = run_case(cases::case_from_text(rest, "scene"), options).summary;
+  EXPECT_NEAR(summary.errors.at("velocity").l2, 1e-3 / 2, 1e-9) << "c_p is 2 m/s";
+  EXPECT_NEAR(summary.errors.at("velocity").linf, 1e-3 / 2, 1e-9);
+  EXPECT_LT(summary.errors.at("displacement").l2, 1e-12);
+  EXPECT_LT(summary.errors.at("stress").l2, 1e-12) << "of rho c_p^2 = 12 Pa";
+  EXPECT_THAT(summary.notices, testing::Contains(testing::HasSubstr(
+                                   "the exact stress, velocity are zero at all output times")));
+}
+
 }  // namespace
 }  // namespace diptych::harness

@@ -91,6 +91,9 @@ TEST_F(JudgedRun, SaysWhatItsCaseAsksAndDoesNotHold) {
 TEST_F(JudgedRun, HasItsFiguresCheckedBeforeItBegins) {
   cases::Case setup;
   setup.probes.emplace_back().name = "tip";
+  setup.expect.holds = {bound("tip, period", true, 1)};
+  EXPECT_THROW(check_figures(setup), base::InputError) << "which is not looked at for a period";
+  setup.probes.back().oscillation = true;
   for (const char* figure : {"tip, greatest", "tip, period", "numerical share", "kinetic growth"}) {
     setup.expect.holds = {bound(figure, true, 1)};
     EXPECT_NO_THROW(check_figures(setup)) << figure;

@@ -200,8 +200,14 @@ TEST(StrongPressure, IsLeftToNodesWhereNothingPresses) {
     EXPECT_EQ(carrier(method, {"mesh.element=triangle", square, "scheme.face_correction=1/8"}),
               "nodes");
   }
-  // rubber that nothing presses sums by parts, but off boxes with nodes
-  EXPECT_EQ(carrier("sph", {rubber}), "lines");
+  // rubber that nothing presses sums by parts, off boxes with nodes, and where nothing but F resists
+  // shear: lines come apart in tension
+  EXPECT_EQ(carrier("sph", {rubber}), "nodes");
+  const std::string areas = "material.model=mooney-rivlin";
+  EXPECT_EQ(carrier("sph", {rubber, areas, "material.zeta_ratio=0.25"}), "lines");
+  EXPECT_EQ(carrier("sph", {rubber, areas, "material.zeta_ratio=0.2"}), "nodes");
+  EXPECT_THAT(made("sph", {rubber, "boundary.0.value=0.2*t"}).notices,
+              Contains(HasSubstr("nodes carry the bulk")));
   for (const char* method : {"sph", "fvm"}) {
     EXPECT_EQ(carrier(method, {rubber, moved}), "nodes");
     EXPECT_THAT(made(method, {rubber, moved}).operators, StartsWith("sbp"));

@@ -13,11 +13,23 @@
 namespace diptych::harness {
 namespace {
 
-/// As CellSurvey answers.
-std::vector<double> answer_of(double J, int n_inverted, int cell, double steps_left) {
-  return {
-      J,         static_cast<double>(n_inverted), static_cast<double>(cell), 10.0 * cell, 1, 2, 3,
-      steps_left};
+/// As CellSurvey answers. @param folded  cells with a corner inside out, -1: none
+std::vector<double> answer_of(
+    double J, int n_inverted, int cell, double steps_left, int folded = -1) {
+  const double n_folded = folded < 0 ? 0 : 2;
+  return {J,
+          static_cast<double>(n_inverted),
+          static_cast<double>(cell),
+          10.0 * cell,
+          1,
+          2,
+          3,
+          steps_left,
+          n_folded,
+          static_cast<double>(folded),
+          1.0 * folded,
+          5,
+          6};
 }
 
 TEST(OutlookOfRanks, IsThatOfTheLeastCell) {
@@ -41,6 +53,19 @@ TEST(OutlookOfRanks, DoesNotHangOnTheirOrder) {
   for (const run::Answers& answers : {run::Answers{first, bad}, run::Answers{bad, first}}) {
     EXPECT_TRUE(std::isnan(outlook_of(answers, 10).now.J));
     EXPECT_EQ(outlook_of(answers, 10).now.node, 90);
+  }
+}
+
+TEST(OutlookOfRanks, TellsOfTheFirstCellThatIsFolded) {
+  const auto sound = answer_of(0.1, 0, 1, 40), fold = answer_of(0.5, 0, 7, 40, 20),
+             other = answer_of(0.4, 0, 3, 9, 12);
+  EXPECT_EQ(outlook_of({sound}, 100).now.n_folded, 0);
+  for (const run::Answers& answers :
+       {run::Answers{sound, fold, {}, other}, run::Answers{other, fold, sound}}) {
+    const run::LeastCell now = outlook_of(answers, 100).now;
+    EXPECT_EQ(now.n_folded, 4);
+    EXPECT_EQ(now.folded, algebra::Vec3(12, 5, 6));
+    EXPECT_EQ(now.J, 0.1) << "the least cell is another one";
   }
 }
 

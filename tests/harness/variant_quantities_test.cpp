@@ -49,7 +49,7 @@ VariantStudy study() {
       s.curves.push_back({variant.label, method, {point(De, method, 0), point(De, method, 1)}});
     }
   }
-  s.quantities = {"tip, end", "seconds"};
+  s.quantities = {"tip, final", "seconds"};
   return s;
 }
 
@@ -57,18 +57,18 @@ TEST(VariantQuantities, OfARunAreItsProbesEnergiesAndCost) {
   std::vector<std::string> names;
   for (const RunQuantity& q : quantities_of_run(point(1, "sph", 0)))
     names.push_back(q.name + " [" + q.unit + "]");
-  EXPECT_THAT(names,
-              ElementsAre("tip, end [m]", "tip, least [m]", "tip, greatest [m]", "tip, period [s]",
-                          "tip, amplitude [m]", "kinetic energy [J]", "strain energy [J]",
-                          "external work [J]", "viscous dissipation [J]",
-                          "numerical dissipation [J]", "projection work [J]", "energy residual [-]",
-                          "least J [-]", "seconds [s]", "steps [-]", "nodes [-]"));
+  EXPECT_THAT(
+      names, ElementsAre("tip, final [m]", "tip, least [m]", "tip, greatest [m]", "tip, period [s]",
+                         "tip, amplitude [m]", "kinetic energy [J]", "strain energy [J]",
+                         "external work [J]", "viscous dissipation [J]",
+                         "numerical dissipation [J]", "projection work [J]", "energy residual [-]",
+                         "least J [-]", "seconds [s]", "steps [-]", "nodes [-]"));
 }
 
 TEST(VariantQuantities, TableHasARowForEachVariant) {
   EXPECT_EQ(quantities_table(study()),
             "\n"
-            "tip, end [m]\n"
+            "tip, final [m]\n"
             "                    SPH 0        SPH 1        FVM 0        FVM 1\n"
             "De=1                    1            2          1.5          2.5\n"
             "De=100                100          101        100.5        101.5\n"
@@ -97,7 +97,7 @@ TEST(VariantQuantities, TableIsNoWiderThanAHundredColumnsAndShowsWhatIsMissing) 
 TEST(VariantQuantities, CsvHasTheKeysThatVaryAndEveryQuantity) {
   const std::string csv = quantities_csv(study());
   EXPECT_THAT(csv, testing::StartsWith("variant,parameters.De,method,level,spacing [m],"
-                                       "\"tip, end [m]\",\"tip, least [m]\","));
+                                       "\"tip, final [m]\",\"tip, least [m]\","));
   EXPECT_THAT(csv, HasSubstr("\n\"De=100\",\"100\",fvm,1,0.5,101.5,-101.5,203,,,12,"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 8);
 }
@@ -105,7 +105,7 @@ TEST(VariantQuantities, CsvHasTheKeysThatVaryAndEveryQuantity) {
 // parameters from 1 to 100 on a logarithmic axis, a curve for each method and level
 TEST(VariantQuantities, PageDrawsThemAgainstTheParameter) {
   const std::string page = quantities_html("title", study());
-  EXPECT_THAT(page, HasSubstr(R"({"x":"parameters.De","y":"tip, end [m]","logarithmic":true,)"
+  EXPECT_THAT(page, HasSubstr(R"({"x":"parameters.De","y":"tip, final [m]","logarithmic":true,)"
                               R"("curves":[{"name":"SPH 0","points":[{"x":1.0,"y":1.0},)"
                               R"({"x":100.0,"y":100.0}]})"));
   EXPECT_THAT(page, HasSubstr("id=\"panel-1\""));
@@ -118,7 +118,7 @@ TEST(VariantQuantities, PageDrawsThemAgainstTheSpacingWhereNoNumberVaries) {
   for (size_t i = 0; i < s.curves.size(); ++i)
     s.curves[i].variant = s.variants[i / 2].label;
   EXPECT_THAT(quantities_html("title", s),
-              HasSubstr(R"("x":"spacing [m]","y":"tip, end [m]","logarithmic":false,"curves":)"
+              HasSubstr(R"("x":"spacing [m]","y":"tip, final [m]","logarithmic":false,"curves":)"
                         R"([{"name":"SPH integrator=leapfrog","points":[{"x":0.5,)"));
 }
 
@@ -126,9 +126,9 @@ TEST(VariantQuantities, VerdictSaysHowFarTheMethodsAreApart) {
   VariantStudy s = study();
   EXPECT_THAT(quantities_verdict(s), HasSubstr("On level 1 SPH and finite volume are within 5 % of "
                                                "the largest value in 1 of 1 quantities"));
-  EXPECT_THAT(quantities_verdict(s), HasSubstr("furthest apart in tip, end (De=100): by 0.493"));
+  EXPECT_THAT(quantities_verdict(s), HasSubstr("furthest apart in tip, final (De=100): by 0.493"));
   s.curves[3].points[1].run.quantities[0].final_value = 1;  // of FVM with De = 100 on level 1
-  EXPECT_THAT(quantities_verdict(s), HasSubstr("Too coarse to say of tip, end (De=100)"));
+  EXPECT_THAT(quantities_verdict(s), HasSubstr("Too coarse to say of tip, final (De=100)"));
   EXPECT_THAT(quantities_verdict(s), HasSubstr("in 0 of 1 quantities"));
   s.curves = {s.curves[0]};
   EXPECT_THAT(quantities_verdict(s), HasSubstr("One method only"));

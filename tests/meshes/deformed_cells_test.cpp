@@ -2,6 +2,7 @@
 
 #include "meshes/deformed_cells.hpp"
 
+#include "meshes/cell_checks.hpp"
 #include "meshes/cell_topology.hpp"
 #include "meshes/generators.hpp"
 #include "meshes/shape_integrals.hpp"
@@ -121,6 +122,41 @@ TEST(DeformedCells, OneNodeThatPassesThroughALayerIsSeen) {
     EXPECT_LT(least_of(cells, u).n_inverted, mesh.n_cells());
     const auto worst = mesh.cell(least_of(cells, u).cell);
     EXPECT_NE(std::find(worst.begin(), worst.end(), inner_node(mesh)), worst.end());
+  }
+}
+
+TEST(DeformedCells, ACornerThatIsPushedThroughTheCellIsAFold) {
+  for (const CellType type : all_types) {
+    SCOPED_TRACE(name_of(type));
+    const Mesh mesh = moved_box(type);
+    std::vector<Vec3> u(mesh.nodes.size(), Vec3::Zero());
+    const DeformedCells cells(mesh);
+    EXPECT_EQ(least_of(cells, u).n_folded, 0);
+    EXPECT_EQ(least_of(cells, u).folded, -1);
+    // most of the way to the other end of a diagonal: the volume of what is no simplex stays above
+    // 0
+    for (const std::int64_t c : {std::int64_t{0}, mesh.n_cells() - 1}) {
+      const auto nodes = mesh.cell(c);
+      const std::int32_t corner = nodes[0];
+      const Vec3 way = centre_of(mesh, c) - mesh.nodes[static_cast<size_t>(corner)];
+      u[static_cast<size_t>(corner)] = 1.2 * way;
+    }
+    std::vector<Vec3> x(mesh.nodes);
+    for (size_t a = 0; a < x.size(); ++a)
+      x[a] += u[a];
+    std::int64_t n_folded = 0, first = -1;
+    for (std::int64_t c = mesh.n_cells() - 1; c >= 0; --c) {
+      if (signed_volume(mesh, c, x) <= 0 || least_corner_jacobian(mesh, c, x) > 0) continue;
+      ++n_folded;
+      first = c;
+    }
+    EXPECT_EQ(least_of(cells, u).n_folded, n_folded);
+    EXPECT_EQ(least_of(cells, u).folded, first);
+    if (is_simplex(type)) {
+      EXPECT_EQ(n_folded, 0) << "it has the same Jacobian at all corners";
+    } else {
+      EXPECT_GE(n_folded, 2);
+    }
   }
 }
 

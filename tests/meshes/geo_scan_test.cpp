@@ -127,6 +127,21 @@ TEST_F(GeoScan, FilesTakenInAreSearchedToo) {
               HasSubstr("a.geo:2: Merge \"none.stl\": there is no"));
 }
 
+TEST_F(GeoScan, TellsOfAllFilesThatAMeshHangsOn) {
+  write("b.geo", "x = 1;\nInclude \"sub/c.pos\";\n");
+  fs::create_directories(folder_ / "case/sub");
+  write("sub/c.pos", "Include \"../a.geo\"; y = 2;\n");
+  write("d.stl", "solid\n");
+  write("d.stl.opt", "z = 1;\n");
+  write("not.geo", "x = 1;\n");
+  write("a.geo", "Merge \"b.geo\";\nMerge \"d.stl\";\n");
+  std::vector<std::string> names;
+  for (const std::string& path : files_read((folder_ / "case/a.geo").string()))
+    names.push_back(fs::path(path).filename().string());
+  EXPECT_THAT(names,
+              testing::UnorderedElementsAre("a.geo", "b.geo", "c.pos", "d.stl", "d.stl.opt"));
+}
+
 TEST_F(GeoScan, OptionFilesThatGmshTakesInUnaskedAreSearched) {
   write("a.geo.opt", "SystemCall \"touch hurt\";\n");  // it does
   EXPECT_THAT(offence("x = 1;\n"), HasSubstr("a.geo.opt:1: SystemCall"));

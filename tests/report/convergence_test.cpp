@@ -117,7 +117,7 @@ TEST(Convergence, WritesALineForEachMethodQuantityAndLevel) {
   const std::string csv = convergence_csv(convergence_of(records(), {}));
   EXPECT_THAT(csv, testing::StartsWith("method,quantity,unit,level,spacing [m],"));
   EXPECT_THAT(csv, HasSubstr("\nsph,kinetic energy,J,2,0.0625,8000,240,1.015625,"));
-  EXPECT_THAT(csv, HasSubstr("\nsph,\"tip_x, 50 %\",m^2,1,0.125,1000,120,2,,,,,\n"));
+  EXPECT_THAT(csv, HasSubstr("\nsph,\"tip_x, 50 %\",m^2,1,0.125,1000,120,2,,,1,0.5,two grids\n"));
   EXPECT_THAT(csv, HasSubstr("\nsph,velocity error L2,-,0,"));
   // 4 fields with 3 norms and 2 scalars on 3 levels, and the headings
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3 * (12 + 2));

@@ -54,7 +54,7 @@ TEST(ComparisonTable, TellsHowFarHistoriesAreApart) {
   fvm.quantities = sph.quantities;
   const std::string text = comparison_table(sph, fvm, {}, apart);
   expect_fits_a_terminal(text);
-  EXPECT_THAT(text, ContainsRegex("tip \\[m\\], end +0 +0 .*1.25e-01\n"));
+  EXPECT_THAT(text, ContainsRegex("tip \\[m\\], final +0 +0 .*1.25e-01\n"));
 }
 
 TEST(ComparisonTable, SetsTheMethodsBesideEachOther) {

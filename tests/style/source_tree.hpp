@@ -65,7 +65,7 @@ inline const std::map<std::string, std::set<std::string>>& permitted_rooms() {
         {"meshes", with(algebra, {"common/parallel"})},
         {"sph", graph},
         {"fvm", graph},
-        {"postprocess", with(algebra, {"common/io"})},
+        {"postprocess", with(algebra, {"common/io", "common/time"})},
         {"benchmarks/probes", scheme},
         {"benchmarks/terminal", all},
         {"benchmarks/run", with(terminal, {"common/closure"})},

@@ -48,6 +48,14 @@ SectionEntry apart_section() {
                                                    shown(apart.quantity),
                                                    base::suggestion(apart.quantity, names)));
               }
+              const bool is_second =
+                  std::any_of(setup.apart.begin(), setup.apart.end(),
+                              [&](const ApartCase& one) { return one.quantity == apart.quantity; });
+              if (is_second) {
+                entry.fail("quantity", fmt::format("= '{}' has an [[apart]] already; write one "
+                                                   "cause of both",
+                                                   shown(apart.quantity)));
+              }
               setup.apart.push_back(apart);
             }
           }};

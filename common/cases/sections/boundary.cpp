@@ -83,9 +83,11 @@ void read_values(const SectionValues& section, bool has_motion, BoundaryCase& bo
 }
 
 /// Whether both may act on one group: two different loads, or a load and a symmetry; a wall with
-/// anything but another wall and what holds all.
+/// anything but itself and what holds all. (Which walls may share nodes is seen at the nodes.)
 bool agree(const BoundaryCase& a, const BoundaryCase& b) {
   const Acts first = kind_of(a).acts, second = kind_of(b).acts;
+  if (first == Acts::touch && second == Acts::touch)
+    return a.point != b.point || a.normal != b.normal;
   if (first == Acts::hold || second == Acts::hold) return false;
   if (first == Acts::load && second == Acts::load) return a.type != b.type;
   return first != second;

@@ -19,7 +19,8 @@ SectionEntry exact_section() {
                 "optional"});
   return {{"exact", false,
            "The exact solution; errors are measured against it. Fields that are missing are "
-           "derived from the displacement."},
+           "derived from the displacement, stresses from the deformation gradient where there is "
+           "none."},
           keys.keys(),
           [keys](Reading& reading, Case& setup) {
             const SectionValues section = reading.section("exact");

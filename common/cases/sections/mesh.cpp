@@ -59,10 +59,12 @@ void check_box(const SectionValues& section, int dimension, MeshCase& mesh) {
 SectionKeys<MeshCase> mesh_keys() {
   return SectionKeys<MeshCase>("mesh")
       .key("element", &MeshCase::element,
-           with_default(one_of(meshes::cell_menu().names(),
-                               "Cell type; the last two make the case 2-D (plane strain), and then "
-                               "all vectors have two entries. A mesh file must have such cells.",
-                               "\"tetrahedron\"", "required with mesh.file")))
+           with_default(one_of(
+               meshes::cell_menu().names(),
+               "Cell type; the last two make the case 2-D (plane strain; energies, forces and "
+               "momenta are those of a slice one metre thick), and then "
+               "all vectors have two entries. A mesh file must have such cells.",
+               "\"tetrahedron\"", "required with mesh.file")))
       .key("file", &MeshCase::file,
            optional(
                as(KeyType::path,

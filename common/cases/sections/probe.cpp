@@ -61,8 +61,8 @@ constexpr std::array<std::string_view, 35> taken_names{
 };
 
 /// What stands behind the name of a probe where tables and bounds mean a number of it.
-constexpr std::array<std::string_view, 6> parts_of_probes{", final",    ", end",    ", least",
-                                                          ", greatest", ", period", ", amplitude"};
+constexpr std::array<std::string_view, 5> parts_of_probes{", final", ", least", ", greatest",
+                                                          ", period", ", amplitude"};
 
 /// The probe that a name would be a part of, "tip" of "tip, final"; empty where it has no such end.
 std::string_view whole_of(std::string_view name) {

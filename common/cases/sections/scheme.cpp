@@ -45,24 +45,27 @@ SectionKeys<SchemeCase> scheme_keys() {
             "Factor kappa_f of the face correction with its adjoint: 0 none, 1/6 fourth-order "
             "first derivatives on a lattice, 1/8 exact face values of quadratics.",
             "\"1/6\""})
-      .key("volumes", &SchemeCase::volumes,
-           one_of(
-               scheme::volumes_menu().names(),
-               "What carries the bulk pressure: J of the nodes, or volumes that keep bodies under "
-               "pressure whole: of deformed cells, or by derivatives along the lines of nodes of a "
-               "box (lines: SPH that sums by parts). auto, where a follower pressure or a dead "
-               "traction presses with more than 1.5 shear moduli (over the cells' length "
-               "by width, on moved nodes) or a nearly incompressible body "
-               "(bulk modulus above 2.5 shear moduli) is held on all sides: nodes for fvm on boxes "
-               "of hexahedra, where they are as safe; lines where the operators have them; else "
-               "cells, with operators of second order, but for fvm on hexahedra with distorted "
-               "faces on "
-               "the boundary. Elsewhere lines of nearly incompressible material for SPH on boxes; "
-               "with operators of second order cells of such material, but for fvm on boxes, and "
-               "of any off boxes, but for fvm with the edge stencil on other cells than triangles "
-               "and tetrahedra, where cells are up to 1.5 times as long as wide and without the "
-               "face correction; else nodes.",
-               "\"cells\""))
+      .key(
+          "volumes", &SchemeCase::volumes,
+          one_of(
+              scheme::volumes_menu().names(),
+              "What carries the bulk pressure: J of the nodes, or volumes that keep bodies under "
+              "pressure whole: of deformed cells, or by derivatives along the lines of nodes of a "
+              "box (lines: SPH that sums by parts). auto, where a follower pressure or a dead "
+              "traction presses with more than 1.5 shear moduli (over the cells' length "
+              "by width, on moved nodes) or a nearly incompressible body "
+              "(bulk modulus above 2.5 shear moduli) is held on all sides: nodes for fvm on boxes "
+              "of hexahedra, where they are as safe; lines where the operators have them; else "
+              "cells, with operators of second order, but for fvm on hexahedra with distorted "
+              "faces on "
+              "the boundary. Elsewhere lines of nearly incompressible mooney-rivlin with a "
+              "zeta_ratio of 0.25 and more for SPH on boxes; "
+              "with operators of second order cells of nearly incompressible material, but for fvm "
+              "on boxes, and "
+              "of any off boxes, but for fvm with the edge stencil on other cells than triangles "
+              "and tetrahedra, where cells are up to 1.5 times as long as wide and without the "
+              "face correction; else nodes.",
+              "\"cells\""))
       .key("cell_shear", &SchemeCase::cell_shear,
            {"-", between(0, 1),
             "Share of the shear modulus that gradients of cells carry instead of those of nodes, "
@@ -80,7 +83,9 @@ SectionKeys<SchemeCase> scheme_keys() {
            one_of(scheme::precision_menu().names(),
                   "Precision of what the sweeps keep. mixed: pseudo-areas C_ab in single, half the "
                   "memory of irregular nodes, 1e-7 of error. single: the state and the sums over "
-                  "pairs too; half the memory, some 1e-5 of error relative to the largest speed.",
+                  "pairs too; half the memory, some 1e-5 of error relative to the largest speed; "
+                  "energies "
+                  "of strains below 1.5e-3 are rounding, and not judged.",
                   "\"single\""))
       .key("angular_momentum_projection", &SchemeCase::angular_momentum_projection,
            {"-", any,

@@ -34,8 +34,8 @@ SectionKeys<VariantCase> variant_keys() {
 SectionEntry variant_section() {
   const auto keys = variant_keys();
   return {{"variant", true,
-           "A column beside both methods in `diptych compare` and `converge`, as `--with` gives "
-           "one: the case with some settings changed. Other verbs leave it alone."},
+           "A column beside both methods in `diptych compare`, `converge` and `study`, as `--with` "
+           "gives one: the case with some settings changed. Other verbs leave it alone."},
           keys.keys(),
           [keys](Reading& reading, Case& setup) {
             for (const SectionValues& entry : reading.entries("variant")) {

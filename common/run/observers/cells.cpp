@@ -24,7 +24,12 @@ void Cells::at_output(const Output& output) {
   now_ = seen ? *seen : least_();
   least_J_ = std::min(least_J_, now_.J);
   most_inverted_ = std::max(most_inverted_, now_.n_inverted);
-  if (now_.n_inverted > 0 && !inverted_from_) inverted_from_ = output.state.time();
+  const double time = output.state.time();
+  if (now_.n_inverted > 0 && !inverted_from_) inverted_from_ = time;
+  if (now_.n_folded <= most_folded_.n_folded) return;
+  if (most_folded_.n_folded == 0) folded_from_ = time;
+  most_folded_ = now_;
+  most_folded_at_ = time;
 }
 
 void Cells::archive(algebra::Archive& archive) {
@@ -38,6 +43,22 @@ void Cells::archive(algebra::Archive& archive) {
   if (inverted_from_) from.push_back(*inverted_from_);
   archive.reals("cells/inverted from", "s", from);
   inverted_from_ = from.empty() ? std::nullopt : std::optional(from.front());
+  archive.integer("cells/folded", now_.n_folded);
+  archive.vector("cells/first folded", "m", now_.folded);
+  archive.integer("cells/most folded", most_folded_.n_folded);
+  archive.vector("cells/first of most folded", "m", most_folded_.folded);
+  archive.real("cells/most folded at", "s", most_folded_at_);
+  archive.real("cells/folded from", "s", folded_from_);
+}
+
+std::optional<std::string> Cells::notice() const {
+  if (most_folded_.n_folded == 0) return std::nullopt;
+  const algebra::Vec3& X = most_folded_.folded;
+  return fmt::format(
+      "from t = {:.4g} s on cells were folded: {} of {} at t = {:.4g} s had a corner inside out, "
+      "the first with its centre at X = ({:.4g}, {:.4g}, {:.4g}) m, though their volumes are "
+      "positive; there the mesh is too coarse for the motion, or the load too sharp for the mesh",
+      folded_from_, most_folded_.n_folded, now_.n_cells, most_folded_at_, X[0], X[1], X[2]);
 }
 
 void Cells::fill(io::RunSummary& summary) const {

@@ -19,6 +19,8 @@ struct LeastCell {
   std::int64_t n_cells = 0;
   algebra::Vec3 centre = algebra::Vec3::Zero();  ///< m, undeformed, of the cell with that J
   std::int32_t node = 0;                         ///< a corner of it
+  std::int64_t n_folded = 0;                     ///< of the others, those with a corner inside out
+  algebra::Vec3 folded = algebra::Vec3::Zero();  ///< m, undeformed, centre of the first of them
 
   /// Of a breakdown: how many are inside out, where the worst of them is, what to do.
   std::string message(std::int64_t step, double time) const;
@@ -40,6 +42,8 @@ class Cells : public Observer {
   const LeastCell& now() const { return now_; }
   /// Least of all output times, most inverted ones, the first time with such.
   void fill(io::RunSummary& summary) const;
+  /// What is to be told of cells that were folded at an output time.
+  std::optional<std::string> notice() const;
 
  private:
   Least least_;
@@ -48,6 +52,8 @@ class Cells : public Observer {
   double least_J_ = 1e300;
   std::int64_t most_inverted_ = 0;
   std::optional<double> inverted_from_;  // s
+  LeastCell most_folded_;
+  double most_folded_at_ = 0, folded_from_ = 0;  // s
 };
 
 }  // namespace diptych::run

@@ -107,10 +107,17 @@ void EnergyGuard::at_check(const Check& check) {
   const double dissipated = energy.numerical_dissipation, scale = energy_.scale();
   if (-dissipated > threshold_ * scale + rounding) refuse_gain(check, -dissipated);
   if (!std::isfinite(residual)) refuse_residual(check, residual, threshold_);
+  // what moves no J may have begun at any step since the last check, and a first step of SSP-RK2
+  // has its energy without work
+  const bool has_sheared =
+      is_at_rest_ && held > rounding && check.step.step - checked_at_ > steps_of_start;
+  checked_at_ = check.step.step;
   is_at_rest_ = held <= rounding;
   if (is_at_rest_) at_rest_until_ = check.step.step;
   note_growth(scale, check.step.step);
-  const double bound = bound_at(check.step.step);
+  const double bound_here = bound_at(check.step.step);
+  const double bound =
+      has_sheared ? std::max(threshold_, std::min(most_of_growth, bound_here)) : bound_here;
   // first what an unstable step does, which dissipates, too
   const double most = most_of_swing * threshold_ * scale;
   const double swing = residual > 0 ? std::clamp(check.balance.swing, 0.0, most)

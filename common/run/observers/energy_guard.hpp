@@ -43,7 +43,8 @@ class EnergyGuard : public Observer {
   /// @throws base::BreakdownError
   void at_check(const Check& check) override;
   /// A body at rest stays so for as long as no J of a node moves: between two checks a load may set
-  /// in.
+  /// in. Shear moves none; after many steps of it the first residual has the bound
+  /// most_of_growth.
   void after_step(const StepReport& step) override;
   void at_output(const Output& output) override {
     at_check({output.step, output.balance, output.audit});
@@ -54,6 +55,7 @@ class EnergyGuard : public Observer {
     archive.integer("energy guard/at rest until step", at_rest_until_);
     archive.integer("energy guard/still until step", still_until_);
     archive.integer("energy guard/at rest", is_at_rest_);
+    archive.integer("energy guard/checked at step", checked_at_);
     archive.integer("energy guard/still", is_still_);
     archive.real("energy guard/doubled energy", "J", doubled_);
     archive.integers("energy guard/doubled at step", doubled_at_);
@@ -100,6 +102,7 @@ class EnergyGuard : public Observer {
   LossBound loss_;
   std::int64_t at_rest_until_ = -steps_of_start;  // step
   bool is_at_rest_ = false;                       // since the last check
+  std::int64_t checked_at_ = 0;                   // step of the last check
   std::int64_t still_until_ = -steps_of_start;    // step
   bool is_still_ = false;                         // since the last check
   double doubled_ = 0;                            // J, the energy when it had last doubled

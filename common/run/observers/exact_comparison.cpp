@@ -1,5 +1,7 @@
 #include "common/run/observers/exact_comparison.hpp"
 
+#include "common/base/text.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -10,8 +12,9 @@ namespace diptych::run {
 ExactComparison::ExactComparison(const cases::Case& setup,
                                  const Solver& solver,
                                  size_t survey,
-                                 const Probes& probes)
-    : setup_(setup), solver_(solver), survey_(survey), probes_(probes) {
+                                 const Probes& probes,
+                                 const NaturalSizes& sizes)
+    : setup_(setup), solver_(solver), survey_(survey), probes_(probes), errors_(sizes) {
   if (is_available()) this->survey().read_at(probes.nodes(), probes.places());
 }
 
@@ -20,6 +23,18 @@ void ExactComparison::at_output(const Output& output) {
   const ExactSums sums = sums_of(solver_.ask(survey_, {}));
   errors_.measure(sums);
   add_row(output.state.time(), sums);
+}
+
+std::optional<std::string> ExactComparison::notice() const {
+  std::vector<std::string> fields;
+  for (const std::string& field : errors_.at_rest())
+    if (field == "velocity" || field == "displacement" || field == "stress")
+      fields.push_back(field);
+  if (fields.empty()) return std::nullopt;
+  return fmt::format(
+      "the exact {} zero at all output times: errors of it are relative to the speed of pressure "
+      "waves, the size of the body and density times the square of that speed",
+      base::joined(fields) + (fields.size() == 1 ? " is" : " are"));
 }
 
 /// Of the same fields each time.

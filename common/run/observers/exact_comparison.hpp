@@ -9,6 +9,8 @@
 #include "common/run/observers/observer.hpp"
 #include "common/run/probes.hpp"
 
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace diptych::run {
@@ -20,12 +22,15 @@ class ExactComparison : public Observer {
   ExactComparison(const cases::Case& setup,
                   const Solver& solver,
                   size_t survey,
-                  const Probes& probes);
+                  const Probes& probes,
+                  const NaturalSizes& sizes);
 
   /// Does nothing where the case has no exact solution.
   void at_output(const Output& output) override;
   void archive(algebra::Archive& archive) override;
 
+  /// What is to be told of fields that the exact solution leaves at rest.
+  std::optional<std::string> notice() const;
   const ExactErrors& errors() const { return errors_; }
   /// Time first, the names and units of history.csv, without momenta that are zero throughout;
   /// empty where the case has no exact solution.

@@ -92,6 +92,7 @@ double History::energy_residual() const {
 void History::fill(io::RunSummary& summary) const {
   summary.energy = rows_.back().energy;
   summary.largest_energy = energy_.scale() > energy_.rounding() ? energy_.scale() : 0;
+  summary.mobile_energy = energy_.mobile();
   summary.contact_loss = solver_.audit().contact_loss;
   summary.linear_momentum_drift = linear_drift_;
   summary.angular_momentum_drift = angular_drift_;

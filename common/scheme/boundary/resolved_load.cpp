@@ -216,7 +216,7 @@ Survey survey(const FieldFunction<Value>& load,
     if (largest[i] == 0) {
       if (!is_of_nodes_alone(nodes[i], faces)) continue;
       largest[i] = missed_most[i];
-      if (instants.size() == 1) seen.on_nodes_alone = X[first_loaded(nodes[i])];
+      if (!load.in_place().travels) seen.on_nodes_alone = X[first_loaded(nodes[i])];
     }
     ++n_seen;
     std::vector<char> now(faces.size());

@@ -28,28 +28,48 @@ std::unique_ptr<BoundaryCondition> make_rigid_wall(const BoundaryValues& values)
 }  // namespace
 
 BoundaryKind rigid_wall_condition() {
-  return {make_rigid_wall, BoundaryKind::Takes::plane, BoundaryKind::Acts::touch,
-          "frictionless contact with a fixed rigid plane in space, which the group may touch and "
-          "leave (a node has one wall at most); what a node loses as the wall catches it is "
-          "negative external work, of the first "
-          "order in the spacing"};
+  return {
+      make_rigid_wall, BoundaryKind::Takes::plane, BoundaryKind::Acts::touch,
+      "frictionless contact with a fixed rigid plane in space, which the group may touch and "
+      "leave (several walls may share nodes where they are at right angles, as in a corner, or "
+      "face each other); what a node loses as the wall catches it is negative external work, of "
+      "the first order in the spacing"};
+}
+
+bool WallContacts::WallNode::acts_apart_from(const WallNode& other) const {
+  constexpr double rounding = 1e-5;  // of normals with six digits
+  const double cosine =
+      along().dot(other.wall.normal) / (other.body.keep * other.wall.normal).norm();
+  return std::abs(cosine) < rounding || cosine < -1 + 0.5 * rounding * rounding;
 }
 
 void WallContacts::add(const RigidWall& wall, const WallCandidate& candidate) {
   const Vec3 free = candidate.keep * wall.normal;
   const double share = free.dot(wall.normal);  // cos^2 of the angle to the free directions
   if (share < 1e-12) return;
-  const auto [place, is_new] = place_of_node_.emplace(candidate.node, nodes_.size());
-  if (!is_new) {
+  const WallNode added{candidate, wall, free / share, false};
+  const auto [begin, end] = places_of_node_.equal_range(candidate.node);
+  for (auto place = begin; place != end; ++place) {
     const WallNode& w = nodes_[place->second];
-    if (w.wall.point == wall.point && w.wall.normal == wall.normal) return;  // groups share a node
-    const Vec3& X = candidate.X;
+    const Vec3 &X = candidate.X, &n = w.wall.normal, &m = wall.normal;
+    const double between = (w.wall.point - wall.point).dot(m);
+    const bool is_one_plane = std::abs(between) <= 1e-9 * std::cbrt(candidate.Omega);
+    if (n == m && is_one_plane) return;  // groups share a node
+    if (n.dot(m) < -0.5 && is_one_plane) {
+      throw base::InputError(fmt::format(
+          "two rigid walls that face each other leave the node at ({:g}, {:g}, {:g}) no "
+          "room; move their points apart, or hold it with type = \"symmetry\"",
+          X[0], X[1], X[2]));
+    }
+    if (added.acts_apart_from(w)) continue;
     throw base::InputError(fmt::format(
-        "two rigid walls act on the node at ({:g}, {:g}, {:g}); let the groups of walls share no "
-        "node",
-        X[0], X[1], X[2]));
+        "two rigid walls, of normals ({:.6g}, {:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g}), act on "
+        "the node at ({:g}, {:g}, {:g}) along directions that are neither at right angles nor "
+        "opposite; let the groups of such walls share no node",
+        n[0], n[1], n[2], m[0], m[1], m[2], X[0], X[1], X[2]));
   }
-  nodes_.push_back({candidate, wall, free / share, false});
+  places_of_node_.emplace(candidate.node, nodes_.size());
+  nodes_.push_back(added);
 }
 
 namespace {
@@ -116,7 +136,11 @@ void WallContacts::add_work_of_force(WallNode& w,
   w.work_of_force = stage.beta * (w.work_of_force + stage.dt * T * begin);
 }
 
+/// The walls of a node are worked by one thread, in the order in which the case gives them.
 void WallContacts::list_chunks() {
+  std::stable_sort(nodes_.begin(), nodes_.end(),
+                   [](const WallNode& a, const WallNode& b) { return a.body.node < b.body.node; });
+  places_of_node_.clear();
   std::vector<std::int64_t> chunks;
   for (const WallNode& w : nodes_)
     chunks.push_back(chunk_of_node(w.body.node));
@@ -217,6 +241,16 @@ Vec3 WallContacts::lag_of_moment(const Body<Dim>& body, const StageCombination& 
   return lag.value;
 }
 
+namespace {
+
+/// What an impact takes from the body  [J]
+void take(ConstraintAction& action, double energy) {
+  action.work -= energy;
+  action.caught += energy;
+}
+
+}  // namespace
+
 template <int Dim>
 void WallContacts::settle(Body<Dim>& body, ConstraintAction& action) {
   act_on_nodes(body, action, [&](WallNode& w, ConstraintAction& of_chunk) {
@@ -235,13 +269,13 @@ void WallContacts::settle(Body<Dim>& body, ConstraintAction& action) {
       w.lands = false;
       w.closed = true;
       set_normal_velocity(w, 0, body, of_chunk);
-      of_chunk.work += half_mass * (speed() * speed() - w.v_begin * w.v_begin) - w.work_of_force;
+      take(of_chunk, half_mass * (w.v_begin * w.v_begin - speed() * speed()) + w.work_of_force);
     } else if (v_n < 0 && gap_of<Dim>(w.wall, w.body.X, body.u, a) <= 0) {
       // stands there from the start
       const double before = speed();
       w.closed = true;
       set_normal_velocity(w, 0, body, of_chunk);
-      of_chunk.work += half_mass * (speed() * speed() - before * before);
+      take(of_chunk, half_mass * (before * before - speed() * speed()));
     }
   });
 }

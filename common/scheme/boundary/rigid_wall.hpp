@@ -15,6 +15,9 @@
 ///
 /// Bouncing nodes back instead would keep the energy of the layer but leave it as noise of the
 /// shortest waves, and a penalty has a stiffness to choose and shortens the stable step.
+///
+/// A node may have several walls where an impulse of one leaves what another one sees as it is
+/// (they are at right angles), or where it cannot be at both (they face each other).
 /// Test: tests/common/scheme/rigid_wall_test.cpp
 
 #include "common/scheme/body/body.hpp"
@@ -40,7 +43,8 @@ struct WallCandidate {
 class WallContacts {
  public:
   /// A node that the wall cannot push, since it is held, is left out.
-  /// @throws base::InputError where the node already has another wall
+  /// @throws base::InputError where the node has another wall, neither at right angles to this one
+  /// nor facing it
   void add(const RigidWall& wall, const WallCandidate& candidate);
   /// To be called once all nodes are there.
   void list_chunks();
@@ -103,9 +107,11 @@ class WallContacts {
     double work_of_force = 0;  ///< J, of T along push over the step so far
 
     Vec3 along() const { return push.normalized(); }
+    /// Of the same node.
+    bool acts_apart_from(const WallNode& other) const;
   };
-  std::vector<WallNode> nodes_;
-  std::unordered_map<std::int32_t, size_t> place_of_node_;  // in nodes_, while they are added
+  std::vector<WallNode> nodes_;  ///< ascending, those of one node together
+  std::unordered_multimap<std::int32_t, size_t> places_of_node_;  // in nodes_, while they are added
   parallel::ChunksOfList chunks_;
   StageCombination last_;  ///< that ends the step
 

@@ -27,10 +27,12 @@ struct Impulse {
 /// What constraints did to a state when they were applied.
 struct ConstraintAction {
   Impulse impulse;
-  double work = 0;  ///< J, of impacts: the kinetic energy that they took, negative
+  double work = 0;    ///< J, what prescribed velocities brought, less what impacts took
+  double caught = 0;  ///< J, of kinetic energy: what impacts took
   ConstraintAction& operator+=(const ConstraintAction& other) {
     impulse += other.impulse;
     work += other.work;
+    caught += other.caught;
     return *this;
   }
 };

@@ -160,7 +160,7 @@ const BadCase of_idle_keys[] = {
     {"two_walls",
      after("[[boundary]]\ngroup = 'a'\ntype = 'rigid-wall'\npoint = [0, 0, 0]\n"
            "normal = [0, 0, 1]\n[[boundary]]\ngroup = 'a'\ntype = 'rigid-wall'\n"
-           "point = [0, 0, 1]\nnormal = [0, 0, -1]\n"),
+           "point = [0, 0, 0]\nnormal = [0, 0, 1]\n"),
      "15:1: ", "already of type rigid-wall"},
     {"expression", after("[initial]\nvelocity = [0, '10*zz', 0]\n"),
      "11:20: ", "unknown name 'zz'; did you mean"},

@@ -194,6 +194,11 @@ TEST(CaseReader, RefusesWrongOverrides) {
   EXPECT_THAT(refused("mesh=3"), HasSubstr("'mesh' is a section"));
   EXPECT_THAT(refused("time.end=1\n[sph]"), HasSubstr("control characters"));
   EXPECT_THAT(refusal(small_case, {"time.end=1", "time.end=2"}), HasSubstr("set twice"));
+  for (const auto& order : {std::vector<std::string>{"mesh.cells=[4,4,4]", "mesh.cells.0=8"},
+                            {"mesh.cells.0=8", "mesh.cells=[4,4,4]"}}) {
+    EXPECT_THAT(refusal(small_case, order),
+                HasSubstr("'mesh.cells.0' is a part of 'mesh.cells', which is set too"));
+  }
 }
 
 TEST(CaseReader, FindsMeshFilesBesideTheCase) {
@@ -285,6 +290,8 @@ TEST(CaseReader, AsksForCausesOfQuantitiesThatBothMethodsHave) {
               HasSubstr("did you mean 'kinetic energy'?"));
   EXPECT_THAT(refusal(small_case + "\n[[apart]]\nquantity = \"min jacobian\"\n"),
               HasSubstr("because"));
+  const std::string other = "[[apart]]\nquantity = \"tip\"\nbecause = \"another\"\n";
+  EXPECT_THAT(refusal(small_case + apart("tip") + other), HasSubstr("has an [[apart]] already"));
 }
 
 TEST(CaseReader, RefusesWhatIsSaidTwiceOfAGroupOrAProbe) {

@@ -29,6 +29,12 @@ TEST(BreakTimes, AreThoseOfComparisonsWithTime) {
               ElementsAre(testing::DoubleNear(0.35, 1e-15)));
 }
 
+TEST(BreakTimes, AreBothSidesOfAnInstantAlone) {
+  EXPECT_THAT(breaks_of("t == 0.1 ? 1e6 : 0"), ElementsAre(0.1, next(0.1)));
+  EXPECT_THAT(breaks_of("1e6*(2*t != 0.5)"), ElementsAre(0.25, next(0.25)));
+  EXPECT_THAT(breaks_of("t == 0 ? 1 : sin(t)/t"), ElementsAre(std::nextafter(0.0, 1.0)));
+}
+
 TEST(BreakTimes, AreThoseOfPulsesBesideKinks) {
   EXPECT_THAT(
       breaks_of("abs(t - 0.3) < 1e-7 ? 1 : 0"),
@@ -51,6 +57,13 @@ TEST(BreakTimes, AreThoseOfWaves) {
     EXPECT_NEAR(breaks[k], 0.1 * static_cast<double>(k), 1e-12);
   EXPECT_EQ(breaks_of("sign(cos(2*pi*t))").size(), 2U);
   EXPECT_THAT(breaks_of("rint(t)"), ElementsAre(testing::DoubleEq(0.5)));
+}
+
+TEST(BreakTimes, AreThoseOfAngles) {
+  EXPECT_THAT(breaks_of("atan2(sin(2*pi*2*t), cos(2*pi*2*t))"),
+              ElementsAre(testing::DoubleNear(0.25, 1e-12), testing::DoubleNear(0.75, 1e-12)));
+  EXPECT_THAT(breaks_of("atan2(t - 0.5, 1)"), IsEmpty());
+  EXPECT_THAT(breaks_of("atan2(0, t - 0.5)"), testing::SizeIs(testing::Ge(1U)));
 }
 
 TEST(BreakTimes, AreNotOfWhatIsSmoothOrMovesThroughTheBody) {

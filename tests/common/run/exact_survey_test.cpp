@@ -149,5 +149,25 @@ TEST(ExactGradients, AreDifferencesWhereTheDerivativeIsNoNumber) {
   EXPECT_NEAR(F[1](0, 1), 0.3 * 0.4 / 0.5, 1e-12);
 }
 
+/// A stress or a gradient that is given alone is held against the run, too.
+TEST(ExactFieldsOf, EachFieldThatIsGiven) {
+  std::string text = square.substr(0, square.find("[exact]")) + "[exact]\n";
+  const std::pair<std::string, std::vector<std::string>> given[] = {
+      {"stress = [[1, 2, 0], [3, 4, 0], [0, 0, 5]]\n", {"stress"}},
+      {"deformation_gradient = [[2, 0], [0, 1]]\n",
+       {"cofactor", "deformation_gradient", "jacobian", "stress"}},
+      {"velocity = [1, 0]\nstress = [[1, 2, 0], [3, 4, 0], [0, 0, 5]]\n", {"stress", "velocity"}}};
+  for (const auto& [exact, fields] : given) {
+    const tests::Scene scene = tests::scene_of("fvm", text + exact);
+    EXPECT_TRUE(ExactSurvey::is_for(scene.setup)) << exact;
+    ExactSurvey survey(scene.setup, *scene.solver, scene.graph);
+    const ExactSums sums = sums_of({survey.answer(*scene.solver, {})});
+    std::vector<std::string> found;
+    for (size_t k = 0; k < compared_fields().size(); ++k)
+      if (sums.has[k]) found.push_back(compared_fields()[k]);
+    EXPECT_THAT(found, testing::UnorderedElementsAreArray(fields)) << exact;
+  }
+}
+
 }  // namespace
 }  // namespace diptych::run

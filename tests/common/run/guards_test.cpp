@@ -245,6 +245,26 @@ TEST(EnergyGuard, CountsTheFirstStepsFromWhereTheBodyMoves) {
   }
 }
 
+// shear moves no J: how long it has gone on is not known, but no start errs by so much
+TEST(EnergyGuard, HasABoundWhereShearAloneSetsIn) {
+  for (const double kinetic : {1.5, 3.0}) {
+    EnergyGuard guard(scheme::Balance{}, 0.01, {0.5}, {1e-9});
+    scheme::Balance now;
+    scheme::Audit audit;
+    StepReport step;
+    guard.at_check({step, now, audit});
+    for (step.step = 1; step.step < 100; ++step.step)
+      guard.after_step(step);
+    audit.external_work = 1;
+    now.kinetic = kinetic;
+    if (kinetic > 2) {
+      EXPECT_THROW(guard.at_check({step, now, audit}), base::BreakdownError);
+    } else {
+      EXPECT_NO_THROW(guard.at_check({step, now, audit}));
+    }
+  }
+}
+
 /// The step at which the energy of a body first is more than its budget allows.
 class FirstGrowth : public Observer {
  public:

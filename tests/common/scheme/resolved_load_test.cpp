@@ -137,11 +137,13 @@ TEST_P(ResolvedLoad, IsNoneWhereItActsOnNodesAlone) {
 }
 
 TEST(NodesAlone, AreRefusedUnlessAnotherGroupOfTheConditionSeesTheLoad) {
-  const auto scene_with = [](const std::string& groups) {
+  const auto scene_with = [](const std::string& groups, const std::string& factor = "1") {
     return tests::scene_of("fvm", std::string(block) + "[[boundary]]\ngroup = " + groups +
-                                      "\ntype = \"pressure\"\nvalue = \"x > 0.9999 ? 1 : 0\"\n");
+                                      "\ntype = \"pressure\"\nvalue = \"x > 0.9999 ? " + factor +
+                                      " : 0\"\n");
   };
   EXPECT_THROW(scene_with("[\"z_max\"]"), base::InputError);
+  EXPECT_THROW(scene_with("[\"z_max\"]", "sin(t)"), base::InputError);
   EXPECT_NO_THROW(scene_with("[\"z_max\", \"x_max\"]"));
 }
 
