@@ -200,8 +200,8 @@ TEST(StrongPressure, IsLeftToNodesWhereNothingPresses) {
     EXPECT_EQ(carrier(method, {"mesh.element=triangle", square, "scheme.face_correction=1/8"}),
               "nodes");
   }
-  // rubber that nothing presses sums by parts, off boxes with nodes, and where nothing but F resists
-  // shear: lines come apart in tension
+  // rubber that nothing presses sums by parts, off boxes with nodes, and where nothing but F
+  // resists shear: lines come apart in tension
   EXPECT_EQ(carrier("sph", {rubber}), "nodes");
   const std::string areas = "material.model=mooney-rivlin";
   EXPECT_EQ(carrier("sph", {rubber, areas, "material.zeta_ratio=0.25"}), "lines");
