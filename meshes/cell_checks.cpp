@@ -2,6 +2,7 @@
 
 #include "common/base/error.hpp"
 #include "meshes/cell_topology.hpp"
+#include "meshes/corner_jacobian.hpp"
 #include "meshes/gmsh.hpp"
 
 #include <algorithm>
@@ -24,15 +25,14 @@ CellFault node_fault(const Mesh& mesh, std::span<const std::int32_t> nodes) {
 }
 
 /// Jacobian at a corner and the product of its edge lengths.
-std::pair<double, double> corner_jacobian(const Mesh& mesh,
-                                          std::span<const std::int32_t> nodes,
-                                          const LocalCorner& corner) {
+std::pair<double, double> jacobian_and_scale(const Mesh& mesh,
+                                             std::span<const std::int32_t> nodes,
+                                             const LocalCorner& corner) {
   const Vec3& origin = mesh.nodes[nodes[corner.node]];
   const auto edge = [&](int k) -> Vec3 { return mesh.nodes[nodes[corner.neighbours[k]]] - origin; };
-  const Vec3 a = edge(0), b = edge(1);
-  if (mesh.dimension == 2) return {a[0] * b[1] - a[1] * b[0], a.norm() * b.norm()};
-  const Vec3 c = edge(2);
-  return {a.cross(b).dot(c), a.norm() * b.norm() * c.norm()};
+  const bool is_plane = mesh.dimension == 2;
+  const Vec3 a = edge(0), b = edge(1), c = is_plane ? Vec3::UnitZ() : edge(2);
+  return {corner_jacobian(is_plane, a, b, c), a.norm() * b.norm() * c.norm()};
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ CellFault fault_of(const Mesh& mesh, std::int64_t cell) {
   if (const CellFault fault = node_fault(mesh, nodes); fault != CellFault::none) return fault;
   int n_positive = 0, n_negative = 0;
   for (const LocalCorner& corner : corners_of(mesh.cell_types[cell])) {
-    const auto [jacobian, scale] = corner_jacobian(mesh, nodes, corner);
+    const auto [jacobian, scale] = jacobian_and_scale(mesh, nodes, corner);
     if (!std::isfinite(jacobian) || !std::isfinite(scale)) return CellFault::not_finite;
     if (std::abs(jacobian) <= least_relative_jacobian * scale) return CellFault::degenerate;
     ++(jacobian > 0 ? n_positive : n_negative);

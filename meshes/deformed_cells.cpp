@@ -3,6 +3,7 @@
 #include "common/algebra/lanes.hpp"
 #include "common/parallel/for_chunks.hpp"
 #include "meshes/cell_topology.hpp"
+#include "meshes/corner_jacobian.hpp"
 #include "meshes/face_flux.hpp"
 #include "meshes/shape_integrals.hpp"
 
@@ -41,18 +42,13 @@ T least_corner_of(CellType type, const T (&x)[max_cell_nodes][3]) {
   bool is_first = true;
   for (const LocalCorner& corner : corners_of(type)) {
     const auto& next = corner.neighbours;
-    T a[3], b[3], c[3], jacobian;
+    T a[3], b[3], c[3];
     for (int i = 0; i < 3; ++i) {
       a[i] = x[next[0]][i] - x[corner.node][i];
       b[i] = x[next[1]][i] - x[corner.node][i];
       c[i] = x[next[2]][i] - x[corner.node][i];
     }
-    if (is_plane) {
-      jacobian = a[0] * b[1] - a[1] * b[0];
-    } else {
-      jacobian = (a[1] * b[2] - a[2] * b[1]) * c[0] + (a[2] * b[0] - a[0] * b[2]) * c[1] +
-                 (a[0] * b[1] - a[1] * b[0]) * c[2];
-    }
+    const T jacobian = corner_jacobian(is_plane, a, b, c);
     least = is_first ? jacobian : algebra::smaller(jacobian, least);
     is_first = false;
   }

@@ -36,6 +36,12 @@ void add_tensor(std::string& row, const run::Mat3& M) {
 
 }  // namespace
 
+double energy_residual(const std::vector<PathPoint>& points) {
+  const PathPoint& end = points.back();
+  return std::abs(end.work - (end.energy - points.front().energy) - end.dissipated) /
+         std::max({std::abs(end.work), end.energy, end.dissipated, 1e-300});
+}
+
 std::string path_table(const cases::Case& setup,
                        const MaterialPath& path,
                        const std::vector<PathPoint>& points,
@@ -51,17 +57,9 @@ std::string path_table(const cases::Case& setup,
         p.state.F(0, 0), p.state.F(0, 1), p.P(0, 0), p.P(0, 1), p.P(1, 1), p.energy, p.dissipation);
   }
   const PathPoint& end = points.back();
-  const double residual =
-      std::abs(end.work - (end.energy - points.front().energy) - end.dissipated) /
-      std::max({std::abs(end.work), end.energy, end.dissipated, 1e-300});
   text += fmt::format(
       "work {:.6g}, stored {:.6g}, dissipated {:.6g} J/m^3; residual {:.1e} of the largest\n",
-      end.work, end.energy - points.front().energy, end.dissipated, residual);
-  if (residual > 1e-2) {
-    text +=
-        "  the path does NOT conserve energy: take more --steps; if that changes little, the\n"
-        "  stress of the material is no derivative of its energy\n";
-  }
+      end.work, end.energy - points.front().energy, end.dissipated, energy_residual(points));
   const double cycles = path.end * path.angular_frequency / (2 * 3.14159265358979323846);
   if (path.course == Course::oscillation && cycles >= 1 - 1e-9) {
     const DynamicModuli G = dynamic_moduli(points, path);

@@ -9,6 +9,10 @@
 
 namespace diptych::harness {
 
+/// What work, stored and dissipated energy of a path are out of balance by, as a share of the
+/// largest of them: an error of steps, or of a stress that is no derivative of the energy.
+double energy_residual(const std::vector<PathPoint>& points);
+
 /// A dozen instants, the dynamic moduli of an oscillation, and the scan.
 std::string path_table(const cases::Case& setup,
                        const MaterialPath& path,

@@ -14,6 +14,7 @@
 #include "benchmarks/run/scene.hpp"
 #include "common/base/error.hpp"
 #include "common/parallel/for_chunks.hpp"
+#include "common/run/exact_errors.hpp"
 #include "common/run/probes.hpp"
 
 #include <algorithm>
@@ -31,18 +32,13 @@ namespace {
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// What rounding is relative to: the canary of a field and probes of a unit that are zero but for
-/// rounding say nothing relative to themselves.
-struct NaturalScales {
-  double length, speed, stress, volume;
-};
-
-NaturalScales natural_scales(const cases::Case& setup, const scheme::PairGraph& graph) {
-  double volume = 0;
-  for (const double Omega : graph.Omega)
-    volume += Omega;
+/// rounding say nothing relative to themselves. Its length is the spacing of the nodes.
+run::NaturalSizes sizes_of_rounding(const cases::Case& setup, const scheme::PairGraph& graph) {
   const double modulus = setup.material.lame + 2 * setup.material.shear_modulus;
-  return {std::pow(volume / static_cast<double>(graph.n_nodes()), 1.0 / graph.dimension),
-          std::sqrt(modulus / setup.material.density), modulus, volume};
+  auto sizes = run::natural_sizes(setup, graph, std::sqrt(modulus / setup.material.density));
+  sizes.length =
+      std::pow(sizes.volume / static_cast<double>(graph.n_nodes()), 1.0 / graph.dimension);
+  return sizes;
 }
 
 /// Root mean square, and the mean with signs that change from node to node and from component to
@@ -82,9 +78,9 @@ std::vector<double> flat(const std::vector<double>& field, const std::vector<std
 }
 
 /// Five steps of a stated fraction of the graph's bound, whatever the integrator's default is.
-NaturalScales measure_canary(const cases::Case& setup,
-                             const std::string& method,
-                             MethodFigures& figures) {
+run::NaturalSizes measure_canary(const cases::Case& setup,
+                                 const std::string& method,
+                                 MethodFigures& figures) {
   const Scene scene(setup, method, 0);
   run::Solver& solver = *scene.solver;
   const std::vector<std::int32_t>& order = scene.mesh.order;
@@ -98,7 +94,7 @@ NaturalScales measure_canary(const cases::Case& setup,
     solver.step(setup.time.end);
   }
   const scheme::Snapshot s = solver.snapshot();
-  const NaturalScales natural = natural_scales(setup, scene.graph);
+  const run::NaturalSizes natural = sizes_of_rounding(setup, scene.graph);
   figures.state = solver.state_hash(order);
   figures.canary["time"] = {s.time, s.time};
   add_field(figures.canary, "displacement", flat(s.u, order), natural.length);
@@ -117,7 +113,7 @@ NaturalScales measure_canary(const cases::Case& setup,
 }
 
 /// Below a millionth of it a value is rounding.
-double floor_of(const std::string& unit, const NaturalScales& natural, double energy) {
+double floor_of(const std::string& unit, const run::NaturalSizes& natural, double energy) {
   if (unit == "m") return 1e-6 * natural.length;
   if (unit == "m/s") return 1e-6 * natural.speed;
   if (unit == "Pa") return 1e-6 * natural.stress;
@@ -141,7 +137,9 @@ double fall_of(const RunResult& run, double io::EnergySummary::*dissipation) {
   return scale > 0 ? fall / scale : fall;
 }
 
-void add_quantities(const RunResult& run, const NaturalScales& natural, RegressFigures& figures) {
+void add_quantities(const RunResult& run,
+                    const run::NaturalSizes& natural,
+                    RegressFigures& figures) {
   const io::RunSummary& s = run.summary;
   const double energy = s.largest_energy;
   const auto exact = [&](const char* name, std::int64_t n) {
@@ -183,7 +181,7 @@ void add_quantities(const RunResult& run, const NaturalScales& natural, RegressF
 
 /// A field of small strains is what terms of the size of the modulus leave: it is known to some eps
 /// over the strain, and so are its errors, which are relative to it.
-double field_rounding(const NaturalScales& natural, double energy) {
+double field_rounding(const run::NaturalSizes& natural, double energy) {
   constexpr double n_terms = 4;
   const double strain = std::sqrt(2 * energy / (natural.stress * natural.volume));
   return strain > 0 ? n_terms * eps / strain : 0;
@@ -283,7 +281,7 @@ std::map<std::string, BarredValue> barred(const ColumnConvergence& study,
 void add_agreement(const cases::Case& setup,
                    const std::vector<LevelRecord>& records,
                    double energy,
-                   const NaturalScales& natural,
+                   const run::NaturalSizes& natural,
                    RegressMeasurement& measurement) {
   std::map<std::string, double> floors{{"min jacobian", 1.0}};
   for (const char* name : {"kinetic energy", "strain energy", "viscous dissipation",
@@ -358,7 +356,7 @@ RegressMeasurement measure_regress(const std::string& case_file,
   RegressMeasurement measurement;
   for (const cases::ApartCase& one : setup.apart)
     measurement.explanations[one.quantity] = one.because;
-  std::map<std::string, NaturalScales> natural;  // of each method
+  std::map<std::string, run::NaturalSizes> natural;  // of each method
   std::vector<CampaignRun> plan;
   for (const std::string& method : method_menu().names()) {
     MethodMeasurement& now = measurement.methods[method];

@@ -57,8 +57,7 @@ std::string difference_of(const RunIdentity& before, const RunIdentity& now) {
     return "is of other nodes: the mesh file, or the gmsh that meshed it, has changed";
   if (before.groups != now.groups)
     return "is of other boundary groups: those of the mesh file, or of the gmsh that meshed it, "
-           "have "
-           "changed";
+           "have changed";
   return "";
 }
 

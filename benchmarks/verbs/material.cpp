@@ -42,6 +42,15 @@ int strain_material(const MaterialArguments& arguments) {
   const std::string name = "material-" + arguments.path;
   write_output(folder, name + ".csv", harness::path_csv(points));
   write_output(folder, name + ".svg", harness::path_svg(setup, path, points));
+  constexpr double most = 1e-2;
+  if (const double residual = harness::energy_residual(points); residual > most) {
+    throw base::BoundError(
+        fmt::format("work, stored and dissipated energy of the path are out of balance "
+                    "by {:.2g} of the largest, bound {:g}: a branch may relax within a "
+                    "step, take more --steps; where that changes little, the stress of "
+                    "the material is no derivative of its energy",
+                    residual, most));
+  }
   return 0;
 }
 

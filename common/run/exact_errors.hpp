@@ -16,7 +16,7 @@
 
 namespace diptych::run {
 
-/// What fields of a body are measured with that the exact solution leaves at rest.
+/// What fields of a body are measured with that are zero but for rounding.
 struct NaturalSizes {
   double speed = 0;   ///< m/s
   double length = 0;  ///< m

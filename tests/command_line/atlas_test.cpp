@@ -103,6 +103,15 @@ TEST_F(OwnAtlas, IsComparedWithThatOfAnEarlierProgram) {
   EXPECT_THAT(after.text, Not(HasSubstr("no longer stable")));
 }
 
+// before it runs anything
+TEST_F(OwnAtlas, IsNotComparedWithWhatHasNoneOfItsPoints) {
+  folder.write("before.json", "{\"points\": []}");
+  const auto outcome = made("--quiet --before before.json");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.text, HasSubstr("has no point of the atlas"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
 TEST_F(OwnAtlas, AsksForAnAtlasAndForNothingThatHasNoEffect) {
   for (const std::string wrong :
        {"study nowhere --atlas", "study steps.toml --atlas --vary time.cfl=1",

@@ -57,6 +57,15 @@ TEST(CommandLine, CountsThatCannotBeAreRefused) {
   EXPECT_TRUE(folder.is_empty());
 }
 
+TEST(CommandLine, PathsOfMaterialsWhoseEnergyIsOutOfBalanceAreNotDone) {
+  const Folder folder;
+  const std::string path = " --path uniaxial-step --amplitude 0.3 --end 1 --out out";
+  const auto outcome = diptych(folder, "material hard-stiff-branches" + path);
+  EXPECT_EQ(outcome.exit_code, 5) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("out of balance"));
+  EXPECT_EQ(diptych(folder, "material " + cube + path).exit_code, 0);
+}
+
 TEST(CommandLine, RunsThatNoMemoryHoldsAreRefusedBeforeTheFirst) {
   const Folder folder;
   const std::string huge = " --set 'mesh.cells=[1000,1000,1000]'";
