@@ -16,7 +16,7 @@ add_custom_command(OUTPUT ${man_page} DEPENDS setup/diptych.1
 add_custom_target(man_page ALL DEPENDS ${man_page})
 add_dependencies(diptych man_page)
 install(FILES ${man_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md VERIFICATION.md LITERATURE.md
+install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md USING.md VERIFICATION.md LITERATURE.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${CMAKE_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 # HDF5 and GCC's OpenMP runtime are inside the program: their notices go with it.

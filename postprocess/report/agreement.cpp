@@ -40,10 +40,12 @@ Verdict verdict_on(const ScalarOfMethod& a, const ScalarOfMethod& b, double scal
   Verdict verdict;
   verdict.difference = std::abs(a.value - b.value);
   verdict.allowed = a.error_bar + b.error_bar;
-  for (const ScalarOfMethod* one : {&a, &b}) {
-    const std::string why = why_unresolved(*one, scale);
-    if (why.empty()) continue;
-    verdict.why += (verdict.why.empty() ? "" : "; ") + one->method + " " + why;
+  const std::string why_a = why_unresolved(a, scale), why_b = why_unresolved(b, scale);
+  if (!why_a.empty() && why_a == why_b) {
+    verdict.why = "each method " + why_a;
+  } else {
+    if (!why_a.empty()) verdict.why = a.method + " " + why_a;
+    if (!why_b.empty()) verdict.why += (verdict.why.empty() ? "" : "; ") + b.method + " " + why_b;
   }
   const auto is_within = [&] {
     return verdict.difference <= verdict.allowed || equal_in_six_digits(a.value, b.value);

@@ -41,14 +41,31 @@ Verdict verdict_on(const GridSeries& a, const GridSeries& b) {
 
 namespace {
 
+/// Quantities that are unresolved for one reason.
+struct Unresolved {
+  std::string why;  ///< HTML
+  std::vector<std::string> names;
+};
+
 /// Quantities by what refinement says of them.
 struct AgreementOfStudy {
   std::vector<std::string> within, beyond;  ///< names
   std::vector<std::string> near, far;       ///< names of those without an order
-  std::vector<std::string> unresolved;      ///< names with the reason, HTML
-  std::vector<std::string> causes;          ///< of those beyond, with names, HTML
+  std::vector<Unresolved> unresolved;       ///< in the order of their first quantities
+  size_t n_unresolved = 0;
+  std::vector<std::string> causes;   ///< of those beyond, with names, HTML
   size_t n_first = 0, n_second = 0;  ///< of those judged: where that method has the narrower bar
   size_t n_judged() const { return within.size() + beyond.size(); }
+  void leave(const std::string& name, const std::string& why) {
+    ++n_unresolved;
+    const auto same = std::find_if(unresolved.begin(), unresolved.end(),
+                                   [&](const Unresolved& one) { return one.why == why; });
+    if (same != unresolved.end()) {
+      same->names.push_back(name);
+    } else {
+      unresolved.push_back({why, {name}});
+    }
+  }
 };
 
 AgreementOfStudy agreement_of(const StudyReport& study, const Pair& pair) {
@@ -62,7 +79,7 @@ AgreementOfStudy agreement_of(const StudyReport& study, const Pair& pair) {
     if (a.level != b.level || a.level == 0) continue;
     const Verdict verdict = verdict_on(series[same_order ? 0 : 1], series[same_order ? 1 : 0]);
     if (!verdict.why.empty()) {
-      agreement.unresolved.push_back(escaped(quantity.first + " (" + verdict.why + ")"));
+      agreement.leave(quantity.first, escaped(verdict.why));
       if (verdict.agreement == Agreement::near) agreement.near.push_back(quantity.first);
       if (verdict.agreement == Agreement::far) agreement.far.push_back(quantity.first);
       continue;
@@ -99,6 +116,18 @@ std::string nearer_sentence(const AgreementOfStudy& agreement, const Pair& pair)
       std::max(agreement.n_first, agreement.n_second), n);
 }
 
+/// How many are unresolved, which, and why, a reason once.
+std::string unresolved_sentence(const AgreementOfStudy& agreement) {
+  const size_t n = agreement.n_judged() + agreement.n_unresolved;
+  if (agreement.n_unresolved == n && n > 1 && agreement.unresolved.size() == 1)
+    return fmt::format("All {} quantities are unresolved: {}.", n, agreement.unresolved[0].why);
+  std::string list;
+  for (const Unresolved& one : agreement.unresolved)
+    list += fmt::format("{}{} ({})", list.empty() ? "" : "; ", names_html(one.names), one.why);
+  return fmt::format("{} of {} quantities {} unresolved: {}.", agreement.n_unresolved, n,
+                     agreement.n_unresolved == 1 ? "is" : "are", list);
+}
+
 }  // namespace
 
 std::vector<std::string> agreement_sentences(const StudyReport& study,
@@ -121,10 +150,7 @@ std::vector<std::string> agreement_sentences(const StudyReport& study,
     sentences.push_back(fmt::format("They are apart on {}.", fmt::join(agreement.causes, "; ")));
   if (n > 0 && !has_errors) sentences.insert(sentences.begin(), nearer_sentence(agreement, pair));
   if (!agreement.unresolved.empty()) {
-    std::string sentence = fmt::format("{} of {} quantities {} unresolved: {}.",
-                                       agreement.unresolved.size(), n + agreement.unresolved.size(),
-                                       agreement.unresolved.size() == 1 ? "is" : "are",
-                                       fmt::join(agreement.unresolved, ", "));
+    std::string sentence = unresolved_sentence(agreement);
     if (!agreement.near.empty()) {
       sentence += fmt::format(
           " Of these the methods are no further apart than three times what their levels change "

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <gmock/gmock.h>
 
 namespace diptych {
@@ -239,6 +240,20 @@ TEST(Readme, EveryCommandOfTheProgramWorks) {
     ++n_commands;
   }
   EXPECT_GE(n_commands, 5);
+}
+
+TEST(Readme, CaseOfYourOwnRunsWithBothMethods) {
+  const Folder folder;
+  const std::string readme = text_of(tests::source_folder() + "/README.md"), fence = "```toml\n";
+  const size_t begin = readme.find(fence);
+  ASSERT_NE(begin, std::string::npos);
+  const size_t from = begin + fence.size();
+  std::ofstream(folder.path() / "strip.toml")
+      << readme.substr(from, readme.find("```", from) - from);
+  const auto outcome = diptych(folder, "compare strip.toml --threads 1 --quiet");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_THAT(outcome.text,
+              AllOf(HasSubstr("tip displacement [m], final"), HasSubstr("report.html")));
 }
 
 }  // namespace

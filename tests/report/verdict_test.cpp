@@ -139,6 +139,21 @@ TEST(Verdict, ComparesErrorBarsWhereThereIsNoExactSolution) {
                       "strain energy.")));
 }
 
+TEST(Verdict, GivesOneReasonOfManyQuantitiesOnce) {
+  StudyReport study = without_errors(test::full_study());
+  const auto resolved = study.quantities.begin()->second;
+  for (GridSeries& series : study.quantities.begin()->second)
+    series.estimate.reset();
+  const auto unresolved = study.quantities.begin()->second;
+  study.quantities[{"tip", "m"}] = unresolved;
+  EXPECT_THAT(verdict_text(study), StartsWith("All 2 quantities are unresolved: each method has "
+                                              "fewer than three levels."));
+  study.quantities[{"width", "m"}] = resolved;
+  EXPECT_THAT(verdict_text(study),
+              HasSubstr("2 of 3 quantities are unresolved: strain energy and tip (each method has "
+                        "fewer than three levels)."));
+}
+
 TEST(Verdict, IsGivenOfWhatBothMethodsResolveOnly) {
   StudyReport study = without_errors(test::full_study());
   // the scale is that of the values, 1.17

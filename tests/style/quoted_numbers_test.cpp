@@ -4,6 +4,7 @@
 #include "tests/style/quoted_numbers.hpp"
 
 #include "tests/folders.hpp"
+#include "tests/style/page_links.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,24 +24,8 @@ using testing::SizeIs;
 namespace fs = std::filesystem;
 const fs::path root = source_folder();
 
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// All pages of the project: the generated ones have notes of people, which quote too.
-std::vector<fs::path> pages_of_project() {
-  std::vector<fs::path> pages{root / "README.md", root / "CONTRIBUTING.md", root / "CHANGELOG.md"};
-  for (const char* folder : {"benchmarks", "common", "postprocess", "tests"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-      if (entry.path().extension() == ".md") pages.push_back(entry.path());
-    }
-  }
-  return pages;
-}
-
 nlohmann::json baseline_of(const std::string& name) {
-  return nlohmann::json::parse(text_of(root / "benchmarks/baselines" / (name + ".json")));
+  return nlohmann::json::parse(text_of_page(root / "benchmarks/baselines" / (name + ".json")));
 }
 
 /// By how many bars the methods disagree, of all baselines, as a page of tables.
@@ -59,8 +44,8 @@ std::string disagreements() {
 }
 
 std::map<std::string, std::string> generated_pages() {
-  return {{"VERIFICATION.md", text_of(root / "benchmarks/VERIFICATION.md")},
-          {"LITERATURE.md", text_of(root / "benchmarks/LITERATURE.md")},
+  return {{"VERIFICATION.md", text_of_page(root / "benchmarks/VERIFICATION.md")},
+          {"LITERATURE.md", text_of_page(root / "benchmarks/LITERATURE.md")},
           {"baselines", disagreements()}};
 }
 
@@ -68,8 +53,8 @@ TEST(QuotedNumbers, OfAllPagesAreThoseOfTheGeneratedTables) {
   const auto generated = generated_pages();
   int count = 0;
   std::string complaints;
-  for (const fs::path& page : pages_of_project()) {
-    for (const std::string& complaint : check_quotes(text_of(page), generated, count))
+  for (const fs::path& page : pages_of_project(root)) {
+    for (const std::string& complaint : check_quotes(text_of_page(page), generated, count))
       complaints += "\n  " + page.string() + ":" + complaint;
   }
   EXPECT_EQ(complaints, "");
@@ -78,7 +63,7 @@ TEST(QuotedNumbers, OfAllPagesAreThoseOfTheGeneratedTables) {
 
 /// The line of a case in AGREEMENT.md.
 std::string agreement_of(const std::string& name) {
-  const std::string page = text_of(root / "benchmarks/AGREEMENT.md");
+  const std::string page = text_of_page(root / "benchmarks/AGREEMENT.md");
   const size_t at = page.find("\n| " + name + " | ");
   return at == std::string::npos ? "" : page.substr(at + 1, page.find('\n', at + 1) - at - 1);
 }
@@ -88,7 +73,7 @@ TEST(Disagreements, AreExplainedInTheirCases) {
   int count = 0;
   for (const auto& entry : fs::directory_iterator(root / "benchmarks/baselines")) {
     const std::string name = entry.path().stem().string();
-    const std::string text = text_of(root / "benchmarks/cases" / name / "case.toml");
+    const std::string text = text_of_page(root / "benchmarks/cases" / name / "case.toml");
     const nlohmann::json baseline = baseline_of(name);
     for (const auto& [quantity, bars] : baseline["disagreement"].items()) {
       ++count;
@@ -119,9 +104,9 @@ std::string text_of_key(const std::string& toml, const std::string& key) {
 TEST(QuotedNumbers, OfTheNotesOfTablesStandOnThePages) {
   for (const auto& [folder, page] :
        {std::pair("verification", "VERIFICATION.md"), std::pair("literature", "LITERATURE.md")}) {
-    const std::string text = text_of(root / "benchmarks" / page);
+    const std::string text = text_of_page(root / "benchmarks" / page);
     for (const auto& entry : fs::directory_iterator(root / "benchmarks" / folder)) {
-      const std::string toml = text_of(entry.path());
+      const std::string toml = text_of_page(entry.path());
       EXPECT_NE(text_of_key(toml, "text"), "") << entry.path();
       for (const char* key : {"text", "note"})
         EXPECT_THAT(text, HasSubstr(text_of_key(toml, key)))
@@ -182,7 +167,7 @@ TEST(QuotedNumbers, OfTheTablesOfCasesAreThoseOfTheBaselines) {
   int count = 0;
   for (const auto& folder : fs::directory_iterator(root / "benchmarks/cases")) {
     const std::string name = folder.path().filename().string();
-    const auto table = measured_table(text_of(folder.path() / "README.md"));
+    const auto table = measured_table(text_of_page(folder.path() / "README.md"));
     if (!table) continue;
     const nlohmann::json baseline = baseline_of(name);
     if (!baseline["set"].empty()) continue;  // the regression runs it at another size
