@@ -1,4 +1,4 @@
-/// The command line. Verbs and exit codes are contracts; see README.md.
+/// The command line. Verbs and exit codes are contracts; see benchmarks/USING.md.
 
 #include "benchmarks/run/interruption.hpp"
 #include "benchmarks/run/rank_programs.hpp"
