@@ -1,0 +1,22 @@
+// Skew block of hexahedra on an unstructured base.
+DefineConstant[ h = 0.1 ];
+n = Round(0.6/h);
+Point(1) = {0, 0, 0};
+Point(2) = {1, 0, 0};
+Point(3) = {1.2, 0.8, 0};
+Point(4) = {0, 1, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Recombine Surface{1};
+e() = Extrude{0, 0, 0.6}{Surface{1}; Layers{n}; Recombine;};
+Physical Surface("bottom") = {1};
+Physical Surface("top") = {e(0)};
+Physical Surface("side") = {e(2), e(3), e(4), e(5)};
+Physical Volume("body") = {e(1)};
+Mesh.Algorithm = 6;
+Mesh.CharacteristicLengthMax = h;
+Mesh.CharacteristicLengthMin = h;

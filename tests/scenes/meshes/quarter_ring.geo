@@ -1,0 +1,24 @@
+// Quarter of a ring, one curved block of quadrilaterals.
+DefineConstant[ h = 0.1 ];
+n = Round(0.5/h)+1;
+m = Round(1.2/h)+1;
+Point(1) = {0, 0, 0};
+Point(2) = {0.5, 0, 0};
+Point(3) = {1, 0, 0};
+Point(4) = {0, 1, 0};
+Point(5) = {0, 0.5, 0};
+Line(1) = {2, 3};
+Circle(2) = {3, 1, 4};
+Line(3) = {4, 5};
+Circle(4) = {5, 1, 2};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Transfinite Curve{1, 3} = n;
+Transfinite Curve{2, 4} = m;
+Transfinite Surface{1};
+Recombine Surface{1};
+Physical Curve("inner") = {4};
+Physical Curve("outer") = {2};
+Physical Curve("xs") = {3};
+Physical Curve("ys") = {1};
+Physical Surface("body") = {1};
