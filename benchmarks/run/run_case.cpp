@@ -312,7 +312,7 @@ void CaseRun::note_dissipation() {
   tell(s.notices.back());
 }
 
-/// Where a body moves, but so little that nothing can be said of its energies.
+/// Where a body stays at rest, or moves so little that nothing can be said of its energies.
 std::optional<std::string> CaseRun::notice_of_rounding() const {
   const double rounding = observers_->energy_rounding();
   double kinetic = 0, strain = 0;
@@ -320,7 +320,11 @@ std::optional<std::string> CaseRun::notice_of_rounding() const {
     kinetic = std::max(kinetic, row.energy.kinetic);
     strain = std::max(strain, std::abs(row.energy.strain));
   }
-  if (kinetic <= 1e-12 * rounding || std::max(kinetic, strain) > rounding) return std::nullopt;
+  if (std::max(kinetic, strain) > rounding) return std::nullopt;
+  if (kinetic <= 1e-12 * rounding) {
+    return "nothing moves the body: its loads, velocities and displacements are zero where it is, "
+           "or come after the end";
+  }
   return fmt::format(
       "strains are so small that strain energy is what rounding leaves of it (up to {:.1g} J), and "
       "neither the energy budget nor its guards say anything; scale loads or velocities up",

@@ -189,8 +189,8 @@ void Simulation::advance_to(double limit) {
     for (Observer* observer : observers_)
       observer->after_step(last_);
     (void)end_of_step(limit);  // before an output that stands behind a jump
-    if (is_at_step_limit()) break;
     if (last_.step >= judged_ + check_period && solver_.time() < limit) check();
+    if (is_at_step_limit()) break;  // whoever goes on from here finds the guards as they would be
     if (solver_.time() < limit) checkpoint_where_due();
   }
 }

@@ -96,6 +96,33 @@ TEST(Notices, TellOfEnergiesThatAreRounding) {
               testing::Contains(testing::HasSubstr("strain energy is what rounding leaves of it")));
 }
 
+TEST(Notices, TellOfLoadsThatMoveNothing) {
+  RunOptions options;
+  options.threads = 1;
+  options.quiet = true;
+  const RunResult result = run_case(cases::case_from_text(R"toml(
+[mesh]
+element = "quadrilateral"
+cells = [4, 4]
+[material]
+model = "neo-hookean"
+density = 1000
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+[[boundary]]
+group = "x_max"
+type = "traction"
+value = ["1e4*(1 + cos(pi*x))", "t > 1 ? 1e4 : 0"]
+[time]
+end = 0.01
+)toml",
+                                                          "scene"),
+                                    options);
+  EXPECT_EQ(result.summary.status, "done");
+  EXPECT_THAT(result.summary.notices,
+              testing::Contains(testing::HasSubstr("nothing moves the body")));
+}
+
 // H and J are rounded in every step: a strip was stopped at a residual of -1500 after 3372 steps.
 TEST(Notices, TellOfEnergiesThatAreRoundingWithoutStoppingBodies) {
   RunOptions options;

@@ -42,6 +42,10 @@ def number(value, digits=4):
     return float(f"%.{digits}g" % value)
 
 
+def plain(value, factor=1):
+    return "%.8g" % (value * factor)
+
+
 class Scene:
     """What a number stands for: lengths over metres, stresses over the shear modulus, times over the duration."""
 
@@ -93,25 +97,29 @@ class Scene:
         def vector(size):
             return [number(size * r.uniform(-1, 1)) for _ in range(self.dim)]
 
-        def in_place():
+        def in_place(group):
             axis = r.randrange(self.dim)
+            if not isinstance(group, str) and axis == group[0]:  # where it may be zero
+                axis = (axis + 1) % self.dim
             return r.choice([lambda at: "1", lambda at: "1", lambda at: f"(1 + cos(pi*{at(axis)}))/2"])
 
         self.boundary = []
         is_driven = False
         for group, is_plane in self.sides:
-            kind = r.choice(["", "", "fixed", "symmetry", "traction", "traction", "pressure", "velocity"])
-            if not kind or (kind == "symmetry" and not is_plane):
+            kind = r.choice(["", "", "fixed", "symmetry", "traction", "traction", "pressure", "velocity", "rigid-wall"])
+            if not kind or (kind == "symmetry" and not is_plane) or (kind == "rigid-wall" and isinstance(group, str)):
                 continue
             entry = {"group": group, "type": kind}
             if kind == "traction":
-                entry |= {"vector": vector(self.amplitude * self.mu), "time": in_time, "place": in_place(), "of": "stress"}
+                entry |= {"vector": vector(self.amplitude * self.mu), "time": in_time, "place": in_place(group), "of": "stress"}
             elif kind == "pressure":
                 entry |= {"scalar": number(self.amplitude * self.mu * r.uniform(-0.5, 1.5)), "time": in_time}
             elif kind == "velocity":
                 entry |= {"vector": vector(0.3 * speed), "time": r.choice(["1", "sin(2*pi*t/T)^2", "sin(4*pi*t/T)"]),
                           "place": lambda at: "1", "of": "speed"}
-            is_driven = is_driven or kind not in ("fixed", "symmetry")
+            elif kind == "rigid-wall":
+                entry["gap"] = r.choice([0, 0, 0.1 * self.amplitude])
+            is_driven = is_driven or kind not in ("fixed", "symmetry", "rigid-wall")
             self.boundary.append(entry)
         self.velocity, self.relaxed = None, False
         if not is_driven or r.random() < 0.3:
@@ -120,6 +128,10 @@ class Scene:
             self.velocity = [(number(0.5 * speed * r.uniform(-1, 1)), r.randrange(self.dim), r.randrange(self.dim), shape)
                              for _ in range(self.dim)]
             self.relaxed = r.random() < 0.3
+        self.displacement = None
+        if r.random() < 0.15:
+            self.displacement = [(number(0.2 * self.amplitude * max(self.lengths) * r.uniform(-1, 1)), r.randrange(self.dim))
+                                 for _ in range(self.dim)]
         self.body_force = vector(self.amplitude * self.mu / max(self.lengths)) if r.random() < 0.2 else None
         self.body_force_time = in_time
 
@@ -135,11 +147,24 @@ class Scene:
             self.scheme["precision"] = r.choice(["mixed", "single"])
         if r.random() < 0.07:
             self.scheme["limiter"] = r.choice(["venkatakrishnan", "sign-preserving"])
+        if r.random() < 0.05:
+            self.scheme["reconstruction"] = r.choice(["none", "linear", "objective"])
+        self.projection = r.random() < 0.05
 
     @property
     def has_equal_axes(self):
         """Whether nodes and cells are the same along other axes: no diagonals, no random shift."""
         return not self.file and not self.moved and self.element in ("hexahedron", "quadrilateral")
+
+    def wall(self, entry, units, axes):
+        """Plane and normal of a wall in front of a side of a box."""
+        axis, side = entry["group"]
+        out = 1 if side == "max" else -1
+        length, low = self.lengths[axis], self.lower[axis]
+        point, normal = ["0"] * self.dim, ["0"] * self.dim
+        point[axes[axis]] = plain(low + (length if out > 0 else 0) + out * entry["gap"] * length, units.length)
+        normal[axes[axis]] = str(-out)
+        return [f"point = [{', '.join(point)}]", f"normal = [{', '.join(normal)}]"]
 
     def text(self, units=Units(), axes=None, frames=8):
         """The case file.
@@ -152,9 +177,6 @@ class Scene:
             for axis, value in zip(axes, values):
                 placed[axis] = value
             return "[" + ", ".join(placed) + "]"
-
-        def plain(value, factor=1):
-            return "%.8g" % (value * factor)
 
         def at(axis):
             return f"(({AXES[axes[axis]]} - {plain(self.lower[axis], units.length)})/{plain(self.lengths[axis], units.length)})"
@@ -182,10 +204,16 @@ class Scene:
             if "vector" in entry:
                 factor = units.stress if entry["of"] == "stress" else speed
                 lines.append("value = " + along([f'"{plain(value, factor)}*{entry["time"]}*{entry["place"](at)}"' for value in entry["vector"]]))
+            if "gap" in entry:
+                lines += self.wall(entry, units, axes)
             if "scalar" in entry:
                 lines.append(f'value = "{plain(entry["scalar"], units.stress)}*{entry["time"]}"')
+        if self.velocity or self.displacement:
+            lines.append("[initial]")
+        if self.displacement:
+            lines.append("displacement = " + along([f'"{plain(value, units.length)}*sin(pi*{at(a)})"' for value, a in self.displacement]))
         if self.velocity:
-            lines += ["[initial]", "velocity = " + along([f'"{plain(value, speed)}*{shape(at, a, b)}"' for value, a, b, shape in self.velocity])]
+            lines += ["velocity = " + along([f'"{plain(value, speed)}*{shape(at, a, b)}"' for value, a, b, shape in self.velocity])]
             lines += ['internal = "relaxed"'] if self.relaxed else []
         if self.body_force:
             lines += ["[load]", "body_force = " + along([f'"{plain(value, units.stress / units.length)}*{self.body_force_time}"'
@@ -193,6 +221,7 @@ class Scene:
         lines += ["[time]", 'end = "T"'] + ([f'integrator = "{self.integrator}"'] if self.integrator else [])
         lines += ["[output]", f"frames = {frames}", "fields = false", "[scheme]"]
         lines += [f'{key} = "{value}"' for key, value in self.scheme.items()]
+        lines += ["angular_momentum_projection = true"] if self.projection else []
         for axis in AXES[: self.dim]:
             lines += ["[[probe]]", f'name = "mean u{axis}"', 'unit = "m"', 'kind = "mean"', f'quantity = "u{axis}"']
         return "\n".join(lines) + "\n"

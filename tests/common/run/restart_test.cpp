@@ -35,9 +35,17 @@ using tests::Scene;
 struct Record {
   std::string hash;
   std::int64_t steps = 0;
-  std::vector<std::string> lines;  ///< of history.csv and steps.csv
-  std::vector<double> figures;     ///< audit, totals, error norms, scales
+  std::vector<std::string> lines;    ///< of history.csv and steps.csv
+  std::vector<double> figures;       ///< audit, totals, error norms, scales
+  std::vector<std::int64_t> checks;  ///< steps
   bool operator==(const Record&) const = default;
+};
+
+/// At which steps the body is looked at between outputs.
+struct ChecksMade : Observer {
+  std::vector<std::int64_t> steps;
+  void at_check(const Check& check) override { steps.push_back(check.step.step); }
+  void archive(algebra::Archive& archive) override { archive.integers("checks made", steps); }
 };
 
 /// A scene with the observers that keep a state of their own.
@@ -67,7 +75,7 @@ class Route {
         guard_(scene_.solver->balance(), 1e9, {1e9}, {1e-9}),
         simulation_(scene_.setup,
                     *scene_.solver,
-                    {&cells_, &watch_, &history_, &steps_, &exact_, &scales_, &guard_}) {}
+                    {&cells_, &watch_, &history_, &steps_, &exact_, &scales_, &guard_, &checks_}) {}
 
   /// Goes on from the file.
   void load(const std::string& path) {
@@ -92,6 +100,7 @@ class Route {
     Record record;
     record.hash = scene_.solver->state_hash(tests::natural_order(scene_.graph));
     record.steps = simulation_.totals().steps;
+    record.checks = checks_.steps;
     for (const io::HistoryRow& row : history_.rows())
       record.lines.push_back(io::history_line(row));
     for (const io::StepRow& row : steps_.rows())
@@ -144,6 +153,7 @@ class Route {
   ExactComparison exact_;
   FieldScales scales_;
   EnergyGuard guard_;
+  ChecksMade checks_;
   Simulation simulation_;
 };
 
@@ -183,6 +193,8 @@ void expect_same_bits(const std::string& method,
   ASSERT_GE(wanted.steps, 10) << "too few steps to end in between";
   const std::int64_t n = wanted.steps;
   std::vector<std::vector<std::int64_t>> routes{{1}, {n - 1}, {2, 3, n / 3, n / 2, 2 * n / 3}};
+  for (const std::int64_t due : wanted.checks)
+    routes.push_back({due});
   std::mt19937_64 random(static_cast<std::uint64_t>(n));
   tests::Trials trials("restarts");
   for (int k = 0; k < trials.n(1, 20); ++k) {  // chains of one to five random steps
@@ -194,11 +206,12 @@ void expect_same_bits(const std::string& method,
   for (const std::vector<std::int64_t>& ends : routes) {
     const Record found = in_parts(method, text, overrides, ends);
     trials.add(found.hash == wanted.hash && found.lines == wanted.lines &&
-               found.figures == wanted.figures);
+               found.figures == wanted.figures && found.checks == wanted.checks);
     EXPECT_EQ(found.hash, wanted.hash) << method << ", first end at step " << ends.front();
     EXPECT_EQ(found.steps, wanted.steps);
     EXPECT_EQ(found.lines, wanted.lines);
     EXPECT_EQ(found.figures, wanted.figures);
+    EXPECT_EQ(found.checks, wanted.checks);
   }
 }
 
@@ -380,6 +393,14 @@ cfl = 0.5
 )toml" + probes_in(2);
   for (const char* integrator : {"ssp-rk3", "leapfrog"})
     expect_same_bits("sph", text, {std::string("time.integrator=") + integrator});
+}
+
+TEST(RestartWith, EndsWhereGuardsWereToLook) {
+  const std::vector<std::string> settings{"output.frames=1", "time.cfl=0.1", "time.end=0.006"};
+  for (const char* method : {"sph", "fvm"}) {
+    ASSERT_GE(whole(method, block(2, 0), settings).checks.size(), 1u) << method;
+    expect_same_bits(method, block(2, 0), settings);
+  }
 }
 
 TEST(RestartWith, AnotherEndAndOtherInstantsOfOutput) {
