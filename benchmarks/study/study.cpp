@@ -164,6 +164,7 @@ Study run_study(const cases::Case& setup, const StudyOptions& options) {
     }
     if (result.summary.status == "breakdown") {
       study.breakdowns.push_back(breakdown_of(result.summary));
+      study.broken.push_back({result.summary, std::move(result.history), std::move(result.shapes)});
       return;
     }
     for (const io::RunSummary& before : study.runs) {
@@ -247,6 +248,18 @@ std::map<std::string, std::string> causes_of(const cases::Case& setup) {
   return causes;
 }
 
+/// Runs that broke down stand among the others, without values at the end; their curves and bodies
+/// where there are no others.
+void add_broken(const Study& study, report::StudyReport& report) {
+  for (auto run = study.broken.rbegin(); run != study.broken.rend(); ++run) {  // finest first
+    const std::string column = run->summary.column();
+    report.runs.push_back(shown(run->summary));
+    report.histories.try_emplace(column, run->history);
+    if (study.shapes.empty() && !run->shapes.frames.empty() && run->summary.variant.empty())
+      report.shapes.try_emplace(column, run->shapes);
+  }
+}
+
 report::StudyReport report_of(const cases::Case& setup,
                               const Study& study,
                               const std::vector<ColumnConvergence>& convergence) {
@@ -270,6 +283,7 @@ report::StudyReport report_of(const cases::Case& setup,
   report.references = references_of(setup, study);
   report.causes = causes_of(setup);
   report.shapes = study.shapes;
+  add_broken(study, report);
   for (const ColumnConvergence& column : convergence)
     add_quantities(column, report);
   return report;

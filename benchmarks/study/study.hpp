@@ -41,11 +41,19 @@ struct Refusal {
   std::string message;
 };
 
+/// What a run that broke down had until then.
+struct BrokenRun {
+  io::RunSummary summary;
+  std::vector<io::HistoryRow> history;
+  report::ShapeRecord shapes;  ///< of the finest level, where they are kept
+};
+
 struct Study {
   std::vector<Column> columns;  ///< both methods, then the variants
   /// level by level, in the order of the columns; without those that broke down or were refused
   std::vector<io::RunSummary> runs;
   std::vector<report::Breakdown> breakdowns;
+  std::vector<BrokenRun> broken;  ///< of each breakdown
   std::vector<Refusal> refusals;  ///< where the options go past them
   // of each column the finest level that did not break down
   std::map<std::string, std::vector<io::HistoryRow>> histories;  ///< column: rows

@@ -69,7 +69,7 @@ struct Breakdown {
 struct StudyReport {
   std::string title, description;
   std::vector<std::string> material;  ///< lines of text: law, constants with units, branches
-  std::vector<io::RunSummary> runs;   ///< any columns and levels, in any order; none that broke
+  std::vector<io::RunSummary> runs;   ///< any columns and levels, in any order
   std::map<std::string, std::string> settings;  ///< column of a variant: what it sets
   std::map<std::string, std::vector<io::HistoryRow>> histories;  ///< column: finest level
   std::vector<Breakdown> breakdowns;                             ///< named before anything else

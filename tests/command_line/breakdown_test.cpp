@@ -64,8 +64,11 @@ TEST(Breakdown, OfBothMethodsIsToldOfBoth) {
     EXPECT_TRUE(std::regex_search(
         outcome.text, std::regex("broke down +level +time \\[s\\] +step +node +place \\[m\\]")));
     if (verb == std::string("compare")) {
-      EXPECT_THAT(text_of(folder.path() / "out" / "report.html"),
-                  AllOf(HasSubstr("broke down on level 0"), HasSubstr("J &lt;= 0")));
+      const std::string page = text_of(folder.path() / "out" / "report.html");
+      EXPECT_THAT(page, AllOf(HasSubstr("broke down on level 0"), HasSubstr("J &lt;= 0")));
+      // what both had until then
+      EXPECT_THAT(page, AllOf(HasSubstr("this run ended as: breakdown"),
+                              HasSubstr("<section id=\"shapes\">"), Not(HasSubstr("has no run"))));
     }
   }
 }
