@@ -84,7 +84,8 @@ void require_positive(const Mesh& mesh, const std::vector<double>& Omega) {
     const Vec3& X = mesh.nodes[a];
     throw base::InputError(fmt::format(
         "node {} at ({:.6g}, {:.6g}, {:.6g}) would have the volume {:.3g} by a rule that is exact "
-        "for quadratics: the mesh is too coarse or too uneven there; refine it",
+        "for quadratics: the mesh is too coarse there, or its cells change in size too "
+        "fast: refine it, or grade it more gently",
         a, X[0], X[1], X[2], Omega[a]));
   }
 }

@@ -21,6 +21,7 @@
 #include "common/run/exact_survey.hpp"
 #include "common/run/simulation.hpp"
 #include "common/run/solver.hpp"
+#include "common/scheme/dissipation/limiters/limiter_menu.hpp"
 #include "common/scheme/option_menus.hpp"
 #include "meshes/dual_measure.hpp"
 
@@ -287,7 +288,8 @@ void CaseRun::note_breakdown() {
 void CaseRun::note_dissipation() {
   constexpr double worth_telling = 0.1;
   io::RunSummary& s = result_.summary;
-  const bool is_meant = setup_.scheme.limiter != "none" || setup_.guards.numerical_dissipation != 0;
+  const bool is_meant = scheme::limits_slopes(scheme::limiter_menu().at(setup_.scheme.limiter)) ||
+                        setup_.guards.numerical_dissipation != 0;
   if (is_meant || result_.history.empty()) return;
   const double share = numerical_share(s);
   const double caught = s.largest_energy > 0 ? s.contact_loss / s.largest_energy : 0;

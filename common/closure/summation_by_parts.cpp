@@ -137,6 +137,29 @@ double proportionate(const scheme::PairGraph& graph) {
 
 constexpr double worth_it = 0.98;
 
+/// Part of the rows that may stay above: corners. Where a wall is one or two cells thick, whole
+/// sides do, and operators that are wider and wider in the end no longer see it bend (notes 4.5).
+constexpr double most_disproportionate = 0.05;
+
+size_t n_above(double bound, const std::vector<double>& slopes) {
+  return static_cast<size_t>(
+      std::count_if(slopes.begin(), slopes.end(), [&](double slope) { return slope > bound; }));
+}
+
+bool has_few_above(double bound, const std::vector<double>& slopes) {
+  return static_cast<double>(n_above(bound, slopes)) <=
+         most_disproportionate * static_cast<double>(slopes.size());
+}
+
+void require_few_above(double bound, const std::vector<double>& slopes) {
+  if (has_few_above(bound, slopes)) return;
+  throw base::InputError(fmt::format(
+      "operators that sum by parts: weights at {} of {} nodes stay more than {:.2g} times those of "
+      "a lattice however far rows reach: walls are hardly more than one cell thick there: refine "
+      "them",
+      n_above(bound, slopes), slopes.size(), bound / of_lattice));
+}
+
 /// The worst first.
 std::vector<std::int32_t> rows_above(double bound, const std::vector<double>& slopes) {
   std::vector<std::int32_t> rows;
@@ -184,9 +207,10 @@ scheme::PairGraph summing_by_parts(const std::vector<double>& V,
       if (slope <= proportionate(graph)) return std::move(graph);
       if (is_any_borne() && !(slope < worth_it * slope_of_borne)) return borne;
       if (is_last) require_no_steep_rows(graph, V);
+      if (is_last) require_few_above(proportionate(graph), slopes);
       if (is_last) return std::move(graph);
       rows = rows_above(proportionate(graph), slopes);
-      if (slope <= steep(graph)) {
+      if (slope <= steep(graph) && has_few_above(proportionate(graph), slopes)) {
         borne = graph;
         slope_of_borne = slope;
       }
@@ -206,7 +230,8 @@ void require_no_steep_rows(const scheme::PairGraph& graph, const std::vector<dou
   throw base::InputError(fmt::format(
       "operators that sum by parts: derivatives or forces at {} of {} nodes, such as {} at "
       "({:.6g}, {:.6g}, {:.6g}), have weights {:.0f} times those of a lattice, and need steps as "
-      "much smaller: the mesh is too coarse or too uneven there; refine it",
+      "much smaller: the mesh is too coarse there, or its cells change in size too fast: "
+      "refine it, or grade it more gently",
       rows.size(), graph.n_nodes(), rows[0], X[0], X[1], X[2],
       slopes_of(graph, V)[rows[0]] / of_lattice));
 }

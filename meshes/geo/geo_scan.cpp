@@ -239,6 +239,12 @@ class Scan {
       if (text.compare(at, 2, "\r\n") != 0)
         refuse(at, "a NUL or a carriage return without a line feed; a .geo file is plain text");
     }
+    const size_t last_line = text.rfind('\n') + 1;  // 0 where there is but one
+    if (std::count(text.begin() + static_cast<long>(last_line), text.end(), ';') > 1)
+      refuse(
+          last_line,
+          "the last line has several statements and no end of line behind it, so that Gmsh would "
+          "leave some of them out; end it");
     for (const Word& word : words) {
       // No look at what stands before: behind the end of a branch Gmsh goes on inside a word.
       for (size_t at = text.find(word.text); at != std::string::npos;

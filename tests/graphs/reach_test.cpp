@@ -4,7 +4,9 @@
 #include "sph/reach.hpp"
 
 #include "common/base/error.hpp"
+#include "meshes/gmsh.hpp"
 #include "sph/sph_graph.hpp"
+#include "tests/folders.hpp"
 #include "tests/graphs/curved_meshes.hpp"
 
 #include <gtest/gtest.h>
@@ -43,6 +45,20 @@ TEST(Reach, OfLongCellsOfABoxEllipsoidsSee) {
   const meshes::Mesh mesh =
       meshes::box(meshes::CellType::quadrilateral, {0, 0, 0}, {1, 10, 0}, {10, 10, 0});
   EXPECT_TRUE(sph::operators_on(mesh, {}).notices.empty());
+}
+
+// The wall of a ring is one triangle thick, with a node inside here and there: rows that reach far
+// enough to have no large weights did not see it bend, a pinched ring was 4.3 times too stiff.
+TEST(Reach, OfRowsThatNoLongerSeeAWallBendIsRefused) {
+  const meshes::Mesh mesh =
+      meshes::read_msh(tests::source_folder() + "/tests/meshes/thin_ring.msh");
+  sph::Options options;
+  options.gradient = "auto";
+  const scheme::Operators chosen = sph::operators_on(mesh, options);
+  EXPECT_THAT(chosen.text, HasSubstr("corrected gradient"));
+  EXPECT_THAT(chosen.notices, testing::Contains(HasSubstr("one cell thick there: refine them")));
+  options.gradient = "sbp";
+  EXPECT_THROW((void)sph::operators_on(mesh, options), base::InputError);
 }
 
 }  // namespace

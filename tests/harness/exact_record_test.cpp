@@ -96,6 +96,37 @@ TEST(Notices, TellOfEnergiesThatAreRounding) {
               testing::Contains(testing::HasSubstr("strain energy is what rounding leaves of it")));
 }
 
+TEST(Notices, TellOfDissipationUnlessALimiterIsOfShocks) {
+  RunOptions options;
+  options.threads = 1;
+  options.quiet = true;
+  const std::string text = R"toml(
+[mesh]
+element = "quadrilateral"
+cells = [6, 6]
+[material]
+model = "neo-hookean"
+density = 1000
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+[initial]
+velocity = ["sin(3*pi*x)", 0]
+[time]
+end = 0.012
+[scheme]
+limiter = "LIMITER"
+)toml";
+  const auto notices_with = [&](const std::string& limiter) {
+    std::string own = text;
+    own.replace(own.find("LIMITER"), 7, limiter);
+    return run_case(cases::case_from_text(own, "scene"), options).summary.notices;
+  };
+  const auto told = testing::Contains(testing::HasSubstr("numerical dissipation took"));
+  EXPECT_THAT(notices_with("none"), told);
+  EXPECT_THAT(notices_with("sign-preserving"), told);
+  EXPECT_THAT(notices_with("venkatakrishnan"), testing::Not(told));
+}
+
 TEST(Notices, TellOfLoadsThatMoveNothing) {
   RunOptions options;
   options.threads = 1;

@@ -179,5 +179,13 @@ TEST_F(GeoScan, OrdinaryFilesPass) {
   EXPECT_EQ(offence(bytes_of_file(block_path("block.geo"))), "");
 }
 
+/// Gmsh 4.8 reads of such a line what stands before the first end of a statement (it does).
+TEST_F(GeoScan, AsksForAnEndOfTheLastLine) {
+  const std::string text = "Point(1) = {0, 0, 0};\nMeshSize{1} = h/8; MeshSize{2, 3} = h;";
+  EXPECT_THAT(offence(text), AllOf(HasSubstr("a.geo:2: the last line has several statements")));
+  EXPECT_EQ(offence(text + "\n"), "");
+  EXPECT_EQ(offence("Point(1) = {0, 0, 0};\nMeshSize{1} = h;"), "");
+}
+
 }  // namespace
 }  // namespace diptych::meshes
