@@ -3,6 +3,7 @@
 #include "benchmarks/run/memory_estimate.hpp"
 #include "benchmarks/run/mesh_notices.hpp"
 #include "benchmarks/run/unseen_fields.hpp"
+#include "benchmarks/run/wall_directions.hpp"
 #include "common/cases/reader.hpp"
 #include "common/run/step_ends.hpp"
 #include "common/scheme/boundary/boundary_condition.hpp"
@@ -77,6 +78,7 @@ CaseGraph graph_of(const cases::Case& setup,
   scene.mesh = mesh_of(setup, level);
   unite_overlapping_groups(setup, scene.mesh.mesh);
   require_memory(setup, method, level, scene.mesh.mesh);
+  require_walls_before_sides(setup, scene.mesh.mesh);
   if (made) made(ScenePart::mesh, scene);
   scheme::Operators operators = method_menu().at(method)(scene.mesh.mesh, setup);
   scene.reconstruction = reconstruction_for(setup, operators);

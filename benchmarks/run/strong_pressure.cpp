@@ -2,6 +2,7 @@
 
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
+#include "common/functions/break_times.hpp"
 #include "common/functions/placed_values.hpp"
 #include "common/scheme/boundary/boundary_condition.hpp"
 #include "common/scheme/graph/equal_widths.hpp"
@@ -68,6 +69,42 @@ bool depends_on_position(const std::vector<Expression>& load) {
                      [](const Expression& e) { return e.depends_on_position(); });
 }
 
+/// Evenly, and where a load has its jumps and kinks, between these, and its largest size at a place
+/// among many more instants: a pulse may be short beside the run.
+std::vector<double> instants_of(const std::vector<Expression>& load, double end, const Vec3& X) {
+  std::vector<double> instants;
+  for (int i = 0; i <= n_intervals; ++i)
+    instants.push_back(end * i / n_intervals);
+  functions::BreakTimes breaks = functions::break_times(load, 0, end);
+  std::vector<double>& times = breaks.jumps;
+  times.insert(times.end(), breaks.kinks.begin(), breaks.kinks.end());
+  std::sort(times.begin(), times.end());
+  constexpr size_t most = 256;  // of many a part, evenly
+  const size_t n = times.size();
+  double before = 0;
+  for (size_t k = 0; k < std::min(n, most); ++k) {
+    const double time = times[k * n / std::min(n, most)];
+    instants.push_back(0.5 * (before + time));
+    instants.push_back(time);
+    before = time;
+  }
+  constexpr int many = 4096;
+  const functions::PlacedExpressions placed(load, {&X, 1});
+  double largest = 0, at = 0;
+  for (int i = 0; i <= many; ++i) {
+    double size = 0;
+    try {
+      for (const double value : placed.at(end * i / many))
+        size += value * value;
+    } catch (const base::Error&) {
+      continue;
+    }
+    if (size > largest) largest = size, at = end * i / many;
+  }
+  instants.push_back(at);
+  return instants;
+}
+
 /// Largest size(value, normal) of a load over the corners and the instants of a run. An instant at
 /// which the load has no value is left out, of which a run that gets there tells.  [Pa]
 template <class Size>
@@ -79,14 +116,14 @@ double largest_of(const std::vector<Expression>& load,
   const bool moves = depends_on_position(load);
   const bool changes = std::any_of(load.begin(), load.end(),
                                    [](const Expression& e) { return e.depends_on_time(); });
-  const int n = changes ? n_intervals : 0;
   const std::span<const Vec3> X(corners.X.data(), moves ? corners.X.size() : 1);
   const functions::PlacedExpressions placed(load, X);
   double largest = 0;
-  for (int i = 0; i <= n; ++i) {
+  for (const double t :
+       changes ? instants_of(load, end, corners.X.front()) : std::vector<double>{0.0}) {
     std::vector<double> values;
     try {
-      values = placed.at(n == 0 ? 0 : end * i / n);
+      values = placed.at(t);
     } catch (const base::Error&) {
       continue;
     }

@@ -63,6 +63,12 @@ TEST(StrongPressure, IsAFollowerPressureAboveWhatNodesBear) {
   EXPECT_THAT(because({"boundary.0.value=-3"}), IsEmpty());         // it pulls
   // a pulse of a tenth of the run
   EXPECT_THAT(because({"boundary.0.value=(t > 0.4 && t < 0.5) ? 5 : 0"}), HasSubstr("5 shear"));
+  // pulses of a 100th of the run, between two of 65 instants
+  EXPECT_THAT(because({"boundary.0.value=(abs(t - 0.5078) < 0.005) ? 5 : 0"}),
+              HasSubstr("5 shear"));
+  EXPECT_THAT(because({"boundary.0.value=5*max(0, 1 - abs(t - 0.5078)/0.006)"}),
+              HasSubstr("5 shear"));
+  EXPECT_THAT(because({"boundary.0.value=5*exp(-((t - 0.5078)/0.002)^2)"}), HasSubstr("5 shear"));
   // it has no value from t = 0.5 on: a run that gets there tells
   EXPECT_THAT(because({"boundary.0.value=4*sqrt(0.5 - t)"}), HasSubstr("2.83 shear"));
   EXPECT_THAT(because({"boundary.0.value=3", "scheme.volumes=nodes"}), IsEmpty());

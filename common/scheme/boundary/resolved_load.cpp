@@ -227,6 +227,8 @@ Survey survey(const FieldFunction<Value>& load,
     wanted.assign(faces.size(), 1);
     break;
   }
+  // a pulse that acts at none of them may be anything
+  if (n_seen == 0 && instants.size() > 1) wanted.assign(faces.size(), 1);
   // what travels was not looked at on its way: resolved is only what was seen so often
   const bool is_resolved = std::count(wanted.begin(), wanted.end(), 1) == 0;
   if (load.in_place().travels && !(is_resolved && 2 * n_seen > instants.size()))
