@@ -53,6 +53,8 @@ class EnergyRecord {
   /// The largest energy so far without strain energy, of which rounding leaves less than of speeds
   /// [J]
   double motion() const { return motion_; }
+  /// What the body held to begin with  [J]
+  double initial() const { return std::max(0.0, initial_ - initially_carried_); }
   /// The largest energy so far without the strain energy that has been there all the time, as of a
   /// body that is stretched to begin with: what has moved  [J]
   double mobile() const {

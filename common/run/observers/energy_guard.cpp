@@ -76,9 +76,11 @@ double EnergyGuard::bound_at(std::int64_t step) const {
 }
 
 /// Where strain energy is what rounding leaves of it, what motion has of energy still has its
-/// digits.
+/// digits; a body that is strained to begin with has more, which may turn into motion between two
+/// looks.
 double EnergyGuard::scale_of_loss() const {
-  return energy_.scale() > energy_.rounding() ? energy_.scale() : energy_.motion();
+  return energy_.scale() > energy_.rounding() ? energy_.scale()
+                                              : std::max(energy_.motion(), energy_.initial());
 }
 
 void EnergyGuard::judge_loss(const Check& check) {

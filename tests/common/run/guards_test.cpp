@@ -363,6 +363,23 @@ TEST(EnergyGuard, DoesNotJudgeRounding) {
   EXPECT_EQ(run.run(), Ending::done) << run.message;
 }
 
+// Of a body that is let go its kinetic energy is seen at outputs alone: a strip with strains of
+// 1e-6 was stopped with 3 frames and not with 10.
+TEST(EnergyGuard, JudgesLossesBelowRoundingByWhatABodyHeldAtFirst) {
+  scheme::Balance initial, now;
+  initial.strain = 10;
+  now.kinetic = 1;
+  now.strain = 6;
+  scheme::Audit audit;
+  StepReport step;
+  step.step = 100;
+  EnergyGuard guard(initial, 1e9, {0.5}, {1e3});
+  audit.numerical_dissipation = 3;
+  EXPECT_NO_THROW(guard.at_check({step, now, audit}));
+  audit.numerical_dissipation = 6;
+  EXPECT_THROW(guard.at_check({step, now, audit}), base::BreakdownError);
+}
+
 TEST(EnergyRecord, HasNoResidualOfABodyThatHoldsWhatRoundingMakes) {
   scheme::Balance initial, now;
   scheme::Audit audit;
