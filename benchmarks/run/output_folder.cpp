@@ -1,6 +1,7 @@
 #include "benchmarks/run/output_folder.hpp"
 
 #include "benchmarks/run/backends.hpp"
+#include "benchmarks/run/checkpoints.hpp"
 #include "benchmarks/run/resumption.hpp"
 #include "benchmarks/run/run_folder.hpp"
 #include "common/base/error.hpp"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <initializer_list>
 #include <optional>
 #include <system_error>
 
@@ -117,12 +119,24 @@ bool contains(const std::vector<std::string>& paths, const fs::path& path) {
   return std::find(paths.begin(), paths.end(), path.string()) != paths.end();
 }
 
-bool is_finished(const fs::path& run) {
+bool has_status(const fs::path& run, std::initializer_list<const char*> statuses) {
   const std::string text = io::read_file((run / "summary.json").string());
-  for (const char* status : {"done", "unmet", "unsound"}) {
-    if (text.find(fmt::format("\"status\": \"{}\"", status)) != std::string::npos) return true;
-  }
-  return false;
+  return std::any_of(statuses.begin(), statuses.end(), [&](const char* status) {
+    return text.find(fmt::format("\"status\": \"{}\"", status)) != std::string::npos;
+  });
+}
+
+bool is_finished(const fs::path& run) {
+  return has_status(run, {"done", "unmet", "unsound"});
+}
+
+/// Interrupted or killed, with something to go on from: hours of work may be in it.
+bool is_to_go_on(const fs::path& run) {
+  if (!has_status(run, {"interrupted", "running"})) return false;
+  const fs::directory_iterator files(run);
+  return std::any_of(begin(files), end(files), [](const fs::directory_entry& file) {
+    return is_checkpoint_name(file.path().filename().string());
+  });
 }
 
 /// Without links; as it stands where they cannot be followed.
@@ -211,10 +225,14 @@ void OutputFolder::prepare() {
 
 void OutputFolder::refuse_to_replace(bool force) const {
   if (force || kind_ == OutputKind::continued || directory_.empty()) return;
-  std::vector<std::string> finished;
+  std::vector<std::string> finished, to_go_on;
   const auto look_at = [&](const fs::path& run) {
-    if (is_run_folder(run.string()) && !contains(taken_over_, run) && is_finished(run))
+    if (!is_run_folder(run.string()) || contains(taken_over_, run)) return;
+    if (is_finished(run)) {
       finished.push_back(run.string());
+    } else if (is_to_go_on(run)) {
+      to_go_on.push_back(run.string());
+    }
   };
   if (kind_ == OutputKind::runs) {
     for (const fs::path& run : runs_in(directory_))
@@ -222,6 +240,13 @@ void OutputFolder::refuse_to_replace(bool force) const {
   }
   for (const std::string& run : asked_)
     look_at(run);
+  if (!to_go_on.empty()) {
+    throw base::InputError(
+        fmt::format("{}: a checkpoint of a run that did not finish; 'diptych run' with --restart "
+                    "latest goes on "
+                    "from there, --force begins anew and removes it",
+                    base::joined(to_go_on)));
+  }
   if (finished.empty()) return;
   throw base::InputError(fmt::format(
       "{}: {} finished; give another --out, or --force to replace what is there",

@@ -107,7 +107,7 @@ class CaseRun {
   void note_running_memory();
   void note_breakdown();
   void note_dissipation();
-  std::optional<std::string> notice_of_rounding() const;
+  std::optional<std::string> notice_of_little_motion() const;
   void note_contradictions();
   void measure();
   void finish();
@@ -315,7 +315,7 @@ void CaseRun::note_dissipation() {
 }
 
 /// Where a body stays at rest, or moves so little that nothing can be said of its energies.
-std::optional<std::string> CaseRun::notice_of_rounding() const {
+std::optional<std::string> CaseRun::notice_of_little_motion() const {
   const double rounding = observers_->energy_rounding();
   double kinetic = 0, strain = 0;
   for (const io::HistoryRow& row : result_.history) {
@@ -324,6 +324,7 @@ std::optional<std::string> CaseRun::notice_of_rounding() const {
   }
   if (std::max(kinetic, strain) > rounding) return std::nullopt;
   if (kinetic <= 1e-12 * rounding) {
+    if (!result_.summary.is_ended()) return std::nullopt;  // it may be to come
     return "nothing moves the body: its loads, velocities and displacements are zero where it is, "
            "or come after the end";
   }
@@ -336,7 +337,7 @@ std::optional<std::string> CaseRun::notice_of_rounding() const {
 void CaseRun::note_contradictions() {
   for (const auto& notice : {observers_->notice_of_walls(), observers_->notice_of_sliding(),
                              observers_->notice_of_cells(), observers_->notice_of_exact(),
-                             observers_->notice_of_volumes(), notice_of_rounding()}) {
+                             observers_->notice_of_volumes(), notice_of_little_motion()}) {
     if (!notice) continue;
     result_.summary.notices.push_back(*notice);
     tell(*notice);

@@ -72,22 +72,11 @@ bool depends_on_position(const std::vector<Expression>& load) {
 /// Evenly, and where a load has its jumps and kinks, between these, and its largest size at a place
 /// among many more instants: a pulse may be short beside the run.
 std::vector<double> instants_of(const std::vector<Expression>& load, double end, const Vec3& X) {
-  std::vector<double> instants;
+  constexpr size_t most = 128;
+  std::vector<double> instants =
+      functions::instants_around(functions::break_times(load, 0, end), 0, 0.5, most);
   for (int i = 0; i <= n_intervals; ++i)
     instants.push_back(end * i / n_intervals);
-  functions::BreakTimes breaks = functions::break_times(load, 0, end);
-  std::vector<double>& times = breaks.jumps;
-  times.insert(times.end(), breaks.kinks.begin(), breaks.kinks.end());
-  std::sort(times.begin(), times.end());
-  constexpr size_t most = 256;  // of many a part, evenly
-  const size_t n = times.size();
-  double before = 0;
-  for (size_t k = 0; k < std::min(n, most); ++k) {
-    const double time = times[k * n / std::min(n, most)];
-    instants.push_back(0.5 * (before + time));
-    instants.push_back(time);
-    before = time;
-  }
   constexpr int many = 4096;
   const functions::PlacedExpressions placed(load, {&X, 1});
   double largest = 0, at = 0;

@@ -1,6 +1,7 @@
 #include "benchmarks/run/wall_directions.hpp"
 
 #include "common/base/error.hpp"
+#include "common/scheme/boundary/boundary_condition.hpp"
 #include "meshes/shape_integrals.hpp"
 
 #include <algorithm>
@@ -38,7 +39,8 @@ Looking looking(const std::vector<std::string>& groups,
 void require_walls_before_sides(const cases::Case& setup, const meshes::Mesh& mesh) {
   if (!setup.initial.displacement.is_zero()) return;
   for (const cases::BoundaryCase& boundary : setup.boundaries) {
-    if (boundary.type != "rigid-wall") continue;
+    if (scheme::boundary_menu().at(boundary.type).acts != scheme::BoundaryKind::Acts::touch)
+      continue;
     const algebra::Vec3& n = boundary.normal;
     const Looking faces = looking(boundary.groups, n, mesh);
     if (faces.n_along == 0 || faces.n_against > 0) continue;

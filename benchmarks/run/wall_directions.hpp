@@ -1,6 +1,6 @@
 #pragma once
 /// That rigid walls stand before the sides that they are for. Test:
-/// tests/harness/short_pulses_test.cpp
+/// tests/harness/wall_directions_test.cpp
 
 #include "common/cases/case.hpp"
 #include "meshes/mesh.hpp"

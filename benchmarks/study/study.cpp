@@ -138,6 +138,13 @@ const io::RunSummary* Study::run_of(const std::string& column) const {
   return found == runs.end() ? nullptr : &*found;
 }
 
+std::vector<report::Breakdown> Study::breakdowns() const {
+  std::vector<report::Breakdown> all;
+  for (const BrokenRun& run : broken)
+    all.push_back(breakdown_of(run.summary));
+  return all;
+}
+
 Study run_study(const cases::Case& setup, const StudyOptions& options) {
   Study study;
   study.columns = method_columns(setup, options.methods);
@@ -163,7 +170,6 @@ Study run_study(const cases::Case& setup, const StudyOptions& options) {
       return;
     }
     if (result.summary.status == "breakdown") {
-      study.breakdowns.push_back(breakdown_of(result.summary));
       study.broken.push_back({result.summary, std::move(result.history), std::move(result.shapes)});
       return;
     }
@@ -272,7 +278,7 @@ report::StudyReport report_of(const cases::Case& setup,
   for (const io::RunSummary& run : study.runs)
     report.runs.push_back(shown(run));
   report.histories = study.histories;
-  report.breakdowns = study.breakdowns;
+  report.breakdowns = study.breakdowns();
   for (report::Breakdown& one : report.breakdowns)
     one.message = one.message.substr(0, one.message.find('\n'));
   report.differences = study.differences;

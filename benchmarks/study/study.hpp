@@ -52,8 +52,7 @@ struct Study {
   std::vector<Column> columns;  ///< both methods, then the variants
   /// level by level, in the order of the columns; without those that broke down or were refused
   std::vector<io::RunSummary> runs;
-  std::vector<report::Breakdown> breakdowns;
-  std::vector<BrokenRun> broken;  ///< of each breakdown
+  std::vector<BrokenRun> broken;
   std::vector<Refusal> refusals;  ///< where the options go past them
   // of each column the finest level that did not break down
   std::map<std::string, std::vector<io::HistoryRow>> histories;  ///< column: rows
@@ -71,13 +70,15 @@ struct Study {
     const auto n_refused = std::count_if(refusals.begin(), refusals.end(), [](const Refusal& one) {
       return !report::variant_of_column(one.column).empty();
     });
-    return runs.size() + breakdowns.size() + static_cast<size_t>(n_refused) == columns.size();
+    return runs.size() + broken.size() + static_cast<size_t>(n_refused) == columns.size();
   }
+  /// What ended each of the broken runs.
+  std::vector<report::Breakdown> breakdowns() const;
   /// The only run of a column, or null.
   const io::RunSummary* run_of(const std::string& column) const;
 
   /// Nothing was run or taken over.
-  bool is_empty() const { return runs.empty() && breakdowns.empty(); }
+  bool is_empty() const { return runs.empty() && broken.empty(); }
 };
 
 /// Runs both methods and the variants on all levels; a breakdown ends only its own run, an

@@ -134,7 +134,7 @@ void declare_threads(CommandLine& line, int& threads) {
 }
 
 void print_breakdowns(const harness::Study& study) {
-  const std::string table = harness::breakdown_table(study.breakdowns);
+  const std::string table = harness::breakdown_table(study.breakdowns());
   if (!table.empty()) print(table + "\n");
 }
 
@@ -177,7 +177,7 @@ std::string end_of(const harness::Study& study, const std::string& folder) {
 }
 
 int exit_code_of(const harness::Study& study, const std::string& to_go_on) {
-  const int code = harness::exit_code_of_study(study.breakdowns, study.runs, to_go_on);
+  const int code = harness::exit_code_of_study(study.breakdowns(), study.runs, to_go_on);
   for (const harness::Refusal& one : study.refusals) {
     std::fputs(
         fmt::format("diptych: {} level {} was refused: {}\n", one.column, one.level, one.message)

@@ -54,7 +54,7 @@ void show_convergence(const cases::Case& setup,
   if (convergence.empty()) return;
   write_output(folder, "convergence.csv", harness::convergence_csv(convergence));
   write_output(folder, "convergence.tex", harness::convergence_tex(convergence));
-  const bool is_whole = study.breakdowns.empty() && harness::cut_short(study.runs).empty() &&
+  const bool is_whole = study.broken.empty() && harness::cut_short(study.runs).empty() &&
                         !harness::interrupt_requested();
   if (study.shapes.size() < arguments.methods().size() && is_whole) {
     print(

@@ -141,25 +141,6 @@ constexpr double worth_it = 0.98;
 /// sides do, and operators that are wider and wider in the end no longer see it bend (notes 4.5).
 constexpr double most_disproportionate = 0.05;
 
-size_t n_above(double bound, const std::vector<double>& slopes) {
-  return static_cast<size_t>(
-      std::count_if(slopes.begin(), slopes.end(), [&](double slope) { return slope > bound; }));
-}
-
-bool has_few_above(double bound, const std::vector<double>& slopes) {
-  return static_cast<double>(n_above(bound, slopes)) <=
-         most_disproportionate * static_cast<double>(slopes.size());
-}
-
-void require_few_above(double bound, const std::vector<double>& slopes) {
-  if (has_few_above(bound, slopes)) return;
-  throw base::InputError(fmt::format(
-      "operators that sum by parts: weights at {} of {} nodes stay more than {:.2g} times those of "
-      "a lattice however far rows reach: walls are hardly more than one cell thick there: refine "
-      "them",
-      n_above(bound, slopes), slopes.size(), bound / of_lattice));
-}
-
 /// The worst first.
 std::vector<std::int32_t> rows_above(double bound, const std::vector<double>& slopes) {
   std::vector<std::int32_t> rows;
@@ -170,6 +151,20 @@ std::vector<std::int32_t> rows_above(double bound, const std::vector<double>& sl
     return slopes[a] != slopes[b] ? slopes[a] > slopes[b] : a < b;
   });
   return rows;
+}
+
+bool are_few(const std::vector<std::int32_t>& rows, const scheme::PairGraph& graph) {
+  return static_cast<double>(rows.size()) <=
+         most_disproportionate * static_cast<double>(graph.n_nodes());
+}
+
+void require_few(const std::vector<std::int32_t>& rows, const scheme::PairGraph& graph) {
+  if (are_few(rows, graph)) return;
+  throw base::InputError(fmt::format(
+      "operators that sum by parts: weights at {} of {} nodes stay more than {:.2g} times those of "
+      "a lattice however far rows reach: walls are hardly more than one cell thick there: refine "
+      "them",
+      rows.size(), graph.n_nodes(), proportionate(graph) / of_lattice));
 }
 
 }  // namespace
@@ -206,11 +201,13 @@ scheme::PairGraph summing_by_parts(const std::vector<double>& V,
       const double slope = *std::max_element(slopes.begin(), slopes.end());
       if (slope <= proportionate(graph)) return std::move(graph);
       if (is_any_borne() && !(slope < worth_it * slope_of_borne)) return borne;
-      if (is_last) require_no_steep_rows(graph, V);
-      if (is_last) require_few_above(proportionate(graph), slopes);
-      if (is_last) return std::move(graph);
       rows = rows_above(proportionate(graph), slopes);
-      if (slope <= steep(graph) && has_few_above(proportionate(graph), slopes)) {
+      if (is_last) {
+        require_no_steep_rows(graph, V);
+        require_few(rows, graph);
+        return std::move(graph);
+      }
+      if (slope <= steep(graph) && are_few(rows, graph)) {
         borne = graph;
         slope_of_borne = slope;
       }

@@ -167,4 +167,22 @@ BreakTimes break_times(const std::vector<Expression>& expressions,
   return breaks;
 }
 
+std::vector<double> instants_around(const BreakTimes& breaks,
+                                    double begin,
+                                    double part,
+                                    size_t most) {
+  std::vector<double> times(breaks.jumps);
+  times.insert(times.end(), breaks.kinks.begin(), breaks.kinks.end());
+  std::sort(times.begin(), times.end());
+  const size_t n = std::min(times.size(), most);
+  std::vector<double> instants;
+  for (size_t k = 0; k < n; ++k) {
+    const size_t at = k * times.size() / n;
+    const double before = at == 0 ? begin : times[at - 1];
+    instants.push_back(before + part * (times[at] - before));
+    instants.push_back(times[at]);
+  }
+  return instants;
+}
+
 }  // namespace diptych::functions

@@ -29,4 +29,12 @@ BreakTimes break_times(const std::vector<Expression>& expressions,
                        int n_samples = samples_of_break,
                        const std::optional<Vec3>& place = std::nullopt);
 
+/// Jumps and kinks, and before each an instant that is `part` of the way from the one before (from
+/// `begin`), in pairs: what acts between two of them is seen.
+/// @param most  pairs; of more breaks some are taken, evenly
+std::vector<double> instants_around(const BreakTimes& breaks,
+                                    double begin,
+                                    double part,
+                                    size_t most);
+
 }  // namespace diptych::functions

@@ -15,7 +15,6 @@
 #include "common/scheme/ranks/share_graph.hpp"
 #include "common/scheme/volumes/cell_laplacian.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <functional>
 
@@ -49,28 +48,17 @@ class PlacedLoad : public scheme::PlacedField<Value> {
 /// picks out, those of jumps and kinks in time (pulses of min, max and abs), and between them; of
 /// many a part, evenly.
 std::vector<double> telling_instants(const cases::Case& setup) {
-  constexpr size_t most = 64;
+  constexpr size_t most = 32;
   const double end = setup.time.end;
   std::vector<functions::Expression> values;
   for (const cases::BoundaryCase& boundary : setup.boundaries) {
     values.insert(values.end(), boundary.value.component.begin(), boundary.value.component.end());
     values.push_back(boundary.pressure);
   }
-  functions::BreakTimes breaks = functions::break_times(values, 0, end);
-  std::vector<double>& times = breaks.jumps;
-  times.insert(times.end(), breaks.kinks.begin(), breaks.kinks.end());
-  std::sort(times.begin(), times.end());
-  std::vector<double> of_breaks;
-  double before = 0;
-  for (const double time : times) {
-    of_breaks.push_back(before + 0.37 * (time - before));
-    of_breaks.push_back(time);
-    before = time;
-  }
   std::vector<double> instants{0.0, 0.31 * end, 0.73 * end, end, 0.11 * end, 0.047 * end};
-  const size_t n = of_breaks.size();
-  for (size_t k = 0; k < std::min(n, most); ++k)
-    instants.push_back(of_breaks[k * n / std::min(n, most)]);
+  const std::vector<double> around =
+      functions::instants_around(functions::break_times(values, 0, end), 0, 0.37, most);
+  instants.insert(instants.end(), around.begin(), around.end());
   return instants;
 }
 

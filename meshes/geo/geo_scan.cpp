@@ -133,6 +133,14 @@ bool closes(const Token& token) {
   return token.is(')') || token.is(']') || token.is('}');
 }
 
+/// That end in what is left.
+int n_statements(Tokens tokens) {
+  int n = 0;
+  for (Token token = tokens.next(); token.kind != Token::Kind::end; token = tokens.next())
+    n += token.is(';') ? 1 : 0;
+  return n;
+}
+
 /// Passes what an opened parenthesis holds. @return whether it is closed within the statement
 bool pass_parenthesis(Tokens& tokens) {
   for (int depth = 1; depth > 0;) {
@@ -240,7 +248,7 @@ class Scan {
         refuse(at, "a NUL or a carriage return without a line feed; a .geo file is plain text");
     }
     const size_t last_line = text.rfind('\n') + 1;  // 0 where there is but one
-    if (std::count(text.begin() + static_cast<long>(last_line), text.end(), ';') > 1)
+    if (n_statements(Tokens(text, last_line)) > 1)
       refuse(
           last_line,
           "the last line has several statements and no end of line behind it, so that Gmsh would "

@@ -53,6 +53,13 @@ TEST(Interrupt, EndsTheStepWritesWhatThereIsAndSaysHowToGoOn) {
         outcome.text, std::regex("fvm level 2 +0 %  step \\d+  dt .* left  energy residual")))
         << outcome.text;
     EXPECT_THAT(outcome.text, Not(HasSubstr("\r")));
+    // the same command again would begin anew, and remove what there is to go on from
+    const auto again = under(folder, "timeout 4", "run" + endless + " --method fvm");
+    EXPECT_EQ(again.exit_code, 2) << again.text;
+    EXPECT_THAT(again.text, AllOf(HasSubstr("out/fvm: a checkpoint of a run that did not finish"),
+                                  HasSubstr("--restart latest"), HasSubstr("--force")));
+    EXPECT_EQ(io::summary_from_json(text_of(directory / "summary.json"), signal).steps,
+              summary.steps);
   }
 }
 

@@ -1,11 +1,8 @@
-/// What acts for a small part of a run only, at none of the instants that a run begins with, and
-/// walls that stand the wrong way round.
+/// What acts for a small part of a run only, at none of the instants that a run begins with.
 
 #include "benchmarks/run/run_case.hpp"
-#include "benchmarks/run/wall_directions.hpp"
 #include "common/base/error.hpp"
 #include "common/cases/reader.hpp"
-#include "meshes/generators.hpp"
 
 #include <gtest/gtest.h>
 
@@ -72,24 +69,6 @@ type = "fixed"
     FAIL() << "the corner is held and moved";
   } catch (const base::InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("share the node at (0, 0, 0)"));
-  }
-}
-
-TEST(Walls, WhoseNormalPointsAwayFromTheBodyAreRefused) {
-  const auto with_normal = [](const std::string& normal) {
-    return square(
-        "[[boundary]]\ngroup = \"x_min\"\ntype = \"rigid-wall\"\npoint = [0, 0]\nnormal = " +
-        normal + "\n");
-  };
-  const meshes::Mesh mesh =
-      meshes::box(meshes::CellType::quadrilateral, {0, 0, 0}, {1, 1, 0}, {4, 4, 0});
-  EXPECT_NO_THROW(require_walls_before_sides(with_normal("[1, 0]"), mesh));
-  EXPECT_NO_THROW(require_walls_before_sides(with_normal("[1, 5]"), mesh));
-  try {
-    require_walls_before_sides(with_normal("[-1, 0]"), mesh);
-    FAIL() << "the body would pass the wall";
-  } catch (const base::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("no face of x_min looks against the normal (-1, 0, 0)"));
   }
 }
 

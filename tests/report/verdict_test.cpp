@@ -84,6 +84,22 @@ TEST(Verdict, CallsErrorsAlikeThatAreWithinAFewPercent) {
                               "(0.0800 s against 0.0500 s).")));
 }
 
+// One field is not all: a cube's velocity was off by 2 % with both, its strains by 15 and 2 %.
+TEST(Verdict, CallsErrorsOfOneFieldAlikeOfThatFieldAlone) {
+  StudyReport study = sample_study();
+  study.runs = {sample_run("sph", 0), sample_run("fvm", 0)};
+  for (io::RunSummary& run : study.runs) {
+    const bool is_sph = run.method == "sph";
+    run.errors = {{"velocity", {0, is_sph ? 0.0200 : 0.0198, 0}},
+                  {"deformation_gradient", {0, is_sph ? 0.15 : 0.03, 0}},
+                  {"stress", {0, is_sph ? 0.01 : 0.02, 0}}};
+  }
+  EXPECT_THAT(verdict_text(study),
+              StartsWith("On level 0 the velocity of both is off alike, by 2.00 % and 1.98 %; in "
+                         "other fields SPH errs less, by up to 2.00 times (stress), and finite "
+                         "volume errs less, by up to 5.00 times (deformation gradient)."));
+}
+
 TEST(Verdict, CountsTheFieldsWhereTheMethodsTakeTurns) {
   StudyReport study = sample_study();
   for (io::RunSummary& run : study.runs)

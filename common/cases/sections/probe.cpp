@@ -103,7 +103,8 @@ SectionKeys<ProbeCase> probe_keys() {
       .key(
           "kind", &ProbeCase::kind,
           one_of({"point", "mean", "integral", "least", "greatest", "checkerboard", "reaction"},
-                 "point (value at the node nearest to `at`), mean (over the area of the groups, "
+                 "point (value at `at`, interpolated between nodes), mean (over the area of the "
+                 "groups, "
                  "or over the volume of the body), integral (the same, not divided), least, "
                  "greatest (over the nodes of the groups or of the body), checkerboard (what "
                  "linear fits to the neighbours of each node leave of it, over what it differs "

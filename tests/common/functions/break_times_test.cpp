@@ -73,5 +73,12 @@ TEST(BreakTimes, AreNotOfWhatIsSmoothOrMovesThroughTheBody) {
   EXPECT_THAT(breaks_of("t < 2 ? 1 : 0"), IsEmpty()) << "after the end";
 }
 
+TEST(InstantsAround, StandBeforeAndAtEachOfSomeBreaks) {
+  const BreakTimes breaks{{2, 8}, {4}};
+  EXPECT_THAT(instants_around(breaks, 0, 0.5, 9), ElementsAre(1, 2, 3, 4, 6, 8));
+  EXPECT_THAT(instants_around(breaks, 0, 0.25, 2), ElementsAre(0.5, 2, 2.5, 4));
+  EXPECT_TRUE(instants_around({}, 0, 0.5, 9).empty());
+}
+
 }  // namespace
 }  // namespace diptych::functions
